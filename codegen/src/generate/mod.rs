@@ -103,6 +103,7 @@ impl Generated {
                 version: env!("CARGO_PKG_VERSION").to_owned(),
                 robot: robot.to_owned(),
                 robot_hash: dalembert_stamp::hash(source),
+                chain: request.chain.clone(),
                 asked,
             };
             stamp.write(comment, text)

@@ -78,6 +78,9 @@ pub struct Request {
     /// `true` if nobody chose a scalar. Then a tolerance takes the cheapest of the scalars that it
     /// admits, and f32 is left out where it cannot hold a constant.
     pub is_scalar_open: bool,
+    /// The options that chose the robot's chain in a model, each with its value, for the first lines
+    /// of files; none for a robot file.
+    pub chain: Vec<(String, String)>,
     /// Units of work that the search for what a tolerance allows may take; it
     /// is refused where that is not enough. They are counted, never timed: the
     /// same everywhere. No limit if `None`.
@@ -106,6 +109,7 @@ impl Default for Request {
             parameters: Vec::new(),
             scene: None,
             is_scalar_open: false,
+            chain: Vec::new(),
             work: None,
         }
     }

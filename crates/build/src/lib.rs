@@ -146,6 +146,7 @@ impl Generator {
             version: VERSION.to_owned(),
             robot: self.robot.display().to_string(),
             robot_hash: hash(&source),
+            chain: Vec::new(),
             asked: self.asked.clone(),
         };
         write::whole(&path, &stamp.write(Comment::Line, &text))

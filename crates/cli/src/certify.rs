@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use dalembert_checker::certify::{Bounded, Line, RATE, certify};
 use dalembert_checker::file::MOST_BYTES;
 use dalembert_codegen::workspace::input_hash;
+use dalembert_import::ChainArgs;
 use dalembert_stamp::Stamp;
 
 use crate::args::values::{certified_parser, positive_parser};
@@ -33,13 +34,15 @@ pub struct CertifyArgs {
     /// largest value of the result, as the claim says. For the files that `tradeoff` writes
     #[arg(long, value_name = "E", value_parser = positive_parser())]
     tolerance: Option<f64>,
+    #[command(flatten)]
+    chain: ChainArgs,
 }
 
 /// Runs the subcommand.
 pub(crate) fn run(args: &CertifyArgs, context: &Context) -> Outcome {
     let source = text(&args.file, MOST_BYTES as u64)?;
-    let robot = Source::open(context, &args.robot)?;
-    let edited = origin(&args.file, &source, &robot)?;
+    let robot = Source::open(context, &args.robot, &args.chain)?;
+    let edited = origin(args, &source, &robot)?;
     let done = checked(args, &source, &robot)?;
     if let (Some(note), false) = (edited, done.failed.is_empty()) {
         context.say(&note);
@@ -178,16 +181,30 @@ fn words(line: &Line) -> String {
     }
 }
 
-/// Refuses a file of another robot; returns a note if the robot was edited since.
+/// Refuses a file of another robot, or of another chain of its model; returns a note if the robot
+/// was edited since.
 ///
 /// # Errors
-/// The file names another robot.
-fn origin(file: &Path, source: &str, robot: &Source) -> Result<Option<String>, Failure> {
+/// The file names another robot, or other options for its chain.
+fn origin(args: &CertifyArgs, source: &str, robot: &Source) -> Result<Option<String>, Failure> {
+    let file = &args.file;
     let (own, hash) = (&robot.robot, input_hash(&robot.robot));
     let is_own = |input: &str| input.len() >= 16 && hash.starts_with(input);
     let Some((name, input)) = named(source).filter(|(_, input)| !is_own(input)) else {
         return Ok(None);
     };
+    let chain = Stamp::read(source).and_then(|(stamp, _)| ChainArgs::from_pairs(&stamp.chain));
+    if let Some(chain) = chain.filter(|chain| robot.is_model && *chain != args.chain) {
+        let help = match chain.pairs().is_empty() {
+            true => format!("leave out {}: the file was generated without", args.chain),
+            false => format!("give {chain}: the file was generated with that"),
+        };
+        return Err(Failure::Input(format!(
+            "error: `{}` is of another chain of `{}`\n  = help: {help}",
+            file.display(),
+            robot.path.display()
+        )));
+    }
     let found = format!(
         "`{}` is of robot `{name}`, input {input:.16}; `{}` is robot `{}`, input {hash:.16}",
         file.display(),

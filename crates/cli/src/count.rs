@@ -21,7 +21,7 @@ pub struct CountArgs {
 
 /// Runs the subcommand.
 pub(crate) fn run(args: &CountArgs, context: &Context) -> Outcome {
-    let source = Source::open(context, &args.task.robot)?;
+    let source = Source::open(context, &args.task.robot, &args.task.chain)?;
     let mut request = source.request(&args.task.options.0, &ScalarType::ALL)?;
     let scene = request.scene.as_ref();
     if scene.is_none_or(|scene| scene.tolerance.is_none()) {

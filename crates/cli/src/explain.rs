@@ -5,6 +5,7 @@ use dalembert_codegen::workspace::{
     Argument, Input, Job, JointState, Quantity, SEED, Setup, admitted, input_hash,
 };
 use dalembert_codegen::{Function, GenerateError, Program, Request, ScalarType};
+use dalembert_import::ChainArgs;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
@@ -29,6 +30,8 @@ pub struct ExplainArgs {
     coefficients: bool,
     #[command(flatten)]
     options: Options<false>,
+    #[command(flatten)]
+    chain: ChainArgs,
 }
 
 /// The states that errors are measured at.
@@ -145,7 +148,7 @@ fn formula(
 
 /// Runs the subcommand.
 pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
-    let mut source = Source::open(context, &args.robot)?;
+    let mut source = Source::open(context, &args.robot, &args.chain)?;
     source.outputs = vec![Function::InverseDynamics];
     let mut request = source.request(&args.options.0, &ScalarType::ALL)?;
     let session = progress::watch(&mut request);

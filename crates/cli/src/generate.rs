@@ -11,7 +11,7 @@ use crate::args::{CODE, TaskArgs};
 use crate::code::{Detail, report};
 use crate::files::{Files, Target};
 use crate::output::{Context, Done, Failure, Outcome};
-use crate::source::Source;
+use crate::source::{Source, say_notes};
 
 /// Arguments of `generate`.
 #[derive(Debug, clap::Args)]
@@ -47,7 +47,10 @@ struct Places {
 pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
     let language = language(args);
     let scalars = language.as_ref().map_or(&[][..], |own| own.scalars());
-    let source = Source::open(context, &args.task.robot)?;
+    let source = Source::open(context, &args.task.robot, &args.task.chain)?;
+    if !source.is_model {
+        say_notes(context, &source.robot);
+    }
     let mut request = source.request(&args.task.options.0, scalars)?;
     request.language = *language.as_ref().unwrap_or(&Language::Rust);
     // Before the work: what cannot be written is no news after it.

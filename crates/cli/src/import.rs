@@ -5,14 +5,15 @@ use std::path::{Path, PathBuf};
 use std::slice;
 
 use dalembert_import::{
-    Change, Imported, Options, Shared, Text, arms, import_text, is_model, open_text,
+    ChainArgs, Change, Imported, Options, Shared, Snap, Text, arms, import_text, is_model,
+    open_text,
 };
 use dalembert_model::number::Rational;
 use dalembert_model::read::{Diagnostics, RobotWarning, Severity};
 use dalembert_stamp::{Comment, sealed};
 use serde_json::{Value, json};
 
-use crate::args::values::{acceleration_parser, lock_parser, name_parser};
+use crate::args::values::{acceleration_parser, name_parser};
 use crate::files::{Files, ends_in};
 use crate::output::{Context, Done, Failure, Outcome};
 use crate::report::{Cell, Report, Table, cells, counted};
@@ -36,22 +37,6 @@ pub struct ImportArgs {
     /// list the arms that move each other
     #[arg(long, requires = "output", conflicts_with = "tip")]
     all: bool,
-    /// The base link, which does not move [default: the root]
-    #[arg(long, value_name = "LINK")]
-    base: Option<String>,
-    /// The link whose frame is the hand [default: the palm, or the end of the longest chain]
-    #[arg(long, value_name = "LINK")]
-    tip: Option<String>,
-    /// Lock a joint at a position in rad or m, such as 0.3, pi/2 or 90deg; JOINT is its name or its
-    /// number among the moving joints; may be given several times
-    #[arg(long, value_name = "JOINT=VALUE", value_parser = lock_parser())]
-    lock: Vec<(String, String)>,
-    /// Lock every other joint attached to the chain at this position, or at its nearest limit
-    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
-    lock_others: Option<String>,
-    /// Leave out a link and everything attached to it; may be given several times
-    #[arg(long, value_name = "LINK")]
-    without: Vec<String>,
     /// Keep every number exactly as the model has it
     #[arg(long)]
     exact: bool,
@@ -59,35 +44,27 @@ pub struct ImportArgs {
     /// changes a torque by more than 1e-6 of its limit
     #[arg(long, conflicts_with = "exact")]
     snap: bool,
-    /// Leave out tendons, loops and equality constraints, which a serial chain cannot have
-    #[arg(long)]
-    ignore_ties: bool,
     /// The acceleration limit of every joint, rad/s² or m/s²; models have none [default: 10]
     #[arg(long, value_name = "A", value_parser = acceleration_parser(), allow_hyphen_values = true)]
     acceleration: Option<Rational>,
     /// The name of the robot [default: the model's]
     #[arg(long, value_name = "NAME", value_parser = name_parser())]
     name: Option<String>,
+    #[command(flatten)]
+    chain: ChainArgs,
 }
 
 impl ImportArgs {
     /// Returns the import options for the model.
     fn options(&self) -> Options {
         let defaults = defaults(&self.model);
-        let others = self.lock_others.iter();
-        let others = others.map(|value| ("*".to_owned(), value.clone()));
-        Options {
-            base: self.base.clone(),
-            tip: self.tip.clone(),
-            lock: self.lock.iter().cloned().chain(others).collect(),
-            without: self.without.clone(),
+        self.chain.choose(Options {
             exact: self.exact,
             snap: self.snap,
-            ignore_ties: self.ignore_ties,
             acceleration: self.acceleration.clone().or(defaults.acceleration),
-            file: defaults.file,
             name: self.name.clone(),
-        }
+            ..defaults
+        })
     }
 }
 
@@ -152,10 +129,14 @@ fn say(args: &ImportArgs, context: &Context, made: &[Imported], source: &Text) {
     if context.json {
         return;
     }
-    let snaps = made.iter().flat_map(|made| &made.snaps);
-    for snap in snaps.filter(|_| !args.all) {
-        let (name, line) = source.line(snap.span.start);
-        context.say(&format!("{name}:{line}: {snap}"));
+    for made in made.iter().filter(|_| !args.all) {
+        for snap in made.snaps.iter().filter(|snap| snap.changes) {
+            let (name, line) = source.line(snap.span.start);
+            context.say(&format!("{name}:{line}: {snap}"));
+        }
+        if let Some(counted) = Snap::counted(&made.snaps) {
+            context.say(&counted);
+        }
     }
     if args.acceleration.is_none() {
         context.say(&format!(

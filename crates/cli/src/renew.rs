@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use dalembert_codegen::Language;
 use dalembert_codegen::workspace::claim;
-use dalembert_import::first_bytes;
+use dalembert_import::{ChainArgs, first_bytes};
 use dalembert_stamp::Stamp;
 
 use crate::certify::claim_of;
@@ -166,7 +166,13 @@ fn walk(folder: &Path, all: &mut Vec<Found>) -> Result<(), Failure> {
 /// Regenerates a file by its stamp.
 fn renewed(context: &Context, file: &Found) -> Result<Vec<New>, Failure> {
     let folder = file.path.parent().unwrap_or(Path::new(""));
-    let source = Source::open(context, &folder.join(&file.stamp.robot))?;
+    let chain = ChainArgs::from_pairs(&file.stamp.chain).ok_or_else(|| {
+        let path = file.path.display();
+        Failure::Input(format!(
+            "error: `{path}` has options of its chain that are not known"
+        ))
+    })?;
+    let source = Source::open(context, &folder.join(&file.stamp.robot), &chain)?;
     let mut request = source.request(&file.stamp.asked, file.language.scalars())?;
     request.language = file.language;
     let generated = source.generate(context, &mut request)?;

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use dalembert_import::ChainArgs;
 use dalembert_model::equations::matrix::Columns;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Angle, Rounded};
@@ -34,11 +35,13 @@ pub struct ShowArgs {
     /// Write the drawing here [default: standard output; with --json nothing is drawn]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    chain: ChainArgs,
 }
 
 /// Runs the subcommand.
 pub(crate) fn run(args: &ShowArgs, context: &Context) -> Outcome {
-    let source = Source::open(context, &args.robot)?;
+    let source = Source::open(context, &args.robot, &args.chain)?;
     let robot = &source.robot;
     let is_drawn = args.output.is_some() || !context.json;
     ends_in(args.output.as_deref(), "svg")?;

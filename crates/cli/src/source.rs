@@ -6,7 +6,7 @@ use dalembert_codegen::workspace::{generate_anew, plan_file};
 use dalembert_codegen::{
     Asked, Function, Generated, Plan, Problem, Request, RobotFileError, ScalarType,
 };
-use dalembert_import::{Options, Unopened, first_bytes, open};
+use dalembert_import::{ChainArgs, Options, Unopened, first_bytes, open};
 use dalembert_model::number::Rational;
 use dalembert_model::read::Reading;
 use dalembert_model::robot::Robot;
@@ -28,15 +28,19 @@ pub struct Source {
     pub robot_file: String,
     /// Whether the file is a URDF or an MJCF.
     pub is_model: bool,
+    /// The options that chose the chain of a model.
+    chain: ChainArgs,
 }
 
 impl Source {
-    /// Opens a robot and prints its warnings.
+    /// Opens a robot and prints its warnings, and what the arm has otherwise than the model that it
+    /// is a chain of.
     ///
     /// # Errors
-    /// The file cannot be read or has mistakes (all are listed), or its warnings are denied.
-    pub fn open(context: &Context, path: &Path) -> Result<Source, Failure> {
-        let opened = open(path, &defaults(path));
+    /// The file cannot be read or has mistakes (all are listed), the options are for a model and the
+    /// file is none, or its warnings are denied.
+    pub fn open(context: &Context, path: &Path, chain: &ChainArgs) -> Result<Source, Failure> {
+        let opened = open(path, &chain.choose(defaults(path)));
         let opened = opened.map_err(|error| unopened(path, error))?;
         let is_model = opened.imported.is_some();
         for note in opened.notes() {
@@ -46,10 +50,7 @@ impl Source {
             }
         }
         if is_model {
-            let path = path.display();
-            context.say(&format!(
-                "note: `{path}` is imported with default options; `dalembert import {path}` shows what that changes"
-            ));
+            say_notes(context, &opened.reading.robot);
         }
         context.undenied()?;
         let Reading {
@@ -66,6 +67,7 @@ impl Source {
             text: opened.source.as_str().to_owned(),
             robot_file: opened.robot_file,
             is_model,
+            chain: chain.clone(),
         })
     }
 
@@ -77,6 +79,7 @@ impl Source {
     pub fn request(&self, asked: &Asked, scalars: &[ScalarType]) -> Result<Request, Failure> {
         let request = Request::parse(asked, scalars, &self.outputs, &self.scenes);
         let mut request = request.map_err(|problems| Failure::Input(problems_of(&problems)))?;
+        request.chain = self.chain.pairs();
         if !request.has_no_plan {
             request.plan = self.plan()?;
         }
@@ -107,6 +110,13 @@ impl Source {
             context.say(&format!("warning: {warning}"));
         }
         Ok(generated)
+    }
+}
+
+/// Prints the notes of a robot.
+pub fn say_notes(context: &Context, robot: &Robot) {
+    for note in &robot.notes {
+        context.say(&format!("note: {note}"));
     }
 }
 

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use dalembert_codegen::workspace::{ErrorBudget, SceneKey, Setup, claim_of, prove};
 use dalembert_codegen::{Function, GenerateError, Program, Request, ScalarType};
+use dalembert_import::ChainArgs;
 use dalembert_model::scene::{Scale, Scene};
 use dalembert_stamp::{Comment, sealed};
 use serde_json::Value;
@@ -45,6 +46,8 @@ pub struct TradeoffArgs {
     samples: u32,
     #[command(flatten)]
     options: Options<false>,
+    #[command(flatten)]
+    chain: ChainArgs,
 }
 
 /// Tolerances unless others are asked for; zero is always there.
@@ -56,7 +59,7 @@ const SVG: &str = "tradeoff.svg";
 
 /// Runs the subcommand.
 pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
-    let mut source = Source::open(context, &args.robot)?;
+    let mut source = Source::open(context, &args.robot, &args.chain)?;
     source.outputs = vec![Function::InverseDynamics];
     let (mut request, scene) = exact_request(args, &source)?;
     let tolerances = tolerances(args, context);

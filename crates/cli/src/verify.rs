@@ -47,7 +47,7 @@ const CLIMBS: usize = 2;
 
 /// Runs the subcommand.
 pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
-    let source = Source::open(context, &args.task.robot)?;
+    let source = Source::open(context, &args.task.robot, &args.task.chain)?;
     let robot = &source.robot;
     let mut request = source.request(&args.task.options.0, &ScalarType::ALL)?;
     let given = args.given.as_deref();

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
+use dalembert_import::ChainArgs;
 use futures::stream::{self, StreamExt};
 
 use crate::dynamics::{Dynamics, Loaded};
@@ -19,12 +20,8 @@ pub struct RobotArgs {
     /// Robot file, or URDF
     #[arg(long, value_name = "FILE")]
     pub robot: PathBuf,
-    /// Of a URDF: the link that stands still
-    #[arg(long, value_name = "LINK")]
-    pub base: Option<String>,
-    /// Of a URDF: the link that is the hand
-    #[arg(long, value_name = "LINK")]
-    pub tip: Option<String>,
+    #[command(flatten)]
+    pub chain: ChainArgs,
 }
 
 /// Logs, and what reading them may take.
@@ -94,11 +91,7 @@ impl RobotArgs {
     /// What is wrong with the file.
     pub async fn load(&self, fit: bool, going: &Going) -> Result<Arc<Loaded>, Error> {
         let own = self.clone();
-        let urdf = dalembert_import::Options {
-            base: own.base,
-            tip: own.tip,
-            ..Default::default()
-        };
+        let urdf = own.chain.choose(Default::default());
         let work = going.blocking(move |_| Loaded::open(&own.robot, &urdf, fit));
         let robot = going.unless_ended(work).await?;
         for note in robot.notes() {

@@ -10,6 +10,7 @@
 //! - `mjcf`: what an MJCF says, in the terms of a URDF
 //! - `problems`: what is wrong or odd, at its place in the file
 //! - `open`: a robot of a path, whichever format it has
+//! - `args`: the options of a chain, as commands take them and generated files keep them
 //! - `names`: names that the file does not have
 //! - `tree`: the chain, and what hangs on its links
 //! - `beside`: what hangs beside the chain, or is tied to it
@@ -74,6 +75,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::missing_errors_doc)]
 
+mod args;
 mod arms;
 mod beside;
 mod change;
@@ -97,6 +99,7 @@ use dalembert_model::number::Rational;
 use dalembert_model::read::{self, Diagnostic, Diagnostics};
 use dalembert_model::robot::Robot;
 
+pub use args::ChainArgs;
 pub use arms::{Shared, arms};
 pub use change::{Change, Displacement, Motion};
 pub use open::{Opened, Unopened, first_bytes, is_model, open, open_text, read_robot};

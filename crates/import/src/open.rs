@@ -93,7 +93,10 @@ pub fn open_text(path: &Path) -> Result<Text, Unopened> {
 /// Everything that is wrong with the text, as it is shown.
 pub fn read_robot(source: Text, options: &Options) -> Result<Opened, String> {
     let imported = match is_model(source.as_str().as_bytes()) {
-        false => None,
+        false => {
+            options.refuse_chain(source.name())?;
+            None
+        }
         true => Some(import_text(&source, options).map_err(|errors| source.render(&errors.0))?),
     };
     let robot_file = match &imported {
@@ -109,6 +112,26 @@ pub fn read_robot(source: Text, options: &Options) -> Result<Opened, String> {
         reading,
         imported,
     })
+}
+
+impl Options {
+    /// Refuses options that choose a chain, which a robot file is.
+    fn refuse_chain(&self, name: &str) -> Result<(), String> {
+        let options = [
+            ("base", self.base.is_some()),
+            ("tip", self.tip.is_some()),
+            ("lock", !self.lock.is_empty()),
+            ("without", !self.without.is_empty()),
+            ("ignore-ties", self.ignore_ties),
+        ];
+        match options.into_iter().find(|(_, is_set)| *is_set) {
+            None => Ok(()),
+            Some((option, _)) => Err(format!(
+                "error: --{option}: `{name}` is a robot file, and not a URDF or an MJCF\n  = help: leave it out: \
+                 a robot file has one chain"
+            )),
+        }
+    }
 }
 
 /// Returns whether a text is a model's: XML, and not TOML.

@@ -11,6 +11,9 @@ use crate::meant::{NOTHING, meant, power};
 use crate::tree::Chain;
 use crate::urdf::{Number, Origin, Urdf, Value};
 
+/// The most that a unit of the sixteenth digit is, relative to a number: 10 to this power.
+const DIGITS: i32 = -15;
+
 /// A number that was taken for another.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Snap {
@@ -22,21 +25,23 @@ pub struct Snap {
     pub from: String,
     /// The number that it was taken for, as a robot file has it.
     pub to: String,
-    /// True if torques may change: not by a limit, nor if both are the same double.
+    /// True if the arm changes: not by a limit, nor by a number that is right to 16 digits.
     pub changes: bool,
 }
 
 impl Snap {
-    /// Returns a line that counts those that change no torque; `None` if there are none.
+    /// Returns a line that counts those that change nothing; `None` if there are none.
     pub fn counted(snaps: &[Snap]) -> Option<String> {
         let mut same = snaps.iter().filter(|snap| !snap.changes);
         let Snap { from, to, .. } = same.next()?;
-        let numbers = match 1 + same.count() {
-            1 => "1 number is written exactly and changes".to_owned(),
-            count => format!("{count} numbers are written exactly and change"),
-        };
-        let why = "(limits, and numbers with the same double)";
-        Some(format!("{numbers} no torque {why}, such as {from} as {to}"))
+        Some(match 1 + same.count() {
+            1 => format!(
+                "1 number, a limit or right to 16 digits, is written exactly: {from} as {to}"
+            ),
+            count => format!(
+                "{count} numbers, limits or right to 16 digits, are written exactly, such as {from} as {to}"
+            ),
+        })
     }
 
     /// Returns the line of the URDF, from one.
@@ -159,8 +164,10 @@ impl Snaps {
         let mut off = Rational::zero();
         for angle in &mut origin.rpy {
             if let Some(meant) = self.meant(&angle.value, &angle.text) {
-                off = off.max((angle.value.radians() - meant.radians()).abs());
-                let (to, changes) = (meant.to_string(), meant.to_f64() != angle.value.to_f64());
+                let own = (angle.value.radians() - meant.radians()).abs();
+                let changes = &own / power(DIGITS) > meant.radians().abs();
+                off = off.max(own);
+                let to = meant.to_string();
                 self.take(angle, meant, to, rpy, changes);
             }
         }

@@ -202,6 +202,7 @@ impl Arm {
                 version: env!("CARGO_PKG_VERSION").to_owned(),
                 robot: format!("{}.toml", self.robot.name),
                 robot_hash: dalembert_stamp::hash(&self.entry.robot),
+                chain: Vec::new(),
                 asked: asked.asked(),
             };
             let suffix = if is_second { "_f32" } else { "" };

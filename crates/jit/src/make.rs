@@ -4,7 +4,7 @@ use std::path::Path;
 
 use dalembert_codegen::workspace::{Emitted, claim, generate_anew, input_hash, keep};
 use dalembert_codegen::{Generated, Plan, Request, generate};
-use dalembert_import::Text;
+use dalembert_import::{Snap, Text};
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 
@@ -33,9 +33,12 @@ pub(crate) fn made(
     let opened =
         dalembert_import::read_robot(source.clone(), &options).map_err(LoadError::Robot)?;
     let mut notes = opened.notes();
-    for snap in opened.imported.iter().flat_map(|imported| &imported.snaps) {
-        let (name, line) = source.line(snap.span.start);
-        notes.push(format!("{name}:{line}: {snap}"));
+    for imported in &opened.imported {
+        for snap in imported.snaps.iter().filter(|snap| snap.changes) {
+            let (name, line) = source.line(snap.span.start);
+            notes.push(format!("{name}:{line}: {snap}"));
+        }
+        notes.extend(Snap::counted(&imported.snaps));
     }
     let reading = opened.reading;
     let mut request = load.request(&reading)?;

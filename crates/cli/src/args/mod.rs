@@ -6,6 +6,8 @@ pub mod values;
 
 use std::path::PathBuf;
 
+use dalembert_import::ChainArgs;
+
 pub use options::{Options, as_flags};
 
 /// The help heading of the options for the code.
@@ -21,4 +23,6 @@ pub struct TaskArgs {
     pub robot: PathBuf,
     #[command(flatten)]
     pub options: Options,
+    #[command(flatten)]
+    pub chain: ChainArgs,
 }

@@ -17,16 +17,6 @@ use dalembert_model::robot::suggested_name;
 use dalembert_model::scene::Scale;
 use num_traits::Signed;
 
-pub fn lock_parser() -> impl TypedValueParser<Value = (String, String)> {
-    StringValueParser::new().try_map(|text| match text.rsplit_once('=') {
-        Some(("*", value)) => Err(format!("write --lock-others {value}")),
-        Some((joint, value)) if !joint.is_empty() && !value.is_empty() => {
-            Ok((joint.to_owned(), value.to_owned()))
-        }
-        _ => Err("a joint and its position, such as elbow=0 or elbow=pi/2".to_owned()),
-    })
-}
-
 pub fn acceleration_parser() -> impl TypedValueParser<Value = Rational> {
     StringValueParser::new().try_map(|text| {
         let number = parse_decimal(text.trim()).ok();

@@ -10,6 +10,7 @@ use std::path::{Component, Path, PathBuf};
 
 use dalembert_codegen::workspace::claim;
 use dalembert_codegen::{Asked, Language, RobotFile, ask};
+use dalembert_import::{ChainArgs, Options, Text, read_robot};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::{Robot, suggested_name};
 use dalembert_stamp::{Comment, relative, sealed};
@@ -28,6 +29,8 @@ pub struct NewArgs {
     /// The robot: a robot file, a URDF or an MJCF [default: two links in a plane]
     #[arg(long, value_name = "ROBOT")]
     from: Option<PathBuf>,
+    #[command(flatten)]
+    chain: ChainArgs,
 }
 
 /// Runs the subcommand.
@@ -41,8 +44,12 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Outcome {
         )));
     }
     let robot_file = match &args.from {
-        None => texts::ROBOT.to_owned(),
-        Some(from) => Source::open(context, from)?.robot_file,
+        None => {
+            let robot = Text::of("two links", texts::ROBOT.to_owned());
+            let robot = read_robot(robot, &args.chain.choose(Options::default()));
+            robot.map_err(Failure::Input)?.robot_file
+        }
+        Some(from) => Source::open(context, from, &args.chain)?.robot_file,
     };
     let file = RobotFile::parse(&robot_file, "the robot file");
     let file = file.map_err(|error| Failure::Input(error.to_string()))?;

@@ -145,8 +145,7 @@ fn a_cluster_returns_what_one_process_returns() {
     let loaded = robot("planar2r", true);
     let name = RobotArgs {
         robot: arm.clone(),
-        base: None,
-        tip: None,
+        chain: Default::default(),
     }
     .function_name(&loaded);
     let own: Arc<dyn Dynamics> = loaded.clone();
