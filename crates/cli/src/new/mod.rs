@@ -45,9 +45,9 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Outcome {
     }
     let robot_file = match &args.from {
         None => {
-            let robot = Text::of("two links", texts::ROBOT.to_owned());
-            let robot = read_robot(robot, &args.chain.choose(Options::default()));
-            robot.map_err(Failure::Input)?.robot_file
+            let text = Text::of("two links", texts::ROBOT.to_owned());
+            let opened = read_robot(text, &args.chain.choose(Options::default()));
+            opened.map_err(Failure::Input)?.robot_file
         }
         Some(from) => Source::open(context, from, &args.chain)?.robot_file,
     };
