@@ -127,7 +127,7 @@ mod tests {
         assert_eq!(ChainArgs::from_pairs(&args.pairs()), Some(args.clone()));
         let shown = "--tip tool0 --lock elbow=pi/2 --lock-others -0.1 --without left --without right --ignore-ties";
         assert_eq!(args.to_string(), shown);
-        assert_eq!(ChainArgs::default().pairs(), []);
+        assert!(ChainArgs::default().pairs().is_empty());
         assert_eq!(
             ChainArgs::from_pairs(&[("top".to_owned(), String::new())]),
             None
