@@ -18,7 +18,6 @@ use super::function::{Definition, Made};
 use super::quantity::{Facts, FrameChoice};
 use super::{Axis, Function, Quantity, Regrouped, Shape, Written};
 use crate::equations::frames::{Axes, Rows, View};
-use crate::robot::Robot;
 use crate::scalar::Divide;
 
 /// The sign before a frame's name.
@@ -129,53 +128,57 @@ impl Ord for QuantityAt {
 }
 
 impl Function {
-    /// Returns the same output at a frame, in these axes and components.
-    ///
-    /// ```
-    /// use dalembert_model::outputs::Function;
-    ///
-    /// let jacobian = Function::parse("jacobian@camera:local:linear").unwrap();
-    /// assert_eq!(jacobian.name(), "jacobian_camera_local_linear");
-    /// assert_eq!(jacobian.text(), "jacobian@camera:local:linear");
-    /// ```
-    ///
-    /// # Errors
-    /// [`BundleError`]: the output has no frame or no axes, or the name is none.
-    pub fn at(function: Function, view: View) -> Result<Function, BundleError> {
+    /// Returns the same output at a frame, in these axes and components; an error if the output
+    /// has no frame or no axes, or the name is not valid.
+    fn at(
+        function: Function,
+        frame: &str,
+        axes: Axes,
+        rows: Rows,
+    ) -> Result<Function, BundleError> {
         let choice = |quantity: &Quantity| quantity.facts().frame;
         let most = function.quantities().iter().map(choice).min();
-        let asked = match view {
-            View { rows, .. } if rows != Rows::ALL => FrameChoice::Rows,
-            View { axes, .. } if axes != Axes::Mixed => FrameChoice::Axes,
-            _ => FrameChoice::Frame,
+        let asked = match (axes, rows) {
+            (Axes::Mixed, Rows::ALL) => FrameChoice::Frame,
+            (_, Rows::ALL) => FrameChoice::Axes,
+            _ => FrameChoice::Rows,
         };
+        let suffix = |sign| suffix(axes, rows, sign);
         match most {
             Some(FrameChoice::None) | None => {
                 let message = format!("`{function}` is of no frame");
                 return Err(BundleError::new(message, "leave `@` and what follows out"));
             }
             Some(most) if most < asked => {
-                let message = format!("`{function}` has no choice of `{}`", suffix(view, OF));
+                let message = format!("`{function}` has no choice of `{}`", suffix(OF));
                 return Err(BundleError::new(message, "it takes a frame alone"));
             }
             Some(_) => {}
         }
-        let name = format!("{function}_{}{}", view.frame, suffix(view, '_'));
+        let name = format!("{function}_{frame}{}", suffix('_'));
         check_name(&name).map_err(|_| {
-            let frame: String = view.frame.chars().take(64).collect();
+            let frame: String = frame.chars().take(64).collect();
             let help = "small letters, digits and single `_` between them, such as `camera_2`";
             BundleError::new(format!("`{frame}` cannot name a frame"), help)
         })?;
-        let results = function.quantities().iter();
-        let results: Vec<Quantity> = results.map(|quantity| seen(*quantity, view)).collect();
-        let of = function.definition();
-        Ok(Function::At(Made::new(Definition {
-            name: kept(name),
-            summary: kept(format!("{} {}", of.summary, described(view))),
-            results: Box::leak(results.into_boxed_slice()),
-            structure: None,
-            by_default: false,
-            parts: &[],
+        let text = format!("{function}{AT}{frame}{}", suffix(OF));
+        Ok(Function::At(Made::once(text, || {
+            let view = View {
+                frame: kept(frame.to_string()),
+                axes,
+                rows,
+            };
+            let results = function.quantities().iter();
+            let results: Vec<Quantity> = results.map(|quantity| seen(*quantity, view)).collect();
+            let of = function.definition();
+            Definition {
+                name: kept(name),
+                summary: kept(format!("{} {}", of.summary, described(view))),
+                results: Box::leak(results.into_boxed_slice()),
+                structure: None,
+                by_default: false,
+                parts: &[],
+            }
         })))
     }
 
@@ -203,12 +206,8 @@ impl Function {
                 return Err(BundleError::new(message, help));
             }
         }
-        let view = View {
-            frame: kept(frame.chars().take(Robot::MAX_NAME + 1).collect()),
-            axes: axes.unwrap_or_default(),
-            rows: rows.unwrap_or_default(),
-        };
-        Function::at(function, view)
+        let (axes, rows) = (axes.unwrap_or_default(), rows.unwrap_or_default());
+        Function::at(function, frame, axes, rows)
     }
 
     /// Returns whether a text is of an output at a frame.
@@ -241,14 +240,14 @@ impl Function {
 
 /// Returns the frame of a view and its words.
 fn words(view: View) -> String {
-    format!("{}{}", view.frame, suffix(view, OF))
+    format!("{}{}", view.frame, suffix(view.axes, view.rows, OF))
 }
 
-/// Returns the words of a view, each with a sign before it.
-fn suffix(view: View, sign: char) -> String {
+/// Returns the words of axes and components, each with a sign before it.
+fn suffix(axes: Axes, rows: Rows, sign: char) -> String {
     let mut text = String::new();
-    let axes: Option<String> = (view.axes != Axes::Mixed).then(|| view.axes.word().to_string());
-    let rows = (view.rows != Rows::ALL).then(|| view.rows.word());
+    let axes: Option<String> = (axes != Axes::Mixed).then(|| axes.word().to_string());
+    let rows = (rows != Rows::ALL).then(|| rows.word());
     for word in axes.into_iter().chain(rows) {
         text.push(sign);
         text.push_str(&word);
@@ -277,13 +276,14 @@ fn described(view: View) -> String {
 fn seen(quantity: Quantity, view: View) -> Quantity {
     let of = quantity.facts();
     let at = words(view);
+    let name = suffix(view.axes, view.rows, '_');
     let components = |axis: &Axis| match axis {
         Axis::Fixed(6) if of.frame >= FrameChoice::Rows => Axis::Fixed(view.rows.count()),
         other => *other,
     };
     let axes: Vec<Axis> = of.shape.0.iter().map(components).collect();
     let facts = Facts {
-        field: kept(format!("{}_{}{}", of.field, view.frame, suffix(view, '_'))),
+        field: kept(format!("{}_{}{name}", of.field, view.frame)),
         symbol: kept(format!("{} at {at}", of.symbol())),
         summary: kept(format!("{} {}", of.summary, described(view))),
         shape: Shape(Box::leak(axes.into_boxed_slice())),

@@ -1,8 +1,14 @@
 //! What a generated function is.
 
 use alloc::boxed::Box;
+use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
+#[cfg(feature = "std")]
+use std::{
+    collections::BTreeMap,
+    sync::{Mutex, PoisonError},
+};
 
 use super::quantity::Choice;
 use super::{
@@ -64,8 +70,21 @@ impl Definition {
 pub struct Made(pub(super) &'static Definition);
 
 impl Made {
-    pub(super) fn new(definition: Definition) -> Made {
-        Made(Box::leak(Box::new(definition)))
+    /// Makes the function of a text, or returns the one that was made of it before: a process that
+    /// loads a robot again and again does not grow. Without `std` nothing is remembered.
+    pub(super) fn once(text: String, make: impl FnOnce() -> Definition) -> Made {
+        let made = || Made(Box::leak(Box::new(make())));
+        #[cfg(feature = "std")]
+        {
+            static KNOWN: Mutex<BTreeMap<String, Made>> = Mutex::new(BTreeMap::new());
+            let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+            *known.entry(text).or_insert_with(made)
+        }
+        #[cfg(not(feature = "std"))]
+        {
+            drop(text);
+            made()
+        }
     }
 }
 
