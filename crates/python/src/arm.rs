@@ -99,15 +99,17 @@ impl Arm {
         self.0.functions().iter().map(about).collect()
     }
 
-    /// Returns a function by its name; `structure` makes the named tuple of several results.
-    #[pyo3(signature = (name, structure, refuses_nan))]
+    /// Returns a function by its name; `structure` makes the named tuple of several results, and
+    /// `loaded` is what it is pickled by besides its arm.
+    #[pyo3(signature = (name, structure, refuses_nan, loaded))]
     fn function(
         &self,
         name: &str,
         structure: Option<Py<PyAny>>,
         refuses_nan: bool,
+        loaded: Py<PyAny>,
     ) -> PyResult<Function> {
-        Function::new(&self.0, name, structure, refuses_nan)
+        Function::new(&self.0, name, structure, refuses_nan, loaded)
     }
 
     /// Returns the claim about the functions, as JSON.

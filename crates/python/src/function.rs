@@ -45,6 +45,8 @@ pub struct Function {
     /// What several results are returned in.
     structure: Option<Py<PyAny>>,
     refuses_nan: bool,
+    /// The name and the options of the arm, as Python has them.
+    loaded: Py<PyAny>,
 }
 
 impl Function {
@@ -54,6 +56,7 @@ impl Function {
         name: &str,
         structure: Option<Py<PyAny>>,
         refuses_nan: bool,
+        loaded: Py<PyAny>,
     ) -> PyResult<Function> {
         let all = arm.functions().iter().enumerate();
         let named = all.filter(|(_, function)| function.name() == name);
@@ -75,6 +78,7 @@ impl Function {
             places,
             structure,
             refuses_nan,
+            loaded,
         })
     }
 
@@ -127,6 +131,14 @@ impl Function {
             ))
         })?;
         Ok(xla::register(&self.arm, place))
+    }
+
+    /// Pickles and copies by arm and name: it is proved and compiled again, once a process.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let (source, plan) = (self.arm.source(), self.arm.plan());
+        let arguments = (self.loaded.bind(py), source, plan, self.__name__());
+        py.import("dalembert._arm")?
+            .call_method1("_reduced", arguments)
     }
 
     fn __repr__(&self) -> String {

@@ -43,28 +43,26 @@ impl Observer for Waiting {
 }
 
 impl Waiting {
-    /// Shows how far it is, if that has changed: a text, and a part of one.
+    /// Shows how far it is: a text, and a part of one.
     fn show(&self, progress: &Bound<'_, PyAny>) -> PyResult<()> {
-        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
-        let Some(news) = last.take() else {
-            return Ok(());
+        let last = *self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        let (text, done) = match last {
+            None => ("reading the robot".to_owned(), None),
+            Some(news) => {
+                let best = news.best.map(|best| format!(", best {best}"));
+                let (best, part) = (best.unwrap_or_default(), news.part.name());
+                let done = (news.rounds > 0).then(|| news.round as f64 / news.rounds as f64);
+                (format!("{}: {part}{best}", news.function), done)
+            }
         };
-        drop(last);
-        let best = news.best.map(|best| format!(", best {best}"));
-        let text = format!(
-            "{}: {}{}",
-            news.function,
-            news.part.name(),
-            best.unwrap_or_default()
-        );
-        let done = (news.rounds > 0).then(|| news.round as f64 / news.rounds as f64);
         progress.call1((text, done))?;
         Ok(())
     }
 }
 
 /// Loads an arm from a file, or from its text with a name for messages, and with a plan's if
-/// there is one; `options` are those of `dalembert.load`.
+/// there is one; `options` are those of `dalembert.load`, and `progress` is called as long as it
+/// takes, with what is done and how much of it.
 #[pyfunction]
 #[pyo3(signature = (path, text, plan, options, progress))]
 pub fn load(
@@ -94,15 +92,20 @@ pub fn load(
         let _ = sender.send(arm);
     };
     let thread = std::thread::Builder::new().stack_size(STACK).spawn(work);
-    thread.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+    let thread = thread.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
     loop {
         let found = py.detach(|| {
             let receiver = receiver.lock().unwrap_or_else(PoisonError::into_inner);
             receiver.recv_timeout(PATIENCE)
         });
         match found {
-            Ok(Ok(arm)) => return Ok(Arm(Arc::new(arm))),
-            Ok(Err(error)) => return Err(raised(&error)),
+            Ok(loaded) => {
+                // The next thread takes the allocator's memory of one that has ended, and would
+                // get some more beside one that is about to. A panic has no arm to return.
+                let _ = py.detach(|| thread.join());
+                let arm = loaded.map_err(|error| raised(&error))?;
+                return Ok(Arm(Arc::new(arm)));
+            }
             Err(RecvTimeoutError::Disconnected) => {
                 return Err(PyRuntimeError::new_err("the search ended without a result"));
             }

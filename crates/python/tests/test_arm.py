@@ -2,6 +2,7 @@
 
 import copy
 import ctypes
+import multiprocessing
 import os
 import pickle
 import pydoc
@@ -17,6 +18,7 @@ from conftest import ROBOTS, ROOT, data, robot, urdf
 from numpy.testing import assert_allclose, assert_array_equal
 
 import dalembert
+from dalembert._progress import Note
 
 
 @pytest.mark.parametrize("name", ROBOTS)
@@ -232,6 +234,75 @@ def test_arms_are_pickled_and_copied(tmp_path):
             again.inertia(np.full(5, np.nan))
 
 
+def test_functions_are_pickled_by_arm_and_name():
+    """So that a pool of processes maps them; their named tuples come back."""
+    outputs = ["gravity", "manipulator_equation"]
+    arm = dalembert.load(robot("planar2r"), outputs=outputs, nan="raise")
+    q = np.random.default_rng(4).normal(size=(6, 2))
+    with multiprocessing.get_context("spawn").Pool(2) as pool:
+        loads = pool.map(arm.gravity, list(q))
+        terms = pool.starmap(arm.manipulator_equation, list(zip(q, q)))
+    assert_array_equal(loads, arm.gravity(q))
+    assert type(terms[0]).__name__ == "ManipulatorEquation"
+    for state, own in zip(q, terms):
+        for found, expected in zip(own, arm.manipulator_equation(state, state)):
+            assert_array_equal(found, expected)
+    for again in (pickle.loads(pickle.dumps(arm.gravity)), copy.deepcopy(arm.gravity)):
+        assert repr(again) == repr(arm.gravity)
+        with pytest.raises(ValueError, match="not a number"):
+            again(np.full(2, np.nan))
+
+
+LOADS = """
+import ctypes, gc, os, sys
+import dalembert
+
+NUMBERS = "arena ordblks smblks hblks hblkhd usmblks fsmblks uordblks fordblks keepcost"
+
+class Info(ctypes.Structure):
+    _fields_ = [(name, ctypes.c_size_t) for name in NUMBERS.split()]
+
+def held():
+    gc.collect()
+    with open("/proc/self/statm") as pages:
+        resident = int(pages.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    libc = ctypes.CDLL(None)
+    if not hasattr(libc, "mallinfo2"):
+        return resident, 0, sys.getallocatedblocks()
+    libc.mallinfo2.restype = Info
+    info = libc.mallinfo2()
+    return resident, info.uordblks + info.hblkhd, sys.getallocatedblocks()
+
+def load():
+    arm = dalembert.load(sys.argv[1], outputs=sys.argv[2:], parameters=["payload"])
+    assert arm.is_from_cache
+
+for _ in range(300):
+    load()
+before = held()
+for _ in range(3000):
+    load()
+print(*(after - before for before, after in zip(before, held())))
+"""
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="what is held is Linux's to tell")
+def test_loads_do_not_add_up(tmp_path):
+    """A kept arm, with a bundle and a frame in the request and in the plan beside the file."""
+    outputs = ["gravity", "inertia", "jacobian@hand:local", "both=gravity+inertia"]
+    options = {"outputs": outputs, "parameters": ["payload"]}
+    dalembert.load(robot("planar2r"), **options).save(tmp_path / "arm.toml")
+    dalembert.load(tmp_path / "arm.toml", **options)
+    call = [sys.executable, "-c", LOADS, str(tmp_path / "arm.toml"), *outputs]
+    done = subprocess.run(call, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    resident, allocated, blocks = map(int, done.stdout.split())
+    print(f"3000 loads: {resident} bytes resident, {allocated} allocated, {blocks} blocks of Python")
+    assert allocated < 100 * 3000, "the allocator's bytes in use"
+    assert blocks < 300, "Python's blocks in use"
+    assert resident < 2 << 20
+
+
 def test_help_says_what_a_payload_holds():
     said = " ".join(pydoc.render_doc(dalembert.Function).split())
     assert "mass, com x y z, inertia xx yy zz xy yz xz" in said, said
@@ -378,15 +449,30 @@ def test_an_interrupt_ends_a_short_search_at_once():
     assert run(code).strip() == "ended"
 
 
-def test_the_first_interrupt_of_a_long_search_keeps_the_best(tmp_path):
+@pytest.mark.parametrize("progress", [True, None, False])
+def test_the_first_interrupt_of_a_long_search_keeps_the_best(tmp_path, progress):
+    """A search that takes longer than a second says so, unless it shows more or is to be silent."""
     # Without the plan that is beside the file.
     shutil.copy(robot("puma560"), tmp_path / "arm.toml")
     code = (
-        "import dalembert, signal, threading, os\n"
-        "threading.Timer(1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()\n"
+        "import dalembert, io, signal, threading, os, sys\n"
+        "threading.Timer(1.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()\n"
+        "sys.stderr = io.StringIO()\n"
         f"arm = dalembert.load({str(tmp_path / 'arm.toml')!r}, outputs='inverse_dynamics', "
-        "effort='thorough', cache=False, progress=True)\n"
-        "print(arm.has_ended_early, arm.inverse_dynamics(*[[0.1] * 6] * 3).shape)"
+        f"effort='thorough', cache=False, progress={progress})\n"
+        "said = sys.stderr.getvalue()\n"
+        "print(arm.has_ended_early, arm.inverse_dynamics(*[[0.1] * 6] * 3).shape,\n"
+        "    '[#' in said or '[.' in said, said.count('searching for functions of '))"
     )
-    said = run(code).strip()
-    assert said == "True (6,)"
+    assert run(code).strip() == f"True (6,) {progress is True} {int(progress is None)}"
+
+
+def test_a_search_is_told_once_and_only_if_it_is_long(capsys):
+    note = Note("arm.urdf")
+    note("gravity: search", None)
+    assert capsys.readouterr().err == ""
+    note._due = 0.0
+    for _ in range(3):
+        note("gravity: search", 0.5)
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and "searching for functions of arm.urdf" in said, said

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import functools
 import os
 import warnings
 from collections import namedtuple
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
 
 from . import _dalembert
 from ._keywords import keywords
-from ._progress import Line, is_watched
+from ._progress import Line, Note, is_watched
 from ._toml import text
 
 if TYPE_CHECKING:
@@ -53,15 +54,15 @@ class Arm:
     def __init__(self, native: _dalembert.Arm, name: str, options: dict[str, Any]) -> None:
         self._native = native
         self._loaded = (name, options)
-        nan = options["nan"]
+        raises = options["nan"] == "raise"
         self._functions: dict[str, _dalembert.Function] = {}
         for name in dict.fromkeys(about["name"] for about in native.functions):
-            function = native.function(name, None, nan == "raise")
-            results = [field for field, _ in function.results]
+            function = native.function(name, None, raises, self._loaded)
+            results = tuple(field for field, _ in function.results)
             if len(results) > 1:
                 title = "".join(word.capitalize() for word in name.split("_"))
-                structure = namedtuple(title, results)  # type: ignore[misc]
-                function = native.function(name, structure, nan == "raise")
+                structure = _structure(title, results)
+                function = native.function(name, structure, raises, self._loaded)
             self._functions[name] = function
         self.__dict__.update(self._functions)
 
@@ -208,6 +209,40 @@ class Arm:
         return f"<div>{self.svg()}<table>{table}</table></div>"
 
 
+@functools.cache
+def _structure(title: str, fields: tuple[str, ...]) -> Any:
+    """Return the named tuple of a function's results, which pickles though no module has it."""
+    structure = namedtuple(title, fields)  # type: ignore[misc]
+    setattr(structure, "__reduce__", lambda own: (_structured, (title, fields, tuple(own))))
+    return structure
+
+
+def _structured(title: str, fields: tuple[str, ...], values: Iterable[Any]) -> Any:
+    return _structure(title, fields)._make(values)
+
+
+def _reduced(
+    loaded: tuple[str, dict[str, Any]], source: str, plan: str, function: str
+) -> tuple[Any, ...]:
+    """Return what a function is pickled as: all that its arm is loaded from, and its name."""
+    import pickle
+
+    name, options = loaded
+    return _function, (pickle.dumps((name, source, plan, options)), function)
+
+
+def _function(arm: bytes, name: str) -> _dalembert.Function:
+    return _unpickled(arm).functions[name]
+
+
+# A pool pickles a function for each of its tasks.
+@functools.lru_cache(maxsize=8)
+def _unpickled(arm: bytes) -> Arm:
+    import pickle
+
+    return _load(*pickle.loads(arm))
+
+
 def _ends_in(path: Path, endings: list[str], language: str, other: str) -> None:
     extension = os.path.splitext(os.fspath(path))[1]
     if extension and extension.lower() not in endings:
@@ -237,7 +272,7 @@ def _load(
     source: str | None,
     plan: str | None,
     options: dict[str, Any],
-    show: Line | None = None,
+    show: Line | Note | None = None,
 ) -> Arm:
     try:
         native = _dalembert.load(name, source, plan, options, show)
@@ -332,8 +367,8 @@ def load(
         Whether work is kept for the next time, or in which folder.
     progress
         Whether to show how far a search is; if ``None``, a thorough one in a terminal or a
-        notebook. Ctrl-C ends a thorough search with the best so far, any other without a
-        result.
+        notebook, and of any other, a line after a second. Ctrl-C ends a thorough search with the
+        best so far, any other without a result.
     """
     if nan not in ("propagate", "raise"):
         raise ValueError(f'nan: expected "propagate" or "raise", found {nan!r}')
@@ -362,16 +397,20 @@ def load(
         "cache": bool(cache),
         "cache_folder": None if isinstance(cache, bool) else os.fspath(cache),
     }
-    if progress is None:
-        progress = effort == "thorough" and is_watched()
-    show = Line() if progress else None
-    try:
-        if isinstance(source, Mapping):
-            return _load("the dictionary", text(source), None, options, show)
+    robot: str | None = None
+    if isinstance(source, Mapping):
+        path, robot = "the dictionary", text(source)
+    else:
         path = os.fspath(source)
         if not os.path.exists(path):
             raise FileNotFoundError(f"there is no file {path!r}")
-        return _load(path, None, None, options, show)
+    show: Line | Note | None = None
+    if progress or (progress is None and effort == "thorough" and is_watched()):
+        show = Line()
+    elif progress is None:
+        show = Note(path)
+    try:
+        return _load(path, robot, None, options, show)
     finally:
         if show is not None:
             show.end()
