@@ -8,7 +8,7 @@
 //! ```
 //!
 //! is positive definite (Wensing, Kim and Slotine 2018; for Σ alone Traversaro, Brossette,
-//! Escande and Nori 2016), and a drive if its inertia and friction are positive. Among all
+//! Escande and Nori 2016), and a drive if its inertia and friction are not negative. Among all
 //! parameters θ of links and drives that do, those are sought whose base parameters are
 //! nearest to the free ones in the metric of the data,
 //!
@@ -19,7 +19,8 @@
 //! for μ → 0. The bracket is the entropic distance of Lee, Wensing and Park 2020 from the
 //! robot file's body: barrier, and choice among the many θ of the same base parameters.
 //! With J = L Lᵀ and G_a = L⁻¹ E_a L⁻ᵀ a step of Newton's method is a least squares problem,
-//! rows R M and √μ G, and is solved as one: nothing is squared.
+//! rows R M and √μ G, and is solved as one: nothing is squared. Drives' parameters that the
+//! barrier alone keeps above zero are zero in the end.
 
 mod barrier;
 mod body;
@@ -36,13 +37,19 @@ use barrier::Barrier;
 /// What is left of the barrier at the end: what it adds to the squared distance is below
 /// 2 μ times four a link and one a drive's parameter.
 const LAST: f64 = 5e-9;
-/// By how much the barrier weakens at once. The objective is self-concordant: steps at one
-/// strength are bounded by (2 − 1 − log 2) times the barrier's parameter, some 50, over what a
-/// step gains, 0.1 or more (Boyd and Vandenberghe 2004, 11.5). At a tenth at once the Panda
-/// needed hundreds.
+/// The factor by which the barrier weakens at first. The objective is self-concordant: steps at
+/// one strength are bounded by (1/f − 1 + log f) times the barrier's parameter, some 50, over
+/// what a step gains, 0.1 or more (Boyd and Vandenberghe 2004, 11.5). Where the free parameters
+/// are far from all bodies, a half takes thousands: the factor then comes nearer to one.
 const WEAKEN: f64 = 0.5;
-/// Newton steps at one strength of the barrier; 43 are the most that were seen.
-const STEPS: usize = 500;
+/// Newton steps at one strength of the barrier that are few, and that are as many as should be.
+const FEW: usize = 4;
+const ENOUGH: usize = 8;
+/// Newton steps of a search; 3426 are the most that were seen, at 6000 standard errors.
+const STEPS: usize = 20_000;
+/// The part of a drive's usual parameter that is nothing. The barrier keeps less than it where
+/// the data ask for less than zero, and the noise hides a million times as much.
+const NOTHING: f64 = 1e-6;
 
 /// Parameters of bodies and drives that exist.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,8 +71,31 @@ pub struct Bodies {
     pub distance: f64,
     /// The largest |π_k − π̂_k| in standard errors of π̂_k.
     pub moved: f64,
+    /// Names of the drives' parameters that stopped at zero, as `armature2`: less fits better.
+    pub stopped: Vec<String>,
     /// Steps of Newton's method that were taken.
     pub steps: usize,
+}
+
+impl Bodies {
+    /// Returns π of the robot file that [`identified`](crate::identified) makes of them: the
+    /// sensors' offsets are no part of it.
+    pub fn file_parameters(&self, model: &Model) -> Vec<f64> {
+        let entries = self.parameters.iter().zip(model.columns());
+        let entries = entries.map(|(value, column)| match column {
+            Column::Offset(_) => 0.0,
+            _ => *value,
+        });
+        entries.collect()
+    }
+}
+
+/// The results of the search besides θ.
+struct Search {
+    distance: f64,
+    steps: usize,
+    /// Places in θ.
+    stopped: Vec<usize>,
 }
 
 /// An entry of θ.
@@ -104,17 +134,18 @@ pub fn consistent(model: &Model, fit: &Fit) -> Result<Bodies, Error> {
         let rows = apply(&metric, theta).into_iter().zip(&wanted);
         rows.map(|(x, w)| (x - w).powi(2)).sum()
     };
-    let parts = (4 * model.joints() + unknowns.len()) as f64;
-    let mut strength = (0.5 * distance(&theta) / parts).max(LAST / WEAKEN);
-    let mut steps = 0;
+    // So strong that the robot file's bodies are near the best ones.
+    let mut strength = distance(&theta).max(LAST / WEAKEN);
+    let (mut weaken, mut steps) = (WEAKEN, 0);
     while strength > LAST {
-        strength = (strength * WEAKEN).max(LAST);
+        strength = (strength * weaken).max(LAST);
+        let before = steps;
         let value = |theta: &[f64]| {
             let barrier = barrier.value(theta)?;
             Some(0.5 * distance(theta) + strength * barrier)
         };
-        for step in 0.. {
-            if step == STEPS {
+        loop {
+            if steps == STEPS {
                 return Err(Error::NotConverged);
             }
             let now = value(&theta).ok_or(Error::NotConverged)?;
@@ -139,7 +170,14 @@ pub fn consistent(model: &Model, fit: &Fit) -> Result<Bodies, Error> {
                 break;
             }
         }
+        weaken = match steps - before {
+            0..=FEW => (weaken * weaken).max(0.1),
+            few if few <= ENOUGH => weaken,
+            _ => libm::sqrt(weaken),
+        };
     }
+    let stopped = barrier.stopped(&theta, NOTHING);
+    stopped.iter().for_each(|at| theta[*at] = 0.0);
     let distance = libm::sqrt(distance(&theta));
     Ok(body::bodies(
         model,
@@ -147,7 +185,11 @@ pub fn consistent(model: &Model, fit: &Fit) -> Result<Bodies, Error> {
         &unknowns,
         &map,
         &theta,
-        (distance, steps),
+        Search {
+            distance,
+            steps,
+            stopped,
+        },
     ))
 }
 

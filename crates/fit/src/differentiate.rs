@@ -67,7 +67,7 @@ impl Differentiator {
     /// at most [`Differentiator::ERROR`] there.
     ///
     /// # Errors
-    /// [`Error::Option`] where the shortest window is too long: the positions are too far apart.
+    /// [`Error::TooFast`] where the shortest window is too long: the positions are too far apart.
     pub fn for_motion(period: f64, frequency: f64) -> Result<Differentiator, Error> {
         if !(frequency > 0.0 && frequency.is_finite()) {
             return Err(Error::Option(
@@ -89,11 +89,14 @@ impl Differentiator {
             }
             half = Some(longer);
         }
-        let half = half.ok_or(Error::Option(
-            "the motion is too fast for these positions: log at twenty times its highest \
-             frequency or more",
-        ))?;
-        Differentiator::new(period, half)
+        match half {
+            Some(half) => Differentiator::new(period, half),
+            None => Err(Error::TooFast {
+                rate: 1.0 / period,
+                most: highest(period)?,
+                frequency,
+            }),
+        }
     }
 
     /// Returns half the window's length: how many positions of either end have no derivative.
@@ -117,6 +120,21 @@ impl Differentiator {
             -sum(bend, &|x| libm::cos(x)) / (omega * omega),
         ]
     }
+}
+
+/// Finds the highest frequency that the shortest window leaves alone, by bisection.
+fn highest(period: f64) -> Result<f64, Error> {
+    let shortest = Differentiator::new(period, 3)?;
+    let (mut low, mut high) = (0.0, 0.25 / (3.0 * period));
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        let mut gains = shortest.gains(period, middle).into_iter();
+        match gains.all(|gain| (gain - 1.0).abs() <= Differentiator::ERROR) {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    Ok(low)
 }
 
 /// Computes q, q̇ and q̈ of a joint's positions. Of the k-th position it is the (k − half)-th

@@ -27,7 +27,7 @@ pub enum Error {
     },
     /// Two accumulators, or one and a model, are over different columns.
     OtherModel,
-    /// Bytes are no accumulator of this version.
+    /// Bytes are not an accumulator of this version.
     Bytes(&'static str),
     /// There are fewer states than parameters of a joint.
     TooFew {
@@ -42,6 +42,15 @@ pub enum Error {
     OneFile,
     /// An option is out of range: what it has to be.
     Option(&'static str),
+    /// Positions are too far apart for the motion.
+    TooFast {
+        /// Positions a second.
+        rate: f64,
+        /// The highest frequency that they carry, Hz.
+        most: f64,
+        /// That of the motion, Hz.
+        frequency: f64,
+    },
     /// The search for consistent bodies did not converge.
     NotConverged,
 }
@@ -68,7 +77,7 @@ impl fmt::Display for Error {
                 "the accumulators are over different columns: use one robot file and the same \
                  options for all of them",
             ),
-            Error::Bytes(why) => write!(f, "these bytes are no accumulator: {why}"),
+            Error::Bytes(why) => write!(f, "these bytes are not an accumulator: {why}"),
             Error::TooFew {
                 joint,
                 states,
@@ -84,10 +93,19 @@ impl fmt::Display for Error {
                 f.write_str("cross-validation needs two logs or more: split the log in time")
             }
             Error::Option(expected) => f.write_str(expected),
+            Error::TooFast {
+                rate,
+                most,
+                frequency,
+            } => write!(
+                f,
+                "{rate:.0} states a second carry motion up to {most:.2} Hz, and the motion has \
+                 {frequency} Hz: give the frequency of the fastest motion in the log"
+            ),
             Error::NotConverged => f.write_str(
-                "no bodies that exist were found near the identified parameters: look for mistakes in \
-                 the logs where the residuals are not small, else bring the robot file's masses \
-                 near those of the arm",
+                "no real bodies were found near the free parameters: look for mistakes in the logs \
+                 where the residuals are not small, else bring the robot file's masses near those \
+                 of the arm",
             ),
         }
     }

@@ -14,7 +14,7 @@ use dalembert_codegen::workspace::{Parameter, Quantity, Setup};
 use dalembert_model::equations::Arm;
 use dalembert_model::equations::chain::{Body, Chain, Regrouping, Skeleton};
 use dalembert_model::equations::regressor::LinkParameter;
-use dalembert_model::number::{Exact, Rounded};
+use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::robot::Robot;
 use num_traits::Zero;
 
@@ -41,6 +41,7 @@ pub enum Column {
 #[derive(Clone, Debug)]
 pub struct Model {
     robot: Robot,
+    rotors: bool,
     limits: Vec<Limits>,
     columns: Vec<Column>,
     /// Each base parameter as a sum of the robot's own.
@@ -60,13 +61,26 @@ impl Model {
     /// [`Error::NoBaseParameters`] where odd angles between joints make them too long, and
     /// [`Error::Option`].
     pub fn new(robot: &Robot) -> Result<Model, Error> {
+        Model::derived(robot.clone(), true)
+    }
+
+    /// Derives the columns of a robot whose torques are measured behind its gears, where they do
+    /// not feel the rotors: their inertias are zero, and are not identified.
+    ///
+    /// # Errors
+    /// As [`Model::new`].
+    pub fn without_rotors(robot: &Robot) -> Result<Model, Error> {
+        Model::derived(without_rotors(robot), false)
+    }
+
+    fn derived(robot: Robot, rotors: bool) -> Result<Model, Error> {
         if !robot.followers.is_empty() {
             return Err(Error::Option(
                 "joints that follow others (`mimic`) are not identified: fit the arm without them, \
                  locked",
             ));
         }
-        let limits = Limits::of(robot);
+        let limits = Limits::of(&robot);
         if !limits.iter().all(Limits::moves) {
             return Err(Error::Option(
                 "each joint's limits have to let it move: its range, velocity and acceleration \
@@ -74,10 +88,10 @@ impl Model {
             ));
         }
         let n = robot.joints.len();
-        let scene = Setup::whole(&candidates(robot));
+        let scene = Setup::whole(&candidates(&robot, rotors));
         let base = scene.base(Quantity::BaseRegressor);
         let base = base.map_err(|why| Error::NoBaseParameters(why.to_string()))?;
-        let arm = Arm::from_robot(robot, &mut Exact::clone).fold_base();
+        let arm = Arm::from_robot(&robot, &mut Exact::clone).fold_base();
         let mut skeleton = Skeleton::with_columns(&arm, &[], &base.columns);
         // The columns are all that is computed: the links' own bodies are not regrouped.
         skeleton
@@ -97,11 +111,12 @@ impl Model {
             false => f64::nearest_rational(&joint.coulomb_width),
         };
         let mut model = Model {
-            robot: robot.clone(),
+            rotors,
             limits,
             combinations: base.combinations.iter().map(each).collect(),
             chain: chain.map(f64::nearest),
             widths: robot.joints.iter().map(width).collect(),
+            robot,
             rows: vec![(0..columns.len()).collect(); n],
             columns,
             parameters: Vec::new(),
@@ -121,7 +136,7 @@ impl Model {
     /// Returns the robot whose generated `regressor` has the columns of the base parameters:
     /// that of the file, with its drives.
     pub fn generator_robot(&self) -> Robot {
-        candidates(&self.robot)
+        candidates(&self.robot, self.rotors)
     }
 
     /// Returns the joints' limits.
@@ -172,6 +187,15 @@ impl Model {
             Column::Base(base) => sum(&self.combinations[base]),
         }
     }
+}
+
+/// Returns a robot without the inertias of its rotors.
+pub fn without_rotors(robot: &Robot) -> Robot {
+    let mut robot = robot.clone();
+    for joint in &mut robot.joints {
+        joint.armature = Rational::zero();
+    }
+    robot
 }
 
 /// Draws a state within limits, velocities and accelerations scaled by `factor`.

@@ -13,7 +13,9 @@ use crate::model::Model;
 /// [`write`](dalembert_model::robot::write()) makes a file of it. Offsets are the sensors',
 /// not the robot's: they are not part of it.
 ///
-/// Numbers have 13 digits, or 17 where a body at the border of those that exist needs them.
+/// Numbers have 13 digits, or 17 where a body at the border of those that exist needs them. One
+/// that rounding has put beyond the border gets more inertia about its centre, at most a part in
+/// 1e9 of what it has about the origin.
 ///
 /// # Errors
 /// [`Error::Value`] for a number beyond the range of robot files, or a body that does not exist.
@@ -46,12 +48,21 @@ fn body(
         let own = if i == k { square } else { 0.0 };
         origin[i][k] - mass * (own - com[i] * com[k])
     };
-    for digits in [12, 16] {
+    let attempts = [
+        (12, 0.0),
+        (16, 0.0),
+        (16, 1e-15),
+        (16, 1e-13),
+        (16, 1e-11),
+        (16, 1e-9),
+    ];
+    for (digits, part) in attempts {
         let number = |value: f64| rounded("link", index, value, digits);
+        let diagonal = |i: usize| number(about(i, i) + part * (xx + yy + zz));
         let tensor = Inertia {
-            xx: number(about(0, 0))?,
-            yy: number(about(1, 1))?,
-            zz: number(about(2, 2))?,
+            xx: diagonal(0)?,
+            yy: diagonal(1)?,
+            zz: diagonal(2)?,
             xy: number(about(0, 1))?,
             yz: number(about(1, 2))?,
             xz: number(about(0, 2))?,

@@ -1,9 +1,11 @@
 //! Bodies exist, and are those of the free parameters wherever these have bodies.
 
 use dalembert_fit::random::Random;
-use dalembert_fit::{consistent, fit};
+use dalembert_fit::{Column, Model, consistent, fit, identified};
+use dalembert_model::read::parse;
+use dalembert_model::robot::write;
 
-use crate::support::{ARMS, accumulated, arm, number, states};
+use crate::support::{ARMS, accumulated, arm, number, states, truth};
 
 #[test]
 fn free_parameters_that_have_bodies_are_kept() {
@@ -28,6 +30,108 @@ fn free_parameters_that_have_bodies_are_kept() {
     }
 }
 
+/// A log that a model cannot explain makes rotors and friction less than nothing: they stop at
+/// zero, however many standard errors away that is. The file leaves what is said of it.
+#[test]
+fn drives_stop_at_zero() {
+    for name in ARMS {
+        let (model, mut right) = arm(name);
+        let mut lost = Vec::new();
+        for (k, value) in right.iter_mut().enumerate() {
+            let name = model.name(k);
+            let is_rotor = name.starts_with("armature") && !name.contains(' ');
+            if is_rotor || name.starts_with("coulomb") {
+                *value = if is_rotor { -0.06 } else { -2.0 };
+                lost.push(name);
+            } else if matches!(model.columns()[k], Column::Offset(_)) {
+                *value = 0.7;
+            }
+        }
+        assert!(
+            lost.iter().any(|name| name.starts_with("armature")),
+            "{name}"
+        );
+        let mut random = Random::new(37);
+        let data = accumulated(&model, &states(&model, 600, 38), &right, Some(&mut random));
+        let free = fit(&model, &data).unwrap();
+        let bodies = consistent(&model, &free).unwrap();
+        println!(
+            "{name}: {:.1} standard errors, {} steps",
+            bodies.distance, bodies.steps
+        );
+        for name in &lost {
+            assert!(
+                bodies.stopped.contains(name),
+                "{name}: {:?}",
+                bodies.stopped
+            );
+        }
+        for (place, own) in bodies.armature.iter().enumerate() {
+            let is_lost = lost.contains(&format!("armature{}", place + 1));
+            assert!(if is_lost { *own == 0.0 } else { *own >= 0.0 });
+        }
+        assert!(bodies.coulomb.iter().all(|own| *own == 0.0));
+        let text = write(&identified(&model, &bodies).unwrap());
+        let again = Model::new(&parse(&text).unwrap().robot).unwrap();
+        let said = data
+            .residual(&model, &bodies.file_parameters(&model))
+            .unwrap();
+        let left = data.residual(&model, again.parameters()).unwrap();
+        for (said, left) in said.iter().zip(left) {
+            assert!((said - left).abs() < 1e-6 * left, "{name}: {said} {left}");
+            // The file has no offsets.
+            assert!(left > 0.6, "{name}: {left}");
+        }
+    }
+}
+
+/// However far all bodies are from what was logged, the nearest are found: here from an arm that
+/// has less than no mass.
+#[test]
+fn bodies_are_found_far_from_all_that_exist() {
+    for name in ARMS {
+        let (model, right) = arm(name);
+        let less: Vec<f64> = right.iter().map(|x| -x).collect();
+        let mut random = Random::new(39);
+        let data = accumulated(&model, &states(&model, 600, 40), &less, Some(&mut random));
+        let free = fit(&model, &data).unwrap();
+        let bodies = consistent(&model, &free).unwrap();
+        println!(
+            "{name}: {:.0} standard errors, {} steps",
+            bodies.distance, bodies.steps
+        );
+        assert!(bodies.distance > 100.0, "{name}: {}", bodies.distance);
+        let robot = identified(&model, &bodies).unwrap();
+        let exist = |joint: &dalembert_model::robot::Joint| joint.inertia.defect(&joint.mass);
+        assert!(
+            robot.joints.iter().all(|joint| exist(joint).is_none()),
+            "{name}"
+        );
+    }
+}
+
+/// Behind its gears a torque does not feel the rotors: they have no columns, and none in the file.
+#[test]
+fn rotors_are_left_away() {
+    let robot = truth("panda");
+    let [with, without] = [Model::new(&robot), Model::without_rotors(&robot)].map(Result::unwrap);
+    let has =
+        |model: &Model| (0..model.columns().len()).any(|k| model.name(k).contains("armature"));
+    assert!(has(&with) && !has(&without));
+    assert_ne!(with.fingerprint(), without.fingerprint());
+    let states = states(&without, 400, 44);
+    let mut random = Random::new(45);
+    let data = accumulated(&without, &states, without.parameters(), Some(&mut random));
+    let bodies = consistent(&without, &fit(&without, &data).unwrap()).unwrap();
+    let robot = identified(&without, &bodies).unwrap();
+    assert!(
+        robot
+            .joints
+            .iter()
+            .all(|joint| joint.armature == number(0.0))
+    );
+}
+
 /// Noisy data give bodies that do not exist; the nearest that do predict as well.
 #[test]
 fn bodies_of_noisy_data_exist() {
@@ -41,7 +145,7 @@ fn bodies_of_noisy_data_exist() {
             assert!(link[0] > 0.0);
         }
         for of in [&bodies.armature, &bodies.viscous, &bodies.coulomb] {
-            assert!(of.iter().all(|x| *x > 0.0));
+            assert!(of.iter().all(|x| *x >= 0.0));
         }
         // They are the nearest: no way towards others that exist, as the true ones and the
         // file's, gets nearer. The set is convex.

@@ -44,7 +44,8 @@ fn windows_are_as_long_as_the_motion_lets_them() {
     let said = Differentiator::for_motion(0.1, 5.0)
         .unwrap_err()
         .to_string();
-    assert!(said.contains("twenty times"), "{said}");
+    let wanted = "10 states a second carry motion up to 0.42 Hz, and the motion has 5 Hz";
+    assert!(said.contains(wanted), "{said}");
     assert!(Differentiator::new(-1.0, 7).is_err());
     assert!(Differentiator::new(0.01, 1).is_err());
     let filter = Differentiator::new(0.01, 7).unwrap();

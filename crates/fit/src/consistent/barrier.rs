@@ -71,6 +71,15 @@ impl Barrier {
         theta
     }
 
+    /// Finds the parameters of drives that are less than so much of what they are compared with.
+    pub(super) fn stopped(&self, theta: &[f64], part: f64) -> Vec<usize> {
+        let places = self.drives.iter().filter_map(|drive| match *drive {
+            Drive::Positive(at, file) => (theta[at] < part * file).then_some(at),
+            Drive::Free(..) => None,
+        });
+        places.collect()
+    }
+
     /// Computes the distance; `None` where a body or a drive does not exist.
     pub(super) fn value(&self, theta: &[f64]) -> Option<f64> {
         let mut total = 0.0;

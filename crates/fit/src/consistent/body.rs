@@ -1,10 +1,11 @@
 //! Pseudo-inertias: of parameters, and of a robot file's links.
 
+use dalembert_codegen::workspace::Parameter;
 use dalembert_model::equations::regressor::LinkParameter;
 use dalembert_model::number::Rounded;
 use dalembert_model::robot::Joint;
 
-use super::{Bodies, Unknown};
+use super::{Bodies, Search, Unknown};
 use crate::dense::{cholesky, dot};
 use crate::fit::Fit;
 use crate::model::Model;
@@ -97,6 +98,16 @@ pub(super) fn of_joint(joint: &Joint) -> (Pseudo, Pseudo) {
     }
 }
 
+/// Returns the name of a drive's parameter.
+fn named(unknown: Unknown) -> Option<String> {
+    Some(match unknown {
+        Unknown::Armature(joint) => Parameter::Armature(joint).to_string(),
+        Unknown::Viscous(joint) => Parameter::Viscous(joint).to_string(),
+        Unknown::Coulomb(joint) => format!("coulomb{}", joint + 1),
+        Unknown::Link(..) | Unknown::Offset(_) => return None,
+    })
+}
+
 /// Computes A + x·1.
 fn shifted(a: &[[f64; 3]; 3], x: f64) -> [[f64; 3]; 3] {
     core::array::from_fn(|i| core::array::from_fn(|k| a[i][k] + if i == k { x } else { 0.0 }))
@@ -109,7 +120,7 @@ pub(super) fn bodies(
     unknowns: &[Unknown],
     map: &[Vec<f64>],
     theta: &[f64],
-    (distance, steps): (f64, usize),
+    search: Search,
 ) -> Bodies {
     let joints = &model.robot().joints;
     let file = |of: fn(&Joint) -> &dalembert_model::number::Rational| -> Vec<f64> {
@@ -128,10 +139,13 @@ pub(super) fn bodies(
         viscous: file(|joint| &joint.viscous),
         coulomb: file(|joint| &joint.coulomb),
         offset: vec![0.0; joints.len()],
-        distance,
+        distance: search.distance,
         moved: moved.fold(0.0, f64::max),
+        stopped: (search.stopped.iter().map(|at| unknowns[*at]))
+            .filter_map(named)
+            .collect(),
         parameters,
-        steps,
+        steps: search.steps,
     };
     for (unknown, value) in unknowns.iter().zip(theta) {
         let place = match *unknown {

@@ -4,7 +4,7 @@ use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::robot::Robot;
 use num_traits::{One, Zero};
 
-use super::{Column, Model, state};
+use super::{Column, Model, state, without_rotors};
 use crate::dense::norms;
 use crate::random::Random;
 use crate::triangle::Triangle;
@@ -56,12 +56,14 @@ impl Model {
 
     /// Returns the hash of the robot without what is identified, with what decides the columns.
     pub(super) fn hashed(&self) -> [u8; 32] {
+        let mut bare = candidates(&self.robot, self.rotors);
+        let (rotors, count) = (self.rotors, self.columns.len());
         // What is identified, in the words of the bytes that there are.
-        const IDENTIFIED: &str = "Options { armature: true, viscous: true, coulomb: true, \
-                                  offset: true, coulomb_width: 0.01 }";
-        let mut bare = candidates(&self.robot);
-        let count = self.columns.len();
-        bare.name = format!("{IDENTIFIED} {:?} {count}", self.widths);
+        bare.name = format!(
+            "Options {{ armature: {rotors}, viscous: true, coulomb: true, offset: true, \
+             coulomb_width: 0.01 }} {:?} {count}",
+            self.widths
+        );
         for joint in &mut bare.joints {
             joint.name = None;
             joint.limits = Default::default();
@@ -73,13 +75,16 @@ impl Model {
     }
 }
 
-/// Returns the robot with a drive for each joint: a unit of inertia of its rotor, a unit of viscous
-/// friction. Coulomb friction is not a base parameter.
-pub(super) fn candidates(robot: &Robot) -> Robot {
-    let mut robot = robot.clone();
+/// Returns the robot with a drive for each joint: a unit of inertia of its rotor if it has one, a
+/// unit of viscous friction. Coulomb friction is not a base parameter.
+pub(super) fn candidates(robot: &Robot, rotors: bool) -> Robot {
+    let mut robot = without_rotors(robot);
     for joint in &mut robot.joints {
         joint.coulomb = Rational::zero();
-        (joint.armature, joint.viscous) = (Rational::one(), Rational::one());
+        joint.viscous = Rational::one();
+        if rotors {
+            joint.armature = Rational::one();
+        }
     }
     robot
 }
