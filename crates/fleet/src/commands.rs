@@ -37,18 +37,28 @@ enum Command {
     Executor(cluster::ExecutorArgs),
 }
 
-/// Runs a command; returns what goes to standard output.
+/// The result of a command.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// What goes to standard output.
+    pub text: String,
+    /// What went wrong after this was computed.
+    pub failed: Option<Error>,
+}
+
+/// Runs a command.
 ///
 /// # Errors
 /// What went wrong; then no output has changed.
-pub async fn run(arguments: Arguments, going: &Going) -> Result<String, Error> {
-    match arguments.command {
-        Command::Residual(args) => residual::run(&args, going).await,
-        Command::Identify(args) => identify::run(&args, going).await,
-        Command::Simulate(args) => simulate::run(args, going).await,
+pub async fn run(arguments: Arguments, going: &Going) -> Result<Report, Error> {
+    let text = match arguments.command {
+        Command::Identify(args) => return identify::run(&args, going).await,
+        Command::Residual(args) => residual::run(&args, going).await?,
+        Command::Simulate(args) => simulate::run(args, going).await?,
         #[cfg(feature = "cluster")]
-        Command::Scheduler(args) => cluster::scheduler(args, going).await,
+        Command::Scheduler(args) => cluster::scheduler(args, going).await?,
         #[cfg(feature = "cluster")]
-        Command::Executor(args) => cluster::executor(args, going).await,
-    }
+        Command::Executor(args) => cluster::executor(args, going).await?,
+    };
+    Ok(Report { text, failed: None })
 }

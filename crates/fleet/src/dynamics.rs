@@ -7,6 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use dalembert_fit::model::without_rotors;
 use dalembert_fit::{Accumulator, Model};
 use dalembert_jit::{Arm, Asked, Load, Native, Output, Place, Scalar};
 use dalembert_model::robot::{Robot, write};
@@ -116,7 +117,29 @@ impl Loaded {
     pub fn open(path: &Path, urdf: &dalembert_import::Options, fit: bool) -> Result<Loaded, Error> {
         let load = load(urdf, Output::InverseDynamics);
         let arm = Arm::load(path, &load).map_err(Error::new)?;
-        Loaded::with(arm, fit)
+        let model = fit.then(|| Model::new(arm.robot())).transpose()?;
+        Loaded::with(arm, model)
+    }
+
+    /// Loads a robot as [`Loaded::open`] does, and takes the inertias of its rotors away: for
+    /// torques that are measured behind the gears.
+    ///
+    /// # Errors
+    /// As [`Loaded::open`].
+    pub fn without_rotors(
+        path: &Path,
+        urdf: &dalembert_import::Options,
+        fit: bool,
+    ) -> Result<Loaded, Error> {
+        let load = load(urdf, Output::InverseDynamics);
+        let mut arm = Arm::load(path, &load).map_err(Error::new)?;
+        let robot = without_rotors(arm.robot());
+        if robot != *arm.robot() {
+            let name = path.display().to_string();
+            arm = Arm::parse(&write(&robot), &name, None, &load).map_err(Error::new)?;
+        }
+        let model = fit.then(|| Model::without_rotors(arm.robot())).transpose()?;
+        Loaded::with(arm, model)
     }
 
     /// Loads a robot, for its torques.
@@ -126,12 +149,12 @@ impl Loaded {
     pub fn of(robot: &Robot) -> Result<Loaded, Error> {
         let load = load(&Default::default(), Output::InverseDynamics);
         let arm = Arm::parse(&write(robot), &robot.name, None, &load).map_err(Error::new)?;
-        Loaded::with(arm, false)
+        Loaded::with(arm, None)
     }
 
-    fn with(arm: Arm, fit: bool) -> Result<Loaded, Error> {
+    fn with(arm: Arm, model: Option<Model>) -> Result<Loaded, Error> {
         code(&arm)?.prepare_columns().map_err(Error::new)?;
-        let fitted = fit.then(|| fitted(arm.robot())).transpose()?;
+        let fitted = model.map(fitted).transpose()?;
         Ok(Loaded {
             arm,
             fitted,
@@ -181,8 +204,8 @@ fn code(arm: &Arm) -> Result<&Native, Error> {
     Ok(found.native())
 }
 
-fn fitted(robot: &Robot) -> Result<(Model, Arm), Error> {
-    let model = Model::new(robot)?;
+/// Returns a model with the machine code of its regressor.
+fn fitted(model: Model) -> Result<(Model, Arm), Error> {
     let text = write(&model.generator_robot());
     let load = load(&Default::default(), Output::Regressor);
     let arm = Arm::parse(&text, "the robot with its drives", None, &load);

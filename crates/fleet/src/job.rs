@@ -22,6 +22,9 @@ pub struct RobotArgs {
     pub robot: PathBuf,
     #[command(flatten)]
     pub chain: ChainArgs,
+    /// Torques are measured behind the gears: they do not feel the rotors, whose inertias are 0
+    #[arg(long)]
+    pub without_rotors: bool,
 }
 
 /// Logs, and what reading them may take.
@@ -92,7 +95,11 @@ impl RobotArgs {
     pub async fn load(&self, fit: bool, going: &Going) -> Result<Arc<Loaded>, Error> {
         let own = self.clone();
         let urdf = own.chain.choose(Default::default());
-        let work = going.blocking(move |_| Loaded::open(&own.robot, &urdf, fit));
+        let open = match self.without_rotors {
+            true => Loaded::without_rotors,
+            false => Loaded::open,
+        };
+        let work = going.blocking(move |_| open(&own.robot, &urdf, fit));
         let robot = going.unless_ended(work).await?;
         for note in robot.notes() {
             eprintln!("{}", note.trim_end());

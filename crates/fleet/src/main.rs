@@ -36,10 +36,13 @@ fn main() -> ExitCode {
     // A search that nobody waits for any more is not waited for.
     runtime.shutdown_timeout(Duration::from_millis(100));
     match found {
-        Ok(text) => match std::io::stdout().write_all(text.as_bytes()) {
+        Ok(report) => match std::io::stdout().write_all(report.text.as_bytes()) {
             // Whoever reads has read enough.
             Err(why) if why.kind() != ErrorKind::BrokenPipe => failed(&why.to_string()),
-            _ => ExitCode::SUCCESS,
+            _ => match report.failed {
+                Some(why) => failed(&why.to_string()),
+                None => ExitCode::SUCCESS,
+            },
         },
         Err(why) if why.to_string().ends_with(INTERRUPTED) => {
             eprintln!("{why}");

@@ -3,9 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use dalembert_fit::{Accumulator, Model, consistent, cross_validation, fit, identified};
+use dalembert_fit::{
+    Accumulator, Bodies, Fit, Model, consistent, cross_validation, fit, identified,
+};
 use dalembert_model::robot::write;
 
+use super::Report;
 use super::table::{number, table};
 use crate::dynamics::{Dynamics, no_model};
 use crate::error::Error;
@@ -22,7 +25,13 @@ pub(super) struct IdentifyArgs {
     output: Option<PathBuf>,
 }
 
-pub(super) async fn run(args: &IdentifyArgs, going: &Going) -> Result<String, Error> {
+/// The written file explains a joint badly where it leaves so many times what the free
+/// parameters leave.
+const BADLY: f64 = 1.5;
+/// It is worse than before where it leaves so many times as much.
+const WORSE: f64 = 1.01;
+
+pub(super) async fn run(args: &IdentifyArgs, going: &Going) -> Result<Report, Error> {
     if let Some(output) = &args.output {
         Unfinished::beside(output)?;
     }
@@ -40,18 +49,23 @@ pub(super) async fn run(args: &IdentifyArgs, going: &Going) -> Result<String, Er
         solve(model, &found, &names, is_written)
     });
     let (text, robot) = going.unless_ended(solved).await?;
-    if let (Some(name), Some(robot)) = (&args.output, robot) {
-        output::write(name, &robot)?;
-    }
-    Ok(text)
+    let written = match (&args.output, robot) {
+        (Some(name), Some(robot)) => robot.and_then(|robot| output::write(name, &robot)),
+        _ => Ok(()),
+    };
+    Ok(Report {
+        text,
+        failed: written.err(),
+    })
 }
 
+/// Returns the report and, if it is to be written, the robot file.
 fn solve(
     model: &Model,
     found: &[Vec<u8>],
     names: &[String],
     is_written: bool,
-) -> Result<(String, Option<String>), Error> {
+) -> Result<(String, Option<Result<String, Error>>), Error> {
     let files = found.iter();
     let files = files.map(|bytes| Accumulator::from_bytes(model, bytes));
     let files = files.collect::<Result<Vec<_>, _>>()?;
@@ -70,36 +84,89 @@ fn solve(
     for one in &fit.unexcited {
         text += &format!("not excited: {one}\n");
     }
+    let bodies = is_written.then(|| consistent(model, &fit));
+    let written = match &bodies {
+        Some(Ok(bodies)) => Some(bodies.file_parameters(model)),
+        _ => None,
+    };
     let mut rows = Vec::new();
-    let mut add = |name: &str, before: &[f64], after: &[f64]| {
+    let mut add = |name: &str, file: &Accumulator, [before, after]: [&[f64]; 2]| {
+        let left = written.as_ref().map(|own| file.residual(model, own));
+        let left = left.transpose()?;
         for (i, (before, after)) in before.iter().zip(after).enumerate() {
             let [before, after] = [*before, *after].map(number);
-            rows.push([name.to_owned(), (i + 1).to_string(), before, after]);
+            let left = left.as_ref().map_or(String::new(), |left| number(left[i]));
+            rows.push([name.to_owned(), (i + 1).to_string(), before, after, left]);
         }
+        Ok::<(), dalembert_fit::Error>(())
     };
     let what = match files.len() {
         1 => {
-            add(&names[0], &fit.before, &fit.after);
+            add(&names[0], &all, [&fit.before, &fit.after])?;
             "of the states of the fit: with more than one log, each is compared with what the \
              others say"
         }
         _ => {
             let each = cross_validation(model, &files)?;
-            for (name, file) in names.iter().zip(&each) {
-                add(name, &file.before, &file.after);
+            for ((name, file), own) in names.iter().zip(&files).zip(&each) {
+                add(name, file, [&own.before, &own.after])?;
             }
             "of each log, with parameters from the others"
         }
     };
-    let head = ["residuals, rms", "joint", "before", "after"];
+    let last = if written.is_some() { "written file" } else { "" };
+    let head = ["residuals, rms", "joint", "before", "after", last];
     text += &format!("\n{}{what}\n", table(head, rows));
-    if !is_written {
-        return Ok((text, None));
+    let robot = bodies.map(|bodies| -> Result<String, Error> {
+        let bodies = bodies?;
+        text += &judged(model, &all, &fit, &bodies)?;
+        Ok(write(&identified(model, &bodies)?))
+    });
+    Ok((text, robot))
+}
+
+/// Says which joints the written file explains badly, and what stopped at zero.
+fn judged(
+    model: &Model,
+    all: &Accumulator,
+    fit: &Fit,
+    bodies: &Bodies,
+) -> Result<String, Error> {
+    let mut text = String::new();
+    let written = all.residual(model, &bodies.file_parameters(model))?;
+    let with_offsets = all.residual(model, &bodies.parameters)?;
+    for (i, left) in written.iter().enumerate() {
+        let (before, after) = (fit.before[i], fit.after[i]);
+        let is_worse = *left > WORSE * before;
+        if !is_worse && *left <= BADLY * after {
+            continue;
+        }
+        let (joint, own) = (i + 1, number(*left));
+        text += &match is_worse {
+            true => format!(
+                "warning: joint {joint}: the written file leaves {own}, more than the {} before: ",
+                number(before)
+            ),
+            false => format!(
+                "joint {joint}: the written file leaves {own}, the free parameters {}: ",
+                number(after)
+            ),
+        };
+        text += &match BADLY * with_offsets[i] < *left {
+            true => format!(
+                "its sensor has an offset of {}, which no robot file has; subtract it in the log\n",
+                number(bodies.offset[i])
+            ),
+            false => "no real bodies and drives have the free parameters\n".to_owned(),
+        };
     }
-    let bodies = consistent(model, &fit)?;
-    text += &format!(
-        "bodies that exist: {:.2} standard errors from the free parameters altogether\n",
-        bodies.distance
-    );
-    Ok((text, Some(write(&identified(model, &bodies)?))))
+    if !bodies.stopped.is_empty() {
+        let stopped = bodies.stopped.join(", ");
+        text += &format!("stopped at 0, where less fits better: {stopped}");
+        text += match stopped.contains("armature") {
+            true => "; --without-rotors if torques are measured behind the gears\n",
+            false => "\n",
+        };
+    }
+    Ok(text)
 }

@@ -46,6 +46,52 @@ fn identification_closes_the_loop() {
     assert!(generated.is_ok(), "the new file is not read");
 }
 
+/// Torques of an arm that no file can have: its second rotor has less than no inertia, and its
+/// sensors have offsets. A rotor stops at 0, and what the written file leaves is what the table
+/// says, joint by joint and log by log.
+#[test]
+fn the_written_file_leaves_what_the_table_says() {
+    let folder = Folder::new();
+    let arm = robot("planar2r", false);
+    for (seed, name) in [(12, "a.parquet"), (13, "b.parquet")] {
+        let mut sample = Sample::new(arm.as_ref(), 4000, seed);
+        let [.., qdd, tau] = &mut sample.quantities;
+        for (tau, qdd) in tau.iter_mut().zip(qdd.iter()).skip(4000) {
+            *tau += 2.0 - 0.5 * *qdd;
+        }
+        sample.write(&folder.file(name));
+    }
+    let (logs, old, new) = (
+        folder.file("*.parquet"),
+        robot_file("planar2r"),
+        folder.file("new.toml"),
+    );
+    let said = succeeds(&over("identify", &logs, &old, &["-o", text(&new)]));
+    assert!(said.contains("written file"), "{said}");
+    let stopped = said.lines().find(|line| line.starts_with("stopped at 0"));
+    let hint = |line: &str| line.contains("armature2") && line.contains("--without-rotors");
+    assert!(stopped.is_some_and(hint), "{said}");
+    assert!(said.contains("its sensor has an offset of "), "{said}");
+    // What the second joint's rotor cannot have is taken from bodies that the first one feels.
+    let worse = "warning: joint 1: the written file leaves ";
+    assert!(said.contains(worse), "{said}");
+    let left = succeeds(&over("residual", &logs, &new, &[]));
+    for name in ["a.parquet", "b.parquet"] {
+        let [said, left] = [&said, &left].map(|table| rows(table, name));
+        assert_eq!((said.len(), left.len()), (2, 2));
+        for (said, left) in said.iter().zip(&left) {
+            assert!((said[3] / left[1] - 1.0).abs() < 2e-3, "{said:?} {left:?}");
+        }
+        // The free parameters leave the noise: those of real bodies do not.
+        assert!(said[1][3] > 1.5 * said[1][2], "{said:?}");
+    }
+    let loaded = dalembert_jit::Arm::load(&new, &Default::default()).unwrap();
+    assert!(loaded.robot().joints[1].armature == parse_decimal("0").unwrap());
+    // Without a file there is no such column, and without rotors none of theirs.
+    let said = succeeds(&over("identify", &logs, &old, &["--without-rotors"]));
+    assert!(!said.contains("written file") && !said.contains("armature"), "{said}");
+}
+
 /// The table is that of the states themselves, in one file and in all.
 #[test]
 fn tables_and_rows_are_those_of_the_states() {
