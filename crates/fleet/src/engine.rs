@@ -191,7 +191,9 @@ impl Engine {
                     let each = names.iter().zip(factors);
                     arguments.extend(each.map(|(name, factor)| scaled(ident(name), *factor)));
                 }
-                None => return Err(Error::new("its rates were not differentiated")),
+                Some(Source::Ragged(_)) | None => {
+                    return Err(Error::new("it was not converted"));
+                }
             }
         }
         let call = aggregate.call(arguments).alias("kept");

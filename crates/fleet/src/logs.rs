@@ -1,6 +1,7 @@
 //! Logs: which columns are what, states in order, and what is wrong with a file.
 //!
 //! - `mapping`: columns and units
+//! - `format`: what a file is that is neither Parquet nor MCAP
 //! - `block`: states of a Parquet file; `mcap`: those of ROS 2's recordings
 //! - `rates`: velocities and accelerations that a log does not have
 //! - `check`: files that cannot be used, each with row and reason
@@ -9,6 +10,7 @@
 pub(crate) mod block;
 mod check;
 mod convert;
+mod format;
 mod mapping;
 mod mcap;
 mod rates;
@@ -17,7 +19,7 @@ mod write;
 use std::path::{Path, PathBuf};
 
 pub use block::{Block, Blocks};
-pub use check::{Log, inspect};
+pub use check::{Log, Origin, inspect};
 pub use convert::convert;
 pub use mapping::{Columns, Layout, Mapping, Source, TimeUnit, Units};
 pub use mcap::Messages;

@@ -13,6 +13,7 @@ use super::table::{number, table};
 use crate::dynamics::{Dynamics, no_model};
 use crate::error::Error;
 use crate::job::{Job, LogArgs};
+use crate::logs::Log;
 use crate::output::{self, Unfinished};
 use crate::progress::Going;
 
@@ -41,12 +42,11 @@ pub(super) async fn run(args: &IdentifyArgs, going: &Going) -> Result<Report, Er
         .shown(args.logs.progress, job.aggregates("_fit"))
         .await?;
     let robot = job.robot.clone();
-    let names = job.logs.iter().map(|log| log.name.display().to_string());
-    let names: Vec<String> = names.collect();
+    let logs = job.logs.clone();
     let is_written = args.output.is_some();
     let solved = going.blocking(move |_| {
         let model = robot.model().ok_or_else(no_model)?;
-        solve(model, &found, &names, is_written)
+        solve(model, &found, &logs, is_written)
     });
     let (text, robot) = going.unless_ended(solved).await?;
     let written = match (&args.output, robot) {
@@ -63,7 +63,7 @@ pub(super) async fn run(args: &IdentifyArgs, going: &Going) -> Result<Report, Er
 fn solve(
     model: &Model,
     found: &[Vec<u8>],
-    names: &[String],
+    logs: &[Log],
     is_written: bool,
 ) -> Result<(String, Option<Result<String, Error>>), Error> {
     let files = found.iter();
@@ -81,6 +81,9 @@ fn solve(
     }
     let mut text = table(["parameter", "value", "std. error"], rows);
     text += &format!("{} states, condition {:.0}\n", fit.states, fit.condition);
+    for (log, file) in logs.iter().zip(&files) {
+        text += &log.told(file.states());
+    }
     for one in &fit.unexcited {
         text += &format!("not excited: {one}\n");
     }
@@ -90,26 +93,27 @@ fn solve(
         _ => None,
     };
     let mut rows = Vec::new();
-    let mut add = |name: &str, file: &Accumulator, [before, after]: [&[f64]; 2]| {
+    let mut add = |log: &Log, file: &Accumulator, [before, after]: [&[f64]; 2]| {
+        let name = log.name.display().to_string();
         let left = written.as_ref().map(|own| file.residual(model, own));
         let left = left.transpose()?;
         for (i, (before, after)) in before.iter().zip(after).enumerate() {
             let [before, after] = [*before, *after].map(number);
             let left = left.as_ref().map_or(String::new(), |left| number(left[i]));
-            rows.push([name.to_owned(), (i + 1).to_string(), before, after, left]);
+            rows.push([name.clone(), (i + 1).to_string(), before, after, left]);
         }
         Ok::<(), dalembert_fit::Error>(())
     };
     let what = match files.len() {
         1 => {
-            add(&names[0], &all, [&fit.before, &fit.after])?;
+            add(&logs[0], &all, [&fit.before, &fit.after])?;
             "of the states of the fit: with more than one log, each is compared with what the \
              others say"
         }
         _ => {
             let each = cross_validation(model, &files)?;
-            for ((name, file), own) in names.iter().zip(&files).zip(&each) {
-                add(name, file, [&own.before, &own.after])?;
+            for ((log, file), own) in logs.iter().zip(&files).zip(&each) {
+                add(log, file, [&own.before, &own.after])?;
             }
             "of each log, with parameters from the others"
         }

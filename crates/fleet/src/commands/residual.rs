@@ -113,7 +113,9 @@ fn summary(job: &Job, found: &[Residuals]) -> String {
     }
     let (states, files) = (all.states(), found.len());
     let table = table(["file", "joint", "rms", "99 %", "worst", "at, s"], rows);
-    format!("{table}{states} states in {files} files; N·m or N, 99 % within 0.8 % of it\n")
+    let told = job.logs.iter().zip(found);
+    let told: String = told.map(|(log, found)| log.told(found.states())).collect();
+    format!("{table}{states} states in {files} files; N·m or N, 99 % within 0.8 % of it\n{told}")
 }
 
 fn lines(name: &str, found: &Residuals, time: bool) -> Vec<[String; 6]> {

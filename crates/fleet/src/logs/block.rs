@@ -12,7 +12,9 @@ use parquet::arrow::arrow_reader::{
     ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder as Builder,
 };
 
+use super::format::foreign;
 use super::mapping::{Columns, Layout, QUANTITIES, Source};
+use crate::arguments::list;
 use crate::error::Error;
 
 /// Rows that are read at once.
@@ -38,6 +40,11 @@ impl Block {
     /// Returns whether there are none.
     pub fn is_empty(&self) -> bool {
         self.time.is_empty()
+    }
+
+    /// Returns true if there are values of a quantity.
+    pub fn has(&self, quantity: usize) -> bool {
+        !self.quantities[quantity].is_empty()
     }
 
     /// Returns a joint's values of a quantity.
@@ -82,7 +89,13 @@ pub struct Blocks<'a> {
 
 /// Opens a Parquet file.
 pub(crate) fn open(path: &Path) -> Result<Builder<File>, Error> {
-    Ok(Builder::try_new(File::open(path)?)?)
+    match Builder::try_new(File::open(path)?) {
+        Ok(builder) => Ok(builder),
+        Err(why) => match foreign(path, false)? {
+            Some(foreign) => Err(foreign),
+            None => Err(Error::new(why).at("it is cut off or damaged")),
+        },
+    }
 }
 
 /// Returns the mask of some columns.
@@ -96,7 +109,7 @@ impl<'a> Blocks<'a> {
     /// Opens a file.
     ///
     /// # Errors
-    /// A file that is no Parquet file, or has not the columns.
+    /// A file that is not Parquet, or has not the columns.
     pub fn open(path: &Path, columns: &'a Columns) -> Result<Blocks<'a>, Error> {
         let builder = open(path)?;
         let layout = columns.layout(builder.schema())?;
@@ -137,12 +150,20 @@ impl<'a> Blocks<'a> {
                         columns.push((array, 1, 0));
                     }
                 }
-                Some(Source::List(name)) => {
+                Some(Source::List(name) | Source::Ragged(name)) => {
                     let n = self.columns.joints;
                     let array = named(name)?;
-                    without_nulls(&array, 1, &mut valid);
-                    let values = cast(array.as_fixed_size_list().values(), &DataType::Float64)?;
-                    without_nulls(&values, n, &mut valid);
+                    // A row of another length becomes a null.
+                    let lists = cast(&array, &list(n))?;
+                    let is_other = |row: &usize| lists.is_null(*row) && array.is_valid(*row);
+                    if let Some(row) = (0..lists.len()).find(is_other) {
+                        let count = length(&array, row);
+                        let why = format!("column `{name}` has {count} numbers; expected {n}");
+                        return Err(Error::new(why).at_row(self.row + 1 + row as u64));
+                    }
+                    without_nulls(&lists, 1, &mut valid);
+                    let values = lists.as_fixed_size_list().values();
+                    without_nulls(values, n, &mut valid);
                     columns.extend((0..n).map(|i| (values.clone(), n, i)));
                 }
             }
@@ -199,6 +220,15 @@ pub(crate) fn seconds(array: &ArrayRef, factor: f64) -> Result<ArrayRef, Error> 
     let floats = cast(&array, &DataType::Float64)?;
     let floats = floats.as_primitive::<Float64Type>();
     Ok(Arc::new(floats.unary::<_, Float64Type>(|x| x * factor)))
+}
+
+/// Returns how many entries a row of lists has, whose lengths may differ.
+fn length(array: &ArrayRef, row: usize) -> usize {
+    match (array.as_list_opt::<i32>(), array.as_list_opt::<i64>()) {
+        (Some(lists), _) => lists.value(row).len(),
+        (_, Some(lists)) => lists.value(row).len(),
+        (None, None) => 0,
+    }
 }
 
 /// Marks rows that have a null among `width` entries.

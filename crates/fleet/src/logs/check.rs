@@ -6,6 +6,7 @@ use datafusion::arrow::array::{Array, AsArray};
 use datafusion::arrow::datatypes::Float64Type;
 
 use super::block::{ROWS, open, projection, seconds};
+use super::format::foreign;
 use super::is_mcap;
 use super::mapping::{Columns, Layout, Source};
 use crate::error::Error;
@@ -26,15 +27,49 @@ pub struct Log {
     pub columns: Columns,
     /// Bytes of the largest row group: what a reader holds of it.
     pub group: u64,
+    /// How it was converted, if it was.
+    pub origin: Origin,
+}
+
+/// The rows and rates of a log that was converted.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Origin {
+    /// Rows with a null, which are left out.
+    pub nulls: u64,
+    /// Rows at the ends, which have no derivatives and are left out.
+    pub ends: u64,
+    /// A sentence on what rates are differentiated from; empty if all were measured.
+    pub rates: String,
 }
 
 impl Log {
+    /// Says which rows were left out of so many states, and where rates are from: a line each,
+    /// and nothing of a log that is used as it is.
+    pub fn told(&self, states: u64) -> String {
+        let Origin { nulls, ends, rates } = &self.origin;
+        // What no conversion has left out, queries have.
+        let nulls = nulls + self.rows.saturating_sub(states);
+        let rows = |count: u64, cause: &str| match count {
+            0 => String::new(),
+            count => format!("{count} rows left out: {cause}"),
+        };
+        let facts = [
+            rows(nulls, "a value is null"),
+            rows(*ends, "at the ends there are no derivatives"),
+            rates.clone(),
+        ];
+        let facts = facts.iter().filter(|fact| !fact.is_empty());
+        let lines = facts.map(|fact| format!("{}: {fact}\n", self.name.display()));
+        lines.collect()
+    }
+
     /// Returns true if it has to be converted before a query can read it: recordings of ROS 2,
-    /// whose layout has nothing, logs without rates, and lists in other units.
+    /// whose layout has nothing, logs without rates, lists in other units, or of lengths that a
+    /// row has for itself.
     pub fn converts(&self) -> bool {
         let sources = self.layout.iter().enumerate();
         let mut needs = sources.map(|(quantity, source)| match source {
-            None => true,
+            None | Some(Source::Ragged(_)) => true,
             Some(Source::List(_)) => !self.columns.is_plain(quantity),
             Some(Source::Columns(_)) => false,
         });
@@ -73,10 +108,13 @@ pub fn inspect(path: &Path, columns: &Columns, going: &Going) -> Result<Log, Err
         layout: [const { None }; 4],
         columns: columns.clone(),
         group: 0,
+        origin: Origin::default(),
     };
     if is_mcap(path) {
-        std::fs::File::open(path)?;
-        return Ok(log);
+        return match foreign(path, true)? {
+            Some(why) => Err(why),
+            None => Ok(log),
+        };
     }
     let builder = open(path)?;
     log.layout = columns.layout(builder.schema())?;

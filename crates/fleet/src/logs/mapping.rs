@@ -81,8 +81,10 @@ pub enum TimeUnit {
 pub enum Source {
     /// A column a joint.
     Columns(Vec<String>),
-    /// One list.
+    /// One list, of a number a joint by its type.
     List(String),
+    /// One list, whose rows may have other lengths: those of pandas and polars.
+    Ragged(String),
 }
 
 impl Source {
@@ -90,7 +92,7 @@ impl Source {
     pub fn columns(&self) -> &[String] {
         match self {
             Source::Columns(columns) => columns,
-            Source::List(column) => std::slice::from_ref(column),
+            Source::List(column) | Source::Ragged(column) => std::slice::from_ref(column),
         }
     }
 }
@@ -243,9 +245,15 @@ impl Columns {
     }
 
     fn source(&self, quantity: usize, schema: &Schema) -> Result<Option<Source>, Error> {
-        let names = self.names(quantity);
+        let mut names = self.names(quantity);
         let n = self.joints;
         let found = |name: &String| schema.field_with_name(name).ok();
+        // Without `q1` and others `q{}` is `q`, if that is a list.
+        let list = self.patterns[quantity].replace("{}", "");
+        let is_list = found(&list).is_some_and(|field| item(field.data_type()).is_some());
+        if is_list && names.iter().all(|name| found(name).is_none()) {
+            names = vec![list];
+        }
         let Some(first) = names.iter().find_map(found) else {
             // Rates can be differentiated.
             return match quantity {
@@ -253,12 +261,21 @@ impl Columns {
                 _ => Err(missing(&names[0], QUANTITIES[quantity], schema)),
             };
         };
-        if let (DataType::FixedSizeList(item, width), [name]) = (first.data_type(), &names[..]) {
-            return match *width as usize == n && item.data_type().is_numeric() {
-                true => Ok(Some(Source::List(name.clone()))),
-                false => Err(Error::new(format!(
-                    "column `{name}` is a list of {width} {}: one of {n} numbers was expected",
-                    item.data_type()
+        if let [name] = &names[..]
+            && (n > 1 || item(first.data_type()).is_some())
+        {
+            let (kind, item) = (first.data_type(), item(first.data_type()));
+            return match (kind, item.is_some_and(DataType::is_numeric)) {
+                (DataType::FixedSizeList(_, width), true) if *width as usize == n => {
+                    Ok(Some(Source::List(name.clone())))
+                }
+                (DataType::List(_) | DataType::LargeList(_), true) => {
+                    Ok(Some(Source::Ragged(name.clone())))
+                }
+                _ => Err(Error::new(format!(
+                    "column `{name}` is {kind}; expected a list of {n} numbers, or one column a \
+                     joint: `--{} '{name}{{}}'`",
+                    QUANTITIES[quantity]
                 ))),
             };
         }
@@ -280,6 +297,16 @@ impl Columns {
             }
         }
         Ok(Some(Source::Columns(names)))
+    }
+}
+
+/// Returns the type of the entries of lists.
+fn item(kind: &DataType) -> Option<&DataType> {
+    match kind {
+        DataType::List(item) | DataType::LargeList(item) | DataType::FixedSizeList(item, _) => {
+            Some(item.data_type())
+        }
+        _ => None,
     }
 }
 

@@ -102,6 +102,10 @@ impl<'a> Messages<'a> {
                 }
                 if values.len() != state.joints() || states.len() != n * (block.len() - 1) {
                     let name = QUANTITIES[quantity];
+                    if quantity == 3 && values.is_empty() {
+                        let why = "has no efforts: residuals need measured torques";
+                        return Err(Error::new(format!("message {} {why}", self.row)));
+                    }
                     let (count, joints) = (values.len(), state.joints());
                     let why = format!("{count} values of {name} for {joints} joints");
                     return Err(place(Error::new(why)));

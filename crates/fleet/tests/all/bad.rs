@@ -46,8 +46,8 @@ fn bad_files_are_named_and_skipped_only_if_asked() {
         "double.parquet: row 9001: the time 8.999 s is that of the row before",
         "clock.parquet: row 18: the time is NaN",
         "schema.parquet: there is no column `tau1`",
-        "short.parquet: ",
-        "text.parquet: ",
+        "short.parquet: it is cut off or damaged: ",
+        "text.parquet: this is CSV, not Parquet; Parquet and MCAP are read: `pandas.read_csv",
         "empty.parquet: ",
         "7 of 8 files cannot be used",
         "--skip-bad",
@@ -71,6 +71,30 @@ fn bad_files_are_named_and_skipped_only_if_asked() {
     assert_eq!(said.matches("left out: ").count(), 8, "{said}");
     let good = succeeds(&over("residual", &folder.file("good.parquet"), &arm, &[]));
     assert_eq!(String::from_utf8(skipped.stdout).unwrap(), good);
+}
+
+/// A file of another kind is called what it is, and what is read is said.
+#[test]
+fn other_formats_are_named() {
+    let folder = Folder::new();
+    let arm = robot_file("planar2r");
+    for (name, bytes, said) in [
+        ("a.csv", &b"time,q1\n0,1\n"[..], "this is CSV, not Parquet"),
+        ("a.json", b" [{\"time\": 0}]", "this is JSON, not Parquet"),
+        ("a.txt", b"hello\n", "this is text, not Parquet"),
+        ("a.npz", b"PK\x03\x04\0\0", "this is ZIP, not Parquet"),
+        ("a.h5", b"\x89HDF\r\n\x1a\n", "this is HDF5, not Parquet"),
+        ("a.bag", b"\x89MCAP0\r\n", "this is MCAP, not Parquet"),
+        ("a.dat", b"\x00\x01\x02", "this is an unknown format, not Parquet"),
+        ("a.parquet", b"", "this is an empty file, not Parquet"),
+        ("a.mcap", b"PAR1", "this is Parquet, not MCAP"),
+    ] {
+        let path = folder.file(name);
+        fs::write(&path, bytes).unwrap();
+        let why = fails(&over("residual", &path, &arm, &[]));
+        assert!(why.contains(said) && why.contains("Parquet and MCAP are read"), "{name}: {why}");
+        assert!(why.contains(name), "{name}: {why}");
+    }
 }
 
 /// A page that is damaged is found by whoever reads it, and named.
@@ -103,7 +127,11 @@ fn flags_that_cannot_be_are_refused() {
             &["--torque-constants", "1,2,3"],
             "3 torque constants, and the robot has 2 joints",
         ),
-        (&["--position", "q1"], "names 1 columns of position"),
+        (
+            &["--position", "q1"],
+            "column `q1` is Float64; expected a list of 2 numbers, or one column a joint",
+        ),
+        (&["--position", "q1,q2,qd1"], "names 3 columns of position"),
     ] {
         let said = fails(&[&base[..], more].concat());
         assert!(said.contains(part), "{more:?}: {said}");

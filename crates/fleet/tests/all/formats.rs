@@ -4,11 +4,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use dalembert_fleet::Dynamics;
-use dalembert_fleet::logs::{Blocks, Columns, Table, canonical_names};
+use dalembert_fleet::logs::{Block, Blocks, Columns, Table, canonical_names};
 use datafusion::arrow::array::{
-    ArrayRef, FixedSizeListArray, Float32Array, Float64Array, RecordBatch,
+    ArrayRef, FixedSizeListArray, Float32Array, Float64Array, LargeListArray, ListArray,
+    RecordBatch,
 };
-use datafusion::arrow::datatypes::{DataType, Field};
+use datafusion::arrow::datatypes::{DataType, Field, Float64Type};
 use parquet::arrow::ArrowWriter;
 
 use crate::support::{
@@ -44,6 +45,10 @@ fn rows_with_a_null_are_left_out() {
     let arm = robot_file("planar2r");
     let table = succeeds(&over("residual", &path, &arm, &["-o", text(&out)]));
     assert!(table.contains("500 states in 1 files"), "{table}");
+    let left_out = "log.parquet: 8500 rows left out: a value is null\n";
+    assert!(table.contains(left_out), "{table}");
+    let table = succeeds(&over("identify", &path, &arm, &[]));
+    assert!(table.contains(left_out), "{table}");
     let columns = Columns::canonical(2);
     let blocks = Blocks::open(&out, &columns).unwrap();
     assert_eq!(blocks.map(|block| block.unwrap().len()).sum::<usize>(), 500);
@@ -151,10 +156,121 @@ fn lists_of_floats_in_degrees_are_read() {
     let three = robot_file("planar3r");
     let wide = over("residual", &path, &three, &named[4..]);
     let why = fails(&[&wide[..], &["1,1,1"]].concat());
-    assert!(
-        why.contains("a list of 2 Float32: one of 3 numbers"),
-        "{why}"
-    );
+    let wanted = "column `observation.state` is FixedSizeList(2 x Float32); expected a list of 3 numbers";
+    assert!(why.contains(wanted), "{why}");
+}
+
+/// Lists whose type does not say how long they are, as pandas and polars write them.
+#[test]
+fn lists_of_any_length_are_read() {
+    let (folder, count) = (Folder::new(), 600);
+    let sample = Sample::new(robot("planar2r", false).as_ref(), count, 14);
+    sample.write(&folder.file("plain.parquet"));
+    let row = |quantity: usize, s: usize| -> Vec<Option<f64>> {
+        let each = (0..2).map(|i| Some(sample.column(quantity, i)[s]));
+        each.collect()
+    };
+    let written = |name: &str, change: &dyn Fn(usize, &mut Option<Vec<Option<f64>>>)| {
+        let time: ArrayRef = Arc::new(Float64Array::from(sample.time.clone()));
+        let columns = ["q", "qd", "qdd", "tau"].into_iter().enumerate();
+        let columns = columns.map(|(quantity, name)| {
+            let rows = (0..count).map(|s| {
+                let mut own = Some(row(quantity, s));
+                if quantity == 0 {
+                    change(s, &mut own);
+                }
+                own
+            });
+            let rows: Vec<_> = rows.collect();
+            let lists: ArrayRef = match quantity % 2 {
+                0 => Arc::new(ListArray::from_iter_primitive::<Float64Type, _, _>(rows)),
+                _ => Arc::new(LargeListArray::from_iter_primitive::<Float64Type, _, _>(rows)),
+            };
+            (name, lists)
+        });
+        let columns = std::iter::once(("time", time)).chain(columns);
+        let path = folder.file(name);
+        write(&path, &RecordBatch::try_from_iter(columns).unwrap());
+        path
+    };
+    let arm = robot_file("planar2r");
+    let plain = succeeds(&over("residual", &folder.file("plain.parquet"), &arm, &[]));
+    let lists = written("lists.parquet", &|_, _| {});
+    // Without `q1` the list `q` is taken, with or without its name.
+    let names: Vec<&str> = "--position q --velocity qd --acceleration qdd --effort tau"
+        .split_whitespace()
+        .collect();
+    for more in [&[][..], &names[..]] {
+        let said = succeeds(&over("residual", &lists, &arm, more));
+        assert_eq!(rows(&said, "lists.parquet"), rows(&plain, "plain.parquet"));
+    }
+    let short = written("short.parquet", &|s, own| {
+        if let (17, Some(own)) = (s, own) {
+            own.pop();
+        }
+    });
+    let why = fails(&over("residual", &short, &arm, &[]));
+    let wanted = "short.parquet: row 18: column `q` has 1 numbers; expected 2";
+    assert!(why.contains(wanted), "{why}");
+    let gaps = written("gaps.parquet", &|s, own| match (s % 100, own) {
+        (3, own) => *own = None,
+        (4, Some(own)) => own[1] = None,
+        _ => {}
+    });
+    let said = succeeds(&over("residual", &gaps, &arm, &[]));
+    assert!(said.contains("588 states in 1 files"), "{said}");
+    assert!(said.contains("gaps.parquet: 12 rows left out: a value is null"), "{said}");
+    let three = robot_file("planar3r");
+    let why = fails(&over("residual", &lists, &three, &[]));
+    assert!(why.contains("row 1: column `q` has 2 numbers; expected 3"), "{why}");
+}
+
+/// Writes a log again without accelerations, its velocities times a factor or left out.
+fn without_accelerations(log: &Path, to: &Path, factor: Option<f64>) {
+    let mut names = canonical_names(2);
+    names.retain(|name| !name.starts_with(if factor.is_some() { "qdd" } else { "qd" }));
+    let mut table = Table::create(to, &names, false).unwrap();
+    for block in Blocks::open(log, &Columns::canonical(2)).unwrap() {
+        let Block {
+            time, quantities, ..
+        } = block.unwrap();
+        let [q, qd, _, tau] = quantities;
+        let scaled = factor.map(|factor| qd.iter().map(|qd| factor * qd).collect::<Vec<f64>>());
+        let columns = [Some(q), scaled, Some(tau)];
+        let columns = columns.iter().flatten().map(Vec::as_slice);
+        table.write("", &time, columns).unwrap();
+    }
+    table.close().unwrap();
+}
+
+/// Measured velocities are differentiated once, which leaves less of the encoders' steps than twice;
+/// not if they are something else than the positions' rates.
+#[test]
+fn measured_velocities_are_used() {
+    let folder = Folder::new();
+    simulated(&folder, "--files 1 --seconds 10 --noise 0.002 --encoder 2000");
+    let (log, arm) = (folder.file("logs/log0000.parquet"), robot_file("planar2r"));
+    let [once, twice, wrong] = [Some(1.0), None, Some(0.0)].map(|factor| {
+        let path = folder.file("log.parquet");
+        without_accelerations(&log, &path, factor);
+        succeeds(&over("residual", &path, &arm, &[]))
+    });
+    let said = "log.parquet: accelerations are differentiated from measured velocities\n";
+    assert!(once.contains(said), "{once}");
+    assert!(once.contains("rows left out: at the ends there are no derivatives"), "{once}");
+    let said = "log.parquet: velocities and accelerations are differentiated from positions";
+    assert!(twice.contains(&format!("{said}\n")), "{twice}");
+    let why = ", since the measured velocities of joint 1 are not their rates\n";
+    assert!(wrong.contains(&format!("{said}{why}")), "{wrong}");
+    let [once, twice, wrong] = [once, twice, wrong].map(|said| rows(&said, "log.parquet"));
+    assert_eq!(twice, wrong);
+    for (once, twice) in once.iter().zip(&twice) {
+        assert!(once[1] < 0.5 * twice[1], "{once:?} {twice:?}");
+    }
+    let slow = over("residual", &log, &arm, &["--motion-frequency", "100", "--acceleration", "none{}"]);
+    let why = fails(&slow);
+    let wanted = "1000 states a second carry motion up to 42.13 Hz, and --motion-frequency is 100";
+    assert!(why.contains(wanted), "{why}");
 }
 
 /// Encoders alone: rates are differentiated, and residuals stay near the torques' noise.

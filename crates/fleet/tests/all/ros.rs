@@ -118,6 +118,29 @@ fn joints_of_other_names_are_refused() {
     assert_eq!(found, rows(&succeeds(&named), "log.mcap"));
 }
 
+/// A recording without torques says so.
+#[test]
+fn recordings_without_efforts_are_refused() {
+    let folder = Folder::new();
+    let path = folder.file("log.mcap");
+    let mut writer = Writer::new(BufWriter::new(File::create(&path).unwrap())).unwrap();
+    let schema = writer.add_schema("sensor_msgs/msg/JointState", "ros2msg", b"");
+    let (schema, none) = (schema.unwrap(), BTreeMap::new());
+    let channel = writer.add_channel(schema, "/joint_states", "cdr", &none);
+    let header = MessageHeader {
+        channel_id: channel.unwrap(),
+        sequence: 0,
+        log_time: 0,
+        publish_time: 0,
+    };
+    let data = message(0.5, &[], [&[0.1, 0.2], &[], &[]], true);
+    writer.write_to_known_channel(&header, &data).unwrap();
+    writer.finish().unwrap();
+    let why = fails(&over("residual", &path, &robot_file("planar2r"), &[]));
+    let wanted = "log.mcap: message 1 has no efforts: residuals need measured torques";
+    assert!(why.contains(wanted), "{why}");
+}
+
 #[test]
 fn recordings_give_what_parquet_files_give() {
     let folder = Folder::new();
