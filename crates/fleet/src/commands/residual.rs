@@ -12,7 +12,7 @@ use crate::engine::locate;
 use crate::error::Error;
 use crate::functions::{Joint, Residuals};
 use crate::job::{Job, LogArgs};
-use crate::logs::{Table, canonical_names};
+use crate::logs::{Log, Table, canonical_names};
 use crate::output::{self, Unfinished};
 use crate::picture::{Curves, picture};
 use crate::progress::Going;
@@ -113,8 +113,8 @@ fn summary(job: &Job, found: &[Residuals]) -> String {
     }
     let (states, files) = (all.states(), found.len());
     let table = table(["file", "joint", "rms", "99 %", "worst", "at, s"], rows);
-    let told = job.logs.iter().zip(found);
-    let told: String = told.map(|(log, found)| log.told(found.states())).collect();
+    let told = |(log, found): (&Log, &Residuals)| log.told(found.states());
+    let told: String = job.logs.iter().zip(found).map(told).collect();
     format!("{table}{states} states in {files} files; N·m or N, 99 % within 0.8 % of it\n{told}")
 }
 

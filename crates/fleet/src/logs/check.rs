@@ -58,9 +58,9 @@ impl Log {
             rows(*ends, "at the ends there are no derivatives"),
             rates.clone(),
         ];
-        let facts = facts.iter().filter(|fact| !fact.is_empty());
-        let lines = facts.map(|fact| format!("{}: {fact}\n", self.name.display()));
-        lines.collect()
+        let told = facts.iter().filter(|fact| !fact.is_empty());
+        told.map(|fact| format!("{}: {fact}\n", self.name.display()))
+            .collect()
     }
 
     /// Returns true if it has to be converted before a query can read it: recordings of ROS 2,
