@@ -63,9 +63,10 @@ fn attempt(
     }
     table.close()?;
     if written == 0 {
-        return Err(Error::new(
-            "it is too short to differentiate its positions: log velocities and accelerations",
-        ));
+        return Err(Error::new(match read {
+            0 => "every row has a null",
+            _ => "it is too short to differentiate its positions: log velocities and accelerations",
+        }));
     }
     let origin = Origin {
         nulls: log.rows.saturating_sub(read),
