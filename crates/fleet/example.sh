@@ -18,6 +18,7 @@ mkdir "$work/unseen" && mv "$work/logs/log0004.parquet" "$work/unseen"
 echo "before:"
 fleet residual "$work/unseen/*.parquet" "${arm[@]}"
 fleet identify "$work/logs/*.parquet" "${arm[@]}" -o "$work/new.toml" | sed -n '/^residuals/,$p'
-cargo run --quiet --release -p dalembert-cli -- generate "$work/new.toml" >"$work/new.rs"
+# shellcheck disable=SC2086
+${DALEMBERT:-cargo run --quiet --release -p dalembert-cli --} generate "$work/new.toml" >"$work/new.rs"
 echo "after:"
 fleet residual "$work/unseen/*.parquet" --robot "$work/new.toml"

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 /// The folders that are hashed, and the versions of what they use.
 pub(crate) const SOURCES: [&str; 7] = [
-    "Cargo.lock",
+    "../../Cargo.lock",
     "src",
     "../../codegen/src",
     "../import/src",

@@ -15,7 +15,8 @@ here=generated/tradeoff
 made=target/tradeoff
 mkdir -p "$made"
 
-tradeoff() { cargo run --release --quiet -p dalembert-cli -- tradeoff "$@"; }
+# shellcheck disable=SC2086
+tradeoff() { ${DALEMBERT:-cargo run --release --quiet -p dalembert-cli --} tradeoff "$@"; }
 
 # The robot file with limits of motion and torque: a velocity, an acceleration, torques.
 limited() {

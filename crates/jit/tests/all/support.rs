@@ -19,7 +19,9 @@ pub const STATES: usize = if cfg!(debug_assertions) {
 
 /// Returns a file of the project.
 pub fn path(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../..")
+        .join(name)
 }
 
 /// Returns a robot of `generated/`, with the plan beside its file.
