@@ -21,7 +21,7 @@ pub(super) fn escaped(name: &str) -> String {
 
 /// Returns a sentence with the names in its backticks as code, and no other markup.
 pub(super) fn sentence(text: &str) -> String {
-    let is_paired = text.matches('`').count() % 2 == 0;
+    let is_paired = text.matches('`').count().is_multiple_of(2);
     let (mut is_code, mut marked) = (false, String::new());
     for c in text.chars() {
         is_code ^= is_paired && c == '`';

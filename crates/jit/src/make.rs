@@ -33,7 +33,7 @@ pub(crate) fn made(
     let opened =
         dalembert_import::read_robot(source.clone(), &options).map_err(LoadError::Robot)?;
     let mut notes = opened.notes();
-    for imported in &opened.imported {
+    if let Some(imported) = &opened.imported {
         for snap in imported.snaps.iter().filter(|snap| snap.changes) {
             let (name, line) = source.line(snap.span.start);
             notes.push(format!("{name}:{line}: {snap}"));
