@@ -201,6 +201,7 @@ pub mod matrices;
 /// // Mass, centre of mass in the last link's frame, inertia about it as in a robot
 /// // file: once for each tool.
 /// let tool = Payload::new(0.5, [0.0, 0.0, 0.1], [1e-3, 1e-3, 1e-3, 0.0, 0.0, 0.0]);
+/// let tool = tool.expect("a body has these numbers");
 /// let load: Load = arm::load(&tool);
 /// # assert_eq!(tool[0], 0.5);
 /// let q = [0.3, -0.5];
@@ -210,6 +211,22 @@ pub mod matrices;
 /// assert_eq!(arm::gravity(&q, &Gravity([0.0, 0.0, -9.81]), &load), [0.0, 0.0]);
 /// assert!(upright[0] > 0.0 && on_its_side[0] > 0.0);
 /// assert!(arm::inertia(&q, &load)[0][0] > arm::inertia(&q, &arm::load(&Payload::NONE))[0][0]);
+/// ```
+///
+/// No body has a negative mass, or a moment of inertia above the sum of the other two:
+///
+/// ```
+/// # dalembert::dynamics! {
+/// #     mod arm = "generated/robots/planar2r.toml";
+/// #     outputs: gravity;
+/// #     parameters: payload;
+/// # }
+/// assert_eq!(arm::Payload::new(-1.0, [0.0; 3], [0.0; 6]), None);
+/// assert_eq!(arm::Payload::new(1.0, [0.0; 3], [1.0, 1.0, 3.0, 0.0, 0.0, 0.0]), None);
+/// assert_eq!(arm::Payload::new(0.0, [0.0; 3], [0.0; 6]), Some(arm::Payload::NONE));
+/// // A rod, and a plate whose moments are rounded.
+/// assert!(arm::Payload::new(1.0, [0.0; 3], [0.0, 1.0, 1.0, 0.0, 0.0, 0.0]).is_some());
+/// assert!(arm::Payload::new(1.0, [0.0; 3], [0.1, 0.2, 0.3000001, 0.0, 0.0, 0.0]).is_some());
 /// ```
 ///
 /// A payload is no load, and neither is gravity:

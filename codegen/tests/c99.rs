@@ -3,6 +3,7 @@
 
 use std::fs;
 use std::path::PathBuf;
+use std::process::Command;
 
 use dalembert_codegen::RobotFile;
 
@@ -118,6 +119,58 @@ fn headers_are_compiled_without_a_warning() {
                 let flags = STRICT.split(' ').chain(language.split(' '));
                 run(compiler, flags.chain(["arm.c"]), &folder);
             }
+        }
+    }
+}
+
+/// No payload is passed for a load, and none is made of numbers that no body has: which one has them
+/// stands behind them.
+#[test]
+fn a_payload_is_a_body_and_no_load() {
+    let asked = "outputs: gravity; parameters: payload; sincos: polynomial; language: c";
+    let text = Case::new("planar2r", "", asked).generated().text();
+    let bodies = [
+        ("0, 0, 0, 0, 0, 0, 0, 0, 0, 0", 1),
+        ("2, 1, -1, 3, 0, 1, 1, 0, 0, 0", 1),
+        ("2, 0, 0, 0, 0.1, 0.2, 0.3, 0, 0, 0", 1),
+        ("-1, 0, 0, 0, 0, 0, 0, 0, 0, 0", 0),
+        ("2, 0, 0, 0, 1, 1, 3, 0, 0, 0", 0),
+        ("2, 0, 0, 0, 10, 10, 10, 6, 0, 0", 0),
+        ("2, 0, 0, 0, -1, 1, 1, 0, 0, 0", 0),
+        ("0, 0, 0, 0, 1, 1, 1, 0, 0, 0", 0),
+        ("NAN, 0, 0, 0, 0, 0, 0, 0, 0, 0", 0),
+        ("2, INFINITY, 0, 0, 0, 0, 0, 0, 0, 0", 0),
+    ];
+    let tests = bodies.map(|(numbers, is_body)| {
+        let test = |real: &str, infix: &str| {
+            format!(
+                "{{ const {real} numbers[10] = {{{numbers}}}; planar2r_{infix}payload_t payload; \
+                 bad += planar2r_{infix}payload(numbers, &payload) != {is_body}; }}\n"
+            )
+        };
+        test("double", "") + &test("float", "f32_")
+    });
+    let rest = format!(
+        "#include <math.h>\nint main(void) {{\nint bad = 0;\n{}return bad;\n}}\n",
+        tests.concat()
+    );
+    let folder = with_main("payload", &text, &rest);
+    let passed = "void f(const planar2r_OTHER_t *other, const double *q, double *c)\n\
+        {\n    planar2r_gravity(q, other, c);\n}\n";
+    for compiler in there(&["gcc", "clang"]) {
+        run(
+            compiler,
+            "-std=c99 -O2 arm.c -o payload -lm".split(' '),
+            &folder,
+        );
+        run(folder.join("payload").to_str().unwrap(), [], &folder);
+        for (other, is_taken) in [("load", true), ("payload", false)] {
+            let main = passed.replace("OTHER", other);
+            let folder = with_main(&format!("passed_{other}"), &text, &main);
+            let mut command = Command::new(compiler);
+            let flags = "-std=c99 -Werror -fsyntax-only arm.c".split(' ');
+            let output = command.args(flags).current_dir(folder).output().unwrap();
+            assert_eq!(output.status.success(), is_taken, "{compiler}: {other}");
         }
     }
 }

@@ -141,6 +141,7 @@ fn what_stands_beside_functions_has_no_room() {
     let table = "
 [f64; 3] → [f64; { use evil as libm; 3 }] … [f64; 3] → [f64; 4] … &self.0 → &[0.0; 3]
 [0.0; 10] → [1.0; 10] … Payload([mass, x, y, z → Payload([mass, y, x, z
+Payload([f64; → Payload(pub [f64; … (mass >= 0.0) → (mass >= -1.0) … 0.5000005 → 1.0
 ";
     for [from, to] in changes(table) {
         assert!(own.text.contains(&from), "{from}");
@@ -153,6 +154,17 @@ fn what_stands_beside_functions_has_no_room() {
 ····pi[0] =· → ····pi[1] =· … ····pi[0] =· → ····return;↵····pi[0] =·
 pi[P_RESTRICT → pi[Q_RESTRICT … p_base_parameters( → p_passivity_parameters(
 p_base_parameters(double → p_base_parameters(float
+",
+    );
+    let own = planar2r(
+        "gravity; scalar: f64; name: p; language: c; parameters: payload",
+        2,
+    );
+    own.refuses(
+        "
+is_body = 0; → is_body = 1; … (mass >= 0.0) → (mass >= -1.0) … numbers[3]; → numbers[2];
+payload[10]; → payload[11]; … p_load_t; → p_payload_t; … payload->payload[0] = mass → numbers[0] = mass
+const p_load_t load[ → const double load[ … load->load[ → load->payload[
 ",
     );
     // A name that ends as the one of the box does is looked at.

@@ -13,7 +13,7 @@ use crate::support::{self, Case, every_output, rows};
 /// comment marks and with one space where there are more. Behind `¬` stands what must not follow.
 const ROWS: &str = r#"
 FRAMES := jacobian@camera:local, contact_wrench@camera, operational_inertia@camera, forward_dynamics_with_wrench, task=operational_inertia@elbow:linear+null_space_projector@elbow:linear
-planar2r | | inverse_dynamics, gravity; parameters: payload, gravity | pub struct Payload(pub [f64; 10]); … pub fn load(payload: &Payload) -> Load { … pub fn gravity(q: &[f64; 2], g: &Gravity, load: &Load) -> [f64; 2] {
+planar2r | | inverse_dynamics, gravity; parameters: payload, gravity | pub struct Payload([f64; 10]); … ) -> Option<Payload> { … pub struct Load([f64; 6]); … pub fn load(payload: &Payload) -> Load { … pub fn gravity(q: &[f64; 2], g: &Gravity, load: &Load) -> [f64; 2] {
 planar2r | | inverse_dynamics, gravity; parameters: payload, gravity | pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2], g: &Gravity, load: &Load) -> [f64; 2] { … pub fn gravity(q: &[f32; 2], g: &Gravity, load: &Load) -> [f32; 2] {
 planar2r | | inertia, jacobian; parameters: gravity | ¬g: &
 planar2r | | servo_load=jacobian+manipulator_equation; batch: on | pub struct ServoLoad { … pub jacobian: … pub d: … pub h: … pub c: … `jacobian` and `manipulator_equation` in one … pub fn servo_load(q: &[f64; 2], qd: &[f64; 2]) -> ServoLoad { … for ServoLoadBatch { … pub fn servo_load_columns(
@@ -27,8 +27,8 @@ coulomb | lock = { waist = 0.4 }; joints = ["slide", "wrist"] | inverse_dynamics
 coulomb | velocity = "zero" | inverse_dynamics, inverse_dynamics_derivatives | ¬sqrt
 coulomb | | full_regressor | Armature and friction, viscous and Coulomb, have none.
 payload_frame | | inverse_dynamics; parameters: payload | in that of joint 3 in the table at xyz (0.1, -0.05, -0.2) m, rpy (pi/2, 0, 0)
-payload_frame | | gravity; parameters: payload; sincos: together; language: c | payload[10]: A body fixed to the last link … [0] its mass, kg; [1] to [3] its centre of mass x, y, z, m, in the last link's frame … table at xyz (0.1, -0.05, -0.2) m, rpy (pi/2, 0, 0) … [4] to [9] its inertia Ixx, Iyy, Izz, Ixy, Iyz, Ixz, kg·m², about its centre of mass … _load(const double payload[
-planar2r | | gravity; parameters: payload; sincos: together; language: c | in the last link's frame … that of joint 2 in the table (a tool's pose moves … _load(const double payload[
+payload_frame | | gravity; parameters: payload; sincos: together; language: c | A body fixed to the last link … `numbers` has [0] its `mass`, [1] to [3] its `com` and [4] to [9] its `inertia` … the centre of mass in m, in the last link's frame … table at xyz (0.1, -0.05, -0.2) m, rpy (pi/2, 0, 0) … Ixx, Iyy, Izz, Ixy, Iyz, Ixz … static inline int payload_frame_payload(const double numbers[ … } payload_frame_load_t; … _load(const payload_frame_payload_t payload[ … _gravity(const double q[PAYLOAD_FRAME_RESTRICT 3], const payload_frame_load_t load[
+planar2r | | gravity; parameters: payload; sincos: together; language: c | in the last link's frame … that of joint 2 in the table (a tool's pose moves … _load(const planar2r_payload_t payload[
 base_and_tool | | link_poses, potential_energy | gravity (0.1, 0, -9.81) m/s² in base axes … frame 0 is at xyz (0.2, -0.3, 1.1) m, rpy (0.4, pi/2, pi/6) … the tool, in the last link's at xyz (0.01, 0, 0.12) m, rpy (pi, -0.2, 0)
 nearly_parallel | | inverse_dynamics | After its twist each of these turns about y: joint 1 by 0.00
 wafer | | inverse_dynamics | pub const N: usize = 4;

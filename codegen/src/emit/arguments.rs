@@ -1,14 +1,16 @@
 //! What a module says of parameters that are arguments: the types of a payload and
 //! of its load, and where gravity comes from.
 
+use dalembert_checker::payload as checked;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 
 use super::say;
 use crate::figures::{decimal, placed};
 use crate::function::{Argument, Function};
+use crate::language::c99::Names;
 use crate::language::function::{GRAVITY, LOAD, PAYLOAD};
-use crate::language::list;
+use crate::language::{comment, list};
 use crate::program::ScalarType;
 use crate::setup::Setup;
 
@@ -28,69 +30,87 @@ pub(super) fn types(setup: &Setup, scalar: ScalarType) -> String {
     let mut text = String::new();
     if setup.has(RuntimeParameter::Gravity) {
         text += "/// The acceleration of gravity in base axes, in m/s²: x, y and z.\n";
-        newtype(&mut text, GRAVITY, scalar, 3);
+        newtype(&mut text, GRAVITY, "pub ", scalar, 3);
     }
     if !setup.has(RuntimeParameter::Payload) {
         return text;
     }
-    let frame = payload_frame(setup).replace(" at ", "\n/// at ");
     text += "/// A body that is fixed to the last link, beside what the robot file has there: see\n\
              /// [`Payload::new`], whose arguments these are, in their order.\n";
-    newtype(&mut text, PAYLOAD, scalar, 10);
-    text += &format!(
-        "impl {PAYLOAD} {{\n\
-         /// Nothing is carried.\n\
-         pub const NONE: {PAYLOAD} = {PAYLOAD}([0.0; 10]);\n\
-         /// A body of this `mass` in kg. `com` is its centre of mass in m, in the last link's frame,\n\
-         /// {frame}\n\
-         /// (a tool's pose moves poses and Jacobians only). `inertia` is its tensor about the centre of\n\
-         /// mass in kg·m², in the axes of that frame: Ixx, Iyy, Izz, Ixy, Iyz, Ixz as they stand in the\n\
-         /// matrix.\n\
-         #[must_use]\n\
-         pub const fn new(mass: {scalar}, com: [{scalar}; 3], inertia: [{scalar}; 6]) -> {PAYLOAD} {{\n    \
-         let ([x, y, z], [xx, yy, zz, xy, yz, xz]) = (com, inertia);\n    \
-         {PAYLOAD}([mass, x, y, z, xx, yy, zz, xy, yz, xz])\n}}\n}}\n"
+    newtype(&mut text, PAYLOAD, "", scalar, 10);
+    let doc = comment("///", &payload(setup, scalar));
+    let methods = checked::rust(scalar == ScalarType::F32);
+    let methods = methods.replacen("pub", "/// Nothing is carried.\npub", 1);
+    let new = "pub const fn";
+    let documented = format!(
+        "/// A body of these numbers; `None` if no body has them.\n///\n{doc}#[must_use]\n{new}"
     );
+    text.push_str(&indented(&methods.replace(new, &documented)));
     text += "/// The regrouped parameters that a payload changes: what [`load`] returns, and what the other\n\
              /// functions take. Compute it once for each tool; its numbers are this module's own.\n";
     let length = Argument::Load.length(setup.sizes(Function::Load));
-    newtype(&mut text, LOAD, scalar, length);
+    newtype(&mut text, LOAD, "", scalar, length);
     text
 }
 
-/// Returns where the frame that payloads are given in is.
-fn payload_frame(setup: &Setup) -> String {
-    let n = setup.joints();
-    match setup.robot().payload_frame.as_ref() {
-        None => format!("that of joint {n} in the table"),
-        Some(frame) => format!(
-            "which is in that of joint {n} in the table at {}",
-            placed(frame)
-        ),
-    }
+/// Returns the documentation of the function that makes a payload in C, and its text.
+pub(super) fn payload_c(setup: &Setup, names: &Names) -> (Vec<String>, String) {
+    let dialect = names.dialect();
+    let mut doc = Vec::new();
+    let head = [
+        "A body fixed to the last link, beside what the robot file has there. `numbers` has [0] its",
+        "`mass`, [1] to [3] its `com` and [4] to [9] its `inertia`; zeros: nothing is carried. Returns",
+        "1, or 0 if no body has these numbers; then `payload` stays as it was.",
+        "",
+    ];
+    say(&mut doc, head);
+    doc.extend(payload(setup, dialect.scalar));
+    let (own, is_single) = (
+        names.symbols(Function::Load),
+        dialect.scalar == ScalarType::F32,
+    );
+    let text = checked::c(is_single, dialect.function, &own.prefix, &own.macros);
+    (doc, indented(&text))
 }
 
-/// Describes an argument of C, of a payload each of its numbers.
-pub(super) fn described(argument: Argument, setup: &Setup) -> Vec<String> {
-    if argument != Argument::Payload {
-        return vec![argument.meaning().to_owned()];
-    }
-    let frame = payload_frame(setup);
+/// Indents the lines between braces.
+fn indented(text: &str) -> String {
+    let mut depth = 0usize;
+    let line = |line: &str| {
+        depth -= usize::from(line.starts_with('}'));
+        let text = format!("{}{line}\n", "    ".repeat(depth));
+        depth += usize::from(line.ends_with('{'));
+        text
+    };
+    text.lines().map(line).collect()
+}
+
+/// Describes the numbers of a payload.
+fn payload(setup: &Setup, scalar: ScalarType) -> Vec<String> {
+    let n = setup.joints();
+    let frame = match setup.robot().payload_frame.as_ref() {
+        None => format!("that of joint {n} in the table"),
+        Some(frame) => format!(
+            "which is in that of joint {n} in the table\nat {}",
+            placed(frame)
+        ),
+    };
+    let digits = scalar.of("six", "three");
     let text = format!(
-        "A body fixed to the last link, beside what the robot file has there; zeros: none.\n  \
-         [0] its mass, kg; [1] to [3] its centre of mass x, y, z, m, in the last link's frame,\n  \
-         {frame}\n  \
-         (a tool's pose moves poses and Jacobians only); [4] to [9] its inertia Ixx, Iyy, Izz,\n  \
-         Ixy, Iyz, Ixz, kg·m², about its centre of mass, in the axes of that frame."
+        "`mass` is in kg, zero or more; `com` is the centre of mass in m, in the last link's frame,\n\
+         {frame}\n\
+         (a tool's pose moves poses and Jacobians only). `inertia` is its tensor about the centre of\n\
+         mass in kg·m², in the axes of that frame: Ixx, Iyy, Izz, Ixy, Iyz, Ixz as they stand in the\n\
+         matrix. No principal moment exceeds the sum of the other two, to {digits} digits."
     );
     text.lines().map(str::to_owned).collect()
 }
 
-/// Writes a type of so many numbers.
-fn newtype(text: &mut String, name: &str, scalar: ScalarType, length: usize) {
+/// Writes a type of so many numbers, which are public or not.
+fn newtype(text: &mut String, name: &str, public: &str, scalar: ScalarType, length: usize) {
     *text += &format!(
         "#[derive(Clone, Copy, Debug, PartialEq)]\n#[repr(transparent)]\n\
-         pub struct {name}(pub [{scalar}; {length}]);\n\
+         pub struct {name}({public}[{scalar}; {length}]);\n\
          impl ::core::ops::Deref for {name} {{\n    type Target = [{scalar}; {length}];\n    \
          #[inline(always)]\n    fn deref(&self) -> &[{scalar}; {length}] {{\n        &self.0\n    }}\n}}\n"
     );

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::arguments::described;
+use dalembert_model::outputs::RuntimeParameter;
+
+use super::arguments::payload_c;
 use super::module::{function_doc, header};
 use super::state_box::StateBox;
 use super::{GeneratedFunction, c_sines, parameters, said};
@@ -10,7 +12,7 @@ use crate::function::Function;
 use crate::language::c99::{self, LONGEST, Names};
 use crate::language::{self, Language, columns};
 use crate::program::{Code, Library, ScalarType};
-use crate::task::Job;
+use crate::task::{Job, Request};
 
 /// Where gcc may fuse products and sums by itself: in straight lines of alternating sums and
 /// differences (`tree-slp-vectorize`) it does whatever it is told of contraction.
@@ -39,20 +41,20 @@ const NO_PRODUCTS: &str = "
 ";
 
 /// Returns the first name that some C compiler does not take: too long, of other letters, or of two.
-pub(crate) fn misnamed(
-    base: &str,
-    functions: &[Function],
-    has_batches: bool,
-    scalars: &[ScalarType],
-) -> Option<String> {
+pub(crate) fn misnamed(base: &str, functions: &[Function], request: &Request) -> Option<String> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
     if !base.starts_with(|c: char| c.is_ascii_alphabetic()) || !base.chars().all(plain) {
         return Some(base.to_owned());
     }
     let mut words: Vec<String> = ["sincos_t", "in_box"].map(String::from).into();
-    for function in functions {
+    let takes_payload = request.parameters.contains(&RuntimeParameter::Payload);
+    let load = takes_payload.then_some(Function::Load);
+    if takes_payload {
+        words.extend(["payload", "payload_t"].map(String::from));
+    }
+    for function in functions.iter().chain(&load) {
         words.push(function.name().to_owned());
-        if has_batches {
+        if request.batch {
             words.extend(["any", "batch"].map(|word| format!("{function}_{word}")));
         }
         if c99::is_bundle(*function) {
@@ -61,7 +63,7 @@ pub(crate) fn misnamed(
         let constant = parameters::name(*function).map(str::to_lowercase);
         words.extend(constant.filter(|constant| !words.contains(constant)));
     }
-    let scalars = scalars.iter();
+    let scalars = request.scalars.iter();
     let names = scalars.map(|&scalar| Names::new(base, Language::C, scalar));
     let names = names.flat_map(|names| words.iter().map(move |word| names.of(word)));
     let macros = ["RESTRICT", "UNFUSED", "SIMD"];
@@ -156,6 +158,11 @@ pub(crate) fn write(
         if let Some(state_box) = StateBox::of(functions, setup, scalar) {
             state_box.write_c(&mut text, scalar, &names);
         }
+        if functions.iter().any(|own| own.function == Function::Load) {
+            let (doc, own) = payload_c(setup, &names);
+            comment(&mut text, &doc);
+            text += &own;
+        }
         for (index, (generated, code)) in functions.iter().zip(codes).enumerate() {
             // One π for all that are over the same columns.
             let (function, mut earlier) = (generated.function, functions[..index].iter());
@@ -182,11 +189,12 @@ pub(crate) fn write(
             }
             doc.push(String::new());
             for argument in &program.arguments {
-                let (name, length) = (argument.name(), argument.length(sizes));
-                let mut lines = described(*argument, setup).into_iter();
-                let first = lines.next().unwrap_or_default();
-                doc.push(format!("{name}[{length}]: {first}"));
-                doc.extend(lines);
+                let (name, meaning) = (argument.name(), argument.meaning());
+                let length = match c99::argument_structure(*argument, &names) {
+                    Some(_) => String::new(),
+                    None => format!("[{}]", argument.length(sizes)),
+                };
+                doc.push(format!("{name}{length}: {meaning}"));
             }
             for quantity in function.quantities() {
                 let rows = setup.rows();

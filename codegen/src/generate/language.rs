@@ -23,7 +23,7 @@ pub(super) fn check(
         return Ok(());
     }
     let name = request.module_name(robot);
-    let Some(name) = header::misnamed(&name, functions, request.batch, &request.scalars) else {
+    let Some(name) = header::misnamed(&name, functions, request) else {
         return Ok(());
     };
     let message = format!("`{name}` is not a valid C identifier for every compiler, or not unique");
@@ -37,9 +37,7 @@ pub(super) fn check(
 ///
 /// The request stays as it is where no such name is short enough: [`check`] refuses that.
 pub(crate) fn with_short_name<'a>(robot: &Robot, request: &'a Request) -> Cow<'a, Request> {
-    let misnamed = |name: &str| {
-        header::misnamed(name, &request.functions, request.batch, &request.scalars).is_some()
-    };
+    let misnamed = |name: &str| header::misnamed(name, &request.functions, request).is_some();
     let name = request.module_name(robot);
     if request.language == Language::Rust || request.module.is_some() || !misnamed(&name) {
         return Cow::Borrowed(request);

@@ -22,12 +22,18 @@ use super::dialect::Lines;
 use super::function::reads;
 pub(crate) use super::names::{LONGEST, Names, float};
 use super::{Language, trig};
-use crate::function::{Function, Quantity, Sizes};
+use crate::function::{Argument, Function, Quantity, Sizes};
 use crate::program::{Code, Input, Library, Pair, Program, ScalarType};
 
-/// Returns whether the function's results are one struct: a bundle's are.
+/// Returns whether the function's results are one struct: a bundle's are, and a load.
 pub(crate) fn is_bundle(function: Function) -> bool {
-    matches!(function, Function::Bundle(_))
+    matches!(function, Function::Bundle(_) | Function::Load)
+}
+
+/// Returns the struct that an argument is, so that nothing else is passed for it; none of arrays.
+pub(crate) fn argument_structure(argument: Argument, names: &Names) -> Option<String> {
+    let has_type = matches!(argument, Argument::Load | Argument::Payload);
+    has_type.then(|| names.of(&format!("{}_t", argument.name())))
 }
 
 /// Returns whether the function returns its only number.
@@ -35,7 +41,7 @@ pub(crate) fn is_number(function: Function) -> bool {
     function.structure().is_none() && function.quantities()[0].shape().0.is_empty()
 }
 
-/// Returns the struct that a bundle's results are in.
+/// Returns the struct that the results are in, if they are in one.
 pub(crate) fn structure(program: &Program, names: &Names) -> Option<String> {
     let (function, sizes) = (program.function, program.sizes());
     is_bundle(function).then(|| {
@@ -82,9 +88,12 @@ pub(crate) fn head(program: &Program, names: &Names, is_told: bool) -> String {
         parameters.push("const int far".to_owned());
         name += "_any";
     }
-    for argument in &program.arguments {
+    for &argument in &program.arguments {
         let (name, length) = (argument.name(), argument.length(sizes));
-        parameters.push(format!("const {float} {name}[{restrict} {length}]"));
+        parameters.push(match argument_structure(argument, names) {
+            Some(kind) => format!("const {kind} {name}[{restrict} 1]"),
+            None => format!("const {float} {name}[{restrict} {length}]"),
+        });
     }
     let mut result = "void";
     if is_number(function) {

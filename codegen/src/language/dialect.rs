@@ -1,6 +1,7 @@
 //! How a language writes the lines of a function: one table, by which they are printed.
 
 use crate::dag::{Dag, Edge, Id, Node};
+use crate::function::Argument;
 use crate::program::kernel::{Angle, Kernel};
 use crate::program::{Code, Input, Literal, Operation, ScalarType};
 
@@ -21,6 +22,8 @@ pub(crate) struct Dialect {
     pub negative: &'static str,
     /// A literal: its digits.
     pub literal: &'static str,
+    /// The array of an argument that has a type of its own: its name, twice.
+    pub array: &'static str,
 }
 
 impl Dialect {
@@ -34,6 +37,7 @@ impl Dialect {
             fused: "{}.mul_add({}, {})",
             negative: "(-{})",
             literal: "{}",
+            array: "{}",
         }
     }
 
@@ -55,6 +59,7 @@ impl Dialect {
             fused: scalar.of("fma({}, {}, {})", "fmaf({}, {}, {})"),
             negative: "-{}",
             literal: scalar.of("{}", "{}F"),
+            array: "{}->{}",
         }
     }
 
@@ -118,7 +123,13 @@ impl<'c> Lines<'c, Input> {
             dag: &code.dag,
             numbers: code.dag.numbers(),
             prefix: "t".to_owned(),
-            input: Box::new(|input| input.name()),
+            input: Box::new(move |input: &Input| match input {
+                Input::Entry(argument @ (Argument::Load | Argument::Payload), index) => {
+                    let array = filled(dialect.array, &[argument.name(); 2]);
+                    format!("{array}[{index}]")
+                }
+                other => other.name(),
+            }),
         }
     }
 }

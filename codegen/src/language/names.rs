@@ -99,7 +99,7 @@ impl Names {
     }
 
     /// Returns all names of a function, by which its text is found.
-    pub(super) fn symbols(&self, function: Function) -> Symbols {
+    pub(crate) fn symbols(&self, function: Function) -> Symbols {
         let infix = self.scalar.of("", "_f32");
         Symbols {
             macros: self.base.to_uppercase(),

@@ -83,10 +83,16 @@ fn call(case: &Case, generated: &Generated, emitted: &Emitted) -> String {
         let (from, length) = (argument.index() * MOST, argument.length(emitted.sizes));
         assert!(length <= MOST);
         body += &format!("IN({float}, {}, {length}, {from})\n", argument.name());
-        passed.push(argument.name().to_owned());
+        let cast = match argument {
+            Argument::Load | Argument::Payload if !batch => {
+                format!("(const {} *)", names.of(&format!("{}_t", argument.name())))
+            }
+            _ => String::new(),
+        };
+        passed.push(cast + argument.name());
     }
     let quantities = function.quantities();
-    let is_bundle = !batch && matches!(function, Function::Bundle(_));
+    let is_bundle = !batch && matches!(function, Function::Bundle(_) | Function::Load);
     let is_number = function.structure().is_none() && quantities[0].shape().0.is_empty();
     let is_returned = !batch && is_number;
     if is_bundle {

@@ -10,25 +10,19 @@ use crate::fault::Fault;
 use crate::file::{Found, between};
 use crate::identity::exact::Exact;
 use crate::identity::setting::Setting;
+use crate::payload;
 use crate::program::ARGUMENTS;
 use crate::read::number;
 use crate::rounding::Ranges;
 use crate::tolerance::BOX_SLACK;
 
-/// The type of an argument that is no list of joints, and what a payload has besides.
-const TYPES: [&str; 3] = [
-    "pub struct NAME(pub [REAL; COUNT]);",
+/// The type of an argument that is no list of joints.
+const TYPES: [&str; 2] = [
+    "pub struct NAME(PUBLIC[REAL; COUNT]);",
     "impl ::core::ops::Deref for NAME {
 type Target = [REAL; COUNT];
 fn deref(&self) -> &[REAL; COUNT] {
 &self.0
-}
-}",
-    "impl Payload {
-pub const NONE: Payload = Payload([0.0; 10]);
-pub const fn new(mass: REAL, com: [REAL; 3], inertia: [REAL; 6]) -> Payload {
-let ([x, y, z], [xx, yy, zz, xy, yz, xz]) = (com, inertia);
-Payload([mass, x, y, z, xx, yy, zz, xy, yz, xz])
 }
 }",
 ];
@@ -74,14 +68,20 @@ impl<'k> Known<'k> {
             format!("pub const N: usize = {joints};"),
             format!("pub const JOINTS: [usize; {count}] = {rows:?};"),
         ]);
-        for (name, count) in [("Gravity", 3), ("Payload", 10), ("Load", load)] {
+        for (name, public, count) in [
+            ("Gravity", "pub ", 3),
+            ("Payload", "", 10),
+            ("Load", "", load),
+        ] {
             for own in SCALARS {
                 items.extend(TYPES.map(|text| {
                     let text = text.replace("NAME", name).replace("REAL", own);
+                    let text = text.replace("PUBLIC", public);
                     text.replace("COUNT", &count.to_string())
                 }));
             }
         }
+        items.extend([false, true].map(payload::rust));
         Known {
             setting,
             ranges,
@@ -221,6 +221,14 @@ impl<'k> Known<'k> {
             given.is_none_or(|own| own.len() == count) && (0..count).all(is_known)
         })
     }
+}
+
+/// Returns true if a text in C is the function that makes a payload.
+pub(crate) fn is_payload(item: &Found) -> bool {
+    let (own, macros) = (&item.symbols.prefix, &item.symbols.macros);
+    let is_single = item.text.contains("const float ");
+    let text = payload::c(is_single, "static inline", own, macros);
+    text == trimmed(item).join("\n")
 }
 
 /// Returns the lines of an item without indentation.

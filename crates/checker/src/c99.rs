@@ -123,7 +123,7 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
                 return false;
             }
             heads.push(head);
-            let ends = ["(const size_t n, ", "_in_box(", " pi["];
+            let ends = ["(const size_t n, ", "_in_box(", " pi[", " numbers["];
             !has_loops || ends.iter().any(|end| head.contains(end))
         });
         let is_plain = |found: &Found| {
@@ -160,7 +160,7 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
         let own = &mut found.symbols;
         own.single = found.name.to_owned();
         own.prefix = found.name[..name.len()].to_owned();
-        if found.text.contains("const float ") {
+        if found.text.contains("float ") {
             own.prefix += "_f32";
         }
         own.macros = name.to_owned();

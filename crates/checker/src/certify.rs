@@ -3,7 +3,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::aside::Known;
+use crate::aside::{Known, is_payload};
 use crate::c99;
 use crate::claim::{Claim, Claimed, Tolerated};
 use crate::compare::compare;
@@ -174,11 +174,12 @@ pub fn certify(
 }
 
 /// Returns true for an item that is no function, or one that computes no dynamics: it gives
-/// constants, or says where a box is.
+/// constants, makes a payload, or says where a box is.
 fn is_beside(found: &Found) -> bool {
     let name = found.name.strip_prefix(found.module);
     let is_box = found.name == "in_box" || name == Some("_in_box");
-    is_box || found.name.is_empty() || found.text.contains(" pi[")
+    let mut written = [" pi[", " numbers["].iter();
+    is_box || found.name.is_empty() || written.any(|own| found.text.contains(own))
 }
 
 /// The finding that a program is the robot's, once it is asked for; how often its function came.
@@ -215,7 +216,7 @@ impl<'w> Whole<'w> {
     /// Returns true for a function in f32.
     fn is_single(&self, found: &Found) -> bool {
         match self.is_c {
-            true => found.text.contains("const float "),
+            true => found.text.contains("float "),
             false => self.singles.contains(found.module),
         }
     }
@@ -473,9 +474,10 @@ impl<'w> Whole<'w> {
         let are = values.any(|(name, own)| c99::are_values(item, &name.to_ascii_lowercase(), own));
         let why = match item.text.contains(" pi[") {
             true => "its numbers are not the base parameters that are claimed",
+            false if item.text.contains(" numbers[") => "it does not make a payload",
             false => "it does not say where the functions hold",
         };
-        let is_known = are || known.is_box(item);
+        let is_known = are || known.is_box(item) || is_payload(item);
         is_known
             .then_some(())
             .ok_or_else(|| Fault::Text(item.line, why.into()))

@@ -3,7 +3,7 @@
 //! This crate uses none of the project's others, and reads the robot file itself. A generated file
 //! has a claim beside it, with the exact program of each function:
 //!
-//! 1. `file`, `aside`, `c99`, `together`, `read`: the text, by a small strict grammar
+//! 1. `file`, `aside`, `payload`, `c99`, `together`, `read`: the text, by a small strict grammar
 //! 2. `claim`, `compare`: the text is the program that is claimed, its literals rounded once
 //! 3. `program`, `identity`: that program equals the equations of motion, modulo primes that
 //!    SHA-256 draws
@@ -44,6 +44,7 @@ mod levels;
 mod maximum;
 #[cfg(feature = "certify")]
 mod near;
+pub mod payload;
 #[cfg(feature = "certify")]
 pub mod polynomial;
 pub mod program;

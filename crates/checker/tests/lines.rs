@@ -6,7 +6,7 @@ use std::fs;
 use crate::support::file;
 
 /// The most lines of all of it.
-const MOST: usize = 8553;
+const MOST: usize = 8650;
 
 /// The README names every file with its lines, rounded up to ten.
 #[test]

@@ -17,11 +17,14 @@ pub fn hold(q: &Joints, qd: &Joints, pose: &Joints) -> Joints {
     std::array::from_fn(|i| load[i] + STIFFNESS * (pose[i] - q[i]) - DAMPING * qd[i])
 }
 
-/// Returns the torques that hold half a kilogram, 0.1 m in front of the last link.
+/// Half a kilogram, 0.1 m in front of the last link. A body that cannot exist would not compile.
+const TOOL: carrying::Payload =
+    carrying::Payload::new(0.5, [0.0, 0.0, 0.1], [1e-3, 1e-3, 1e-3, 0.0, 0.0, 0.0]).unwrap();
+
+/// Returns the torques that hold the tool.
 pub fn hold_a_tool(q: &Joints) -> Joints {
-    let tool = carrying::Payload::new(0.5, [0.0, 0.0, 0.1], [1e-3, 1e-3, 1e-3, 0.0, 0.0, 0.0]);
     // Once for each tool.
-    let load = carrying::load(&tool);
+    let load = carrying::load(&TOOL);
     let sideways = carrying::Gravity([9.81, 0.0, 0.0]);
     carrying::gravity(q, &sideways, &load)
 }
@@ -43,10 +46,11 @@ pub fn mass(measured: &[(Joints, Joints)]) -> Option<f64> {
     (size > 0.0).then(|| along / size)
 }
 
-/// Returns the torques that sensors would measure at poses with a mass in the hand, without noise.
-pub fn measured(poses: &[Joints], mass: f64) -> Vec<(Joints, Joints)> {
-    let load = carrying::load(&carrying::Payload::new(mass, [0.0, 0.0, 0.02], [0.0; 6]));
+/// Returns the torques that sensors would measure at poses with a mass in the hand, without noise;
+/// `None` if the mass is negative.
+pub fn measured(poses: &[Joints], mass: f64) -> Option<Vec<(Joints, Joints)>> {
+    let load = carrying::load(&carrying::Payload::new(mass, [0.0, 0.0, 0.02], [0.0; 6])?);
     let floor = carrying::Gravity([0.0, 0.0, -9.81]);
     let with = |q: &Joints| (*q, carrying::gravity(q, &floor, &load));
-    poses.iter().map(with).collect()
+    Some(poses.iter().map(with).collect())
 }

@@ -11,7 +11,7 @@ fn main() {
     println!("holds with      {:.3?} N·m", hold::float(&q));
 
     let measured = hold::measured(&[q, [0.0, 0.2, 0.9], [1.0, -0.3, 0.5]], 0.7);
-    if let Some(mass) = hold::mass(&measured) {
+    if let Some(mass) = measured.and_then(|measured| hold::mass(&measured)) {
         println!("payload         {mass:.3} kg");
     }
 

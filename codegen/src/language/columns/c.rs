@@ -2,7 +2,9 @@
 //! `i * n + s`.
 
 use crate::function::Function;
-use crate::language::c99::{Names, float, is_bundle, is_number, is_told, largest, structure_name};
+use crate::language::c99::{
+    Names, argument_structure, float, is_bundle, is_number, is_told, largest, structure_name,
+};
 use crate::language::{Language, list};
 use crate::program::{Code, Literal, Program};
 
@@ -30,11 +32,16 @@ impl Columns {
             1 => "n + s".to_owned(),
             more => format!("({more}U * n) + s"),
         };
-        for argument in &program.arguments {
+        for &argument in &program.arguments {
             let (name, length) = (argument.name(), argument.length(sizes));
             parameters.push(format!("const {float} *{restrict} {name}"));
             let entries = list((0..length).map(|index| format!("{name}[{}]", at(index))));
-            gathered += &format!("        const {float} {name}_s[{length}] = {{{entries}}};\n");
+            gathered += &match argument_structure(argument, names) {
+                Some(kind) => {
+                    format!("        const {kind} {name}_s[1] = {{{{{{{entries}}}}}}};\n")
+                }
+                None => format!("        const {float} {name}_s[{length}] = {{{entries}}};\n"),
+            };
             passed.push(format!("{name}_s"));
         }
         if is_bundle(function) && !is_number(function) {

@@ -33,8 +33,13 @@ pub struct Symbols {
     pub is_cuda: bool,
 }
 
-/// A parameter: its kind, its name and its length.
+/// A parameter: its kind, its name and how many numbers it has.
 type Parameter = (String, String, usize);
+
+/// Returns the length of the array that a parameter is: one of a struct.
+fn count((kind, _, length): &Parameter) -> usize {
+    if kind.ends_with("_t") { 1 } else { *length }
+}
 
 impl<'r> Reader<'r> {
     /// Reads the function: its struct, itself, and those that call it.
@@ -48,11 +53,10 @@ impl<'r> Reader<'r> {
             false => ("void", ""),
         };
         let (parameters, macros) = (self.parameters(symbols), &symbols.macros);
-        let list = commas(
-            parameters
-                .iter()
-                .map(|(kind, name, length)| format!("{kind} {name}[{macros}_RESTRICT {length}]")),
-        );
+        let list = commas(parameters.iter().map(|own| {
+            let (kind, name, count) = (&own.0, &own.1, count(own));
+            format!("{kind} {name}[{macros}_RESTRICT {count}]")
+        }));
         let structure = self.structure(symbols);
         let head = |name: &str, far: &str| {
             format!("{structure} {inline} {returned} {name}({far}{list}) {{ {macros}_UNFUSED")
@@ -102,7 +106,13 @@ impl<'r> Reader<'r> {
     fn parameters(&self, symbols: &Symbols) -> Vec<Parameter> {
         let float = self.head.float();
         let given = self.head.arguments.iter();
-        let given = given.map(|own| (format!("const {float}"), own.name.to_owned(), own.length));
+        let given = given.map(|own| {
+            let kind = match own.is_struct() {
+                true => format!("const {}_{}_t", symbols.prefix, own.name),
+                false => format!("const {float}"),
+            };
+            (kind, own.name.to_owned(), own.length)
+        });
         let results = self.head.lengths();
         let results = results.map(|(name, length)| (float.to_owned(), name.to_owned(), length));
         let written = match &symbols.structure {
@@ -238,13 +248,15 @@ impl<'r> Reader<'r> {
         for own in &self.head.arguments {
             columns += &format!(", const {float} *{restrict} {}", own.name);
         }
-        for (kind, name, length) in parameters {
+        for own in parameters {
+            let (kind, name, length) = own;
             let entries = commas((0..*length).map(|index| format!("{name}[{}]", place(index))));
-            let given = match kind.starts_with("const ") {
-                true => format!(" = {{{entries}}}"),
-                false => String::new(),
+            let given = match (kind.starts_with("const "), kind.ends_with("_t")) {
+                (true, true) => format!(" = {{{{{{{entries}}}}}}}"),
+                (true, false) => format!(" = {{{entries}}}"),
+                (false, _) => String::new(),
             };
-            state += &format!("{kind} {name}_s[{length}]{given}; ");
+            state += &format!("{kind} {name}_s[{}]{given}; ", count(own));
         }
         for (field, length) in self.head.lengths() {
             columns += &format!(", {float} *{restrict} {field}");

@@ -64,6 +64,13 @@ pub struct Argument<'h> {
     pub length: usize,
 }
 
+impl Argument<'_> {
+    /// Returns true if it is a struct in C, with an array of its name.
+    fn is_struct(&self) -> bool {
+        ["load", "payload"].contains(&self.name)
+    }
+}
+
 /// The head of a function, and its results.
 #[derive(Clone, Debug)]
 pub struct Head<'h> {

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use std::str::FromStr;
 
 use super::tokens::{self, Token};
-use super::{Function, Head, Sines, Source, Symbols, TextError};
+use super::{Argument, Function, Head, Sines, Source, Symbols, TextError};
 use crate::program::{Operand, Program, Step};
 
 /// The most operations of a function.
@@ -275,8 +275,12 @@ impl<'r> Reader<'r> {
         }
         let word = self.next();
         let mut arguments = self.head.arguments.iter();
+        let argument = arguments.find(|own| own.name == word);
+        if self.symbols.is_some() && argument.is_some_and(Argument::is_struct) {
+            self.expect_all(&format!("->{word}"))?;
+        }
         if self.peek(0) == "["
-            && let Some(argument) = arguments.find(|own| own.name == word)
+            && let Some(argument) = argument
         {
             let entry = Operand::Entry(argument.place, self.index(argument.length)?);
             return match self.is_angle {
