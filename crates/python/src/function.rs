@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use dalembert_jit::{Function as Compiled, Real, Scalar};
+use dalembert_jit::{Function as Compiled, Output, Real, Scalar};
 use numpy::{Element, PyArrayDyn};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -10,6 +10,7 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::call::Call;
 use crate::convert::dtype;
+use crate::payload::{self, Load};
 use crate::results::Quantity;
 use crate::shape::shown;
 use crate::xla;
@@ -22,13 +23,15 @@ use crate::xla;
 ///
 /// Arguments, by place or name, are those of ``arguments``: ``q``, ``qd``, ``qdd``, ``tau``
 /// (positions, velocities, accelerations, torques: rad or m, a second, N·m or N), ``v`` and
-/// ``a`` of a controller, ``g`` (3,) in m/s², ``load``, which ``arm.load(payload)`` returns.
+/// ``a`` of a controller, ``g`` (3,) in m/s², ``load``, a :class:`dalembert.Load`, which
+/// ``arm.load(payload)`` returns.
 ///
 /// ``payload`` (10,) is mass, com x y z, inertia xx yy zz xy yz xz, in kg, m and kg·m²: the
 /// centre of mass in the last link's frame, the inertia about the centre of mass in the axes of
 /// that frame. It is the frame behind the last row of a table in standard DH, the last joint's
 /// own in modified DH, the last moving link's in a URDF, unless the robot file's
-/// ``payload_frame`` says otherwise; the tool's pose has no part in it.
+/// ``payload_frame`` says otherwise; the tool's pose has no part in it. Numbers that no body has
+/// are a ``ValueError``: a negative mass, a principal moment above the sum of the other two.
 ///
 /// ``out`` is an array, or a tuple of several, of the result's shape and dtype; ``threads``
 /// share many states among them. Arrays of float32 are computed as such where the arm was
@@ -86,6 +89,12 @@ impl Function {
     fn compiled(&self) -> impl Iterator<Item = &Compiled> {
         let all = self.arm.functions();
         self.places.iter().map(|&place| &all[place])
+    }
+
+    /// Returns true if it turns payloads into loads.
+    fn is_load(&self) -> bool {
+        let mut all = self.compiled();
+        all.any(|own| own.output() == Output::Load)
     }
 
     fn in_scalar(&self, scalar: Scalar) -> Option<&Compiled> {
@@ -160,6 +169,9 @@ impl Function {
         kwargs: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let given = self.given(args, kwargs)?;
+        if self.is_load() {
+            given.iter().try_for_each(payload::check)?;
+        }
         if threads == 0 {
             let name = self.__name__();
             return Err(PyValueError::new_err(format!(
@@ -215,6 +227,17 @@ impl Function {
                 None => return wrong(format!("argument `{name}` is missing")),
             }
         }
+        let named = names.iter().zip(&mut given);
+        for (_, value) in named.filter(|(name, _)| **name == "load") {
+            let load = value.cast::<Load>().ok();
+            let Some(numbers) = load.map(|own| own.get().numbers.bind(own.py()).clone()) else {
+                let kind = value.get_type();
+                return wrong(format!(
+                    "`load` is {kind}, expected what `arm.load(payload)` returns"
+                ));
+            };
+            *value = numbers;
+        }
         Ok(given)
     }
 
@@ -234,6 +257,10 @@ impl Function {
         };
         let mut results = call.run::<T>(py, given, out)?.into_iter();
         match (&self.structure, results.next()) {
+            (None, Some(result)) if self.is_load() => {
+                let numbers = result.into_any().unbind();
+                Ok(Bound::new(py, Load { numbers })?.into_any())
+            }
             (None, Some(result)) => Ok(result.into_any()),
             (Some(structure), first) => {
                 let all: Vec<_> = first.into_iter().chain(results).collect();

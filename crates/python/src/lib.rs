@@ -3,6 +3,7 @@
 //! - `load`: loading an arm, with progress and an end by Ctrl-C
 //! - `arm`: what is known of an arm
 //! - `function`: what is known of a function, and its arguments by place or by name
+//! - `payload`: which payloads are refused, and the loads that they are
 //! - `call`: a call with arrays; `convert`: objects as arrays, `shape`: broadcasting,
 //!   `results`: where results go
 //! - `xla`: calls from compiled programs of JAX
@@ -15,6 +16,7 @@ mod convert;
 mod function;
 mod load;
 mod memory;
+mod payload;
 mod results;
 mod shape;
 mod xla;
@@ -43,4 +45,6 @@ mod _dalembert {
     use super::load::load;
     #[pymodule_export]
     use super::memory::xla_handler;
+    #[pymodule_export]
+    use super::payload::Load;
 }

@@ -217,6 +217,42 @@ def test_parameters_are_arguments():
     fixed = dalembert.load(robot("planar2r"), outputs="gravity")
     assert_allclose(arm.gravity(q, g, none), fixed.gravity(q), atol=1e-12)
     assert np.abs(arm.gravity(q, g, carried) - fixed.gravity(q)).max() > 1
+    # Of many payloads there are many loads.
+    both = arm.load([np.zeros(10), [1.5, 0.1, 0, 0, 0, 0, 0, 0, 0, 0]])
+    assert_array_equal(arm.gravity(q, g, both)[1], arm.gravity(q, g, carried))
+    again = pickle.loads(pickle.dumps(carried))
+    assert_array_equal(arm.gravity(q, g, again), arm.gravity(q, g, carried))
+
+
+def test_a_payload_is_a_body_and_no_load():
+    arm = dalembert.load(robot("planar2r"), outputs="gravity", parameters="payload")
+    payload, q = np.array([1.5, 0.1, 0, 0, 0, 0.1, 0.1, 0, 0, 0]), [0.3, 0.2]
+    load = arm.load(payload)
+    assert isinstance(load, dalembert.Load) and load.numbers.ndim == 1
+    for passed in (payload, load.numbers, load.numbers.tolist()):
+        with pytest.raises(TypeError, match=r"expected what `arm.load\(payload\)` returns"):
+            arm.gravity(q, passed)
+        with pytest.raises(TypeError, match="`load` is"):
+            arm.gravity(q, load=passed)
+    with pytest.raises(TypeError, match="payload"):
+        arm.load(load)
+    for place, value, words in [
+        (0, -1, "the mass is -1"),
+        (0, 0, "the mass is zero"),
+        (0, np.nan, "finite"),
+        (2, np.inf, "finite"),
+        (4, -0.1, "a principal moment is negative"),
+        (6, 0.3, "exceeds the sum of the other two"),
+        (7, 0.2, "no body has this inertia"),
+    ]:
+        wrong = payload.copy()
+        wrong[place] = value
+        with pytest.raises(ValueError, match=words):
+            arm.load(wrong)
+        with pytest.raises(ValueError, match=f"at state 1.*{words}"):
+            arm.load([payload, wrong])
+    # A plate whose moments are rounded.
+    arm.load([1, 0, 0, 0, 0.1, 0.2, 0.3000001, 0, 0, 0])
 
 
 def test_arms_are_pickled_and_copied(tmp_path):

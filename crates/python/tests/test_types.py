@@ -45,8 +45,8 @@ def test_mypy_accepts_the_package(tmp_path):
 
 def test_stubs_name_what_there_is():
     stub = (Path(dalembert.__file__).parent / "_dalembert.pyi").read_text()
-    for owner in (_dalembert.Arm, _dalembert.Function):
+    for owner in (_dalembert.Arm, _dalembert.Function, _dalembert.Load):
         body = stub.split(f"class {owner.__name__}:")[1].split("\nclass ")[0].split("\ndef ")[0]
-        named = set(re.findall(r"def (\w+)\(", body)) - {"__call__", "__name__"}
+        named = set(re.findall(r"def (\w+)\(", body)) - {"__call__", "__name__", "__new__"}
         there = {name for name, _ in inspect.getmembers(owner) if not name.startswith("_")}
         assert named == there

@@ -351,8 +351,8 @@ def load(
         such.
     parameters
         What is an argument instead of a constant: ``"gravity"``, then functions take ``g``
-        (3,); ``"payload"``, then they take ``load``, which ``arm.load(payload)`` computes of
-        mass, centre of mass and inertia (10,).
+        (3,); ``"payload"``, then they take ``load``, a :class:`dalembert.Load`, which
+        ``arm.load(payload)`` computes of mass, centre of mass and inertia (10,).
     scene
         A scene of the robot file, with its tolerance, if it has one.
     formulation, effort, prefer, fma, sincos

@@ -1,12 +1,23 @@
-from typing import Any, Callable
+from typing import Any, Callable, Union
 
 from numpy.typing import ArrayLike
+
+class Load:
+    """A load: what ``arm.load(payload)`` returns, and the other functions take."""
+
+    def __new__(cls, numbers: Any) -> Load: ...
+    @property
+    def numbers(self) -> Any: ...
 
 class Function:
     """A function of an arm; ``help(dalembert.Function)`` says how it is called."""
 
     def __call__(
-        self, *args: ArrayLike, out: Any = None, threads: int = 1, **kwargs: ArrayLike
+        self,
+        *args: Union[ArrayLike, Load],
+        out: Any = None,
+        threads: int = 1,
+        **kwargs: Union[ArrayLike, Load],
     ) -> Any: ...
     @property
     def __name__(self) -> str: ...
