@@ -2,7 +2,6 @@
 //! file's, and the values that they have.
 
 use dalembert_model::number::Exact;
-use num_traits::{One, Signed};
 
 use super::say;
 use crate::figures::decimal;
@@ -18,10 +17,19 @@ pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
         Columns::None => return Vec::new(),
         Columns::Links | Columns::Base(_) => vec![String::new()],
     };
-    let named = [
-        "m2 is the mass of link 2, mx2, my2 and mz2 its first moments, m x, m y and m z, Ixx2 to",
-        "Ixz2 the entries of its tensor, all about the origin and in the axes of its DH frame.",
-    ];
+    let is_placed = setup.robot().rows().iter().any(|own| own.frame.is_some());
+    let whose = match is_placed {
+        false => "its DH frame.",
+        true => {
+            "its own frame,\nas `link_poses` has it: that of the robot file, a URDF or an MJCF. What is \
+             fixed to it is part of it."
+        }
+    };
+    let named = format!(
+        "m2 is the mass of link 2, mx2, my2 and mz2 its first moments, m x, m y and m z, Ixx2 to\n\
+         Ixz2 the entries of its tensor, all about the origin and in the axes of {whose}"
+    );
+    let named = named.lines().map(str::to_owned);
     let is_drive = |(own, _): &(Parameter, Exact)| !matches!(own, Parameter::Link(..));
     match over_base(function, setup) {
         Some(((sum, constant), base)) => {
@@ -35,11 +43,11 @@ pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
                 "|---|---|",
             ];
             say(&mut lines, head);
-            for (index, terms) in base.combinations.iter().enumerate() {
-                lines.push(format!("| {} | {} |", index + 1, combination(terms)));
+            for (index, name) in base.names().iter().enumerate() {
+                lines.push(format!("| {} | {name} |", index + 1));
             }
             lines.push(String::new());
-            say(&mut lines, named);
+            lines.extend(named);
             if base.combinations.iter().flatten().any(is_drive) {
                 let drives = [
                     "armature2 is the rotor's inertia that joint 2 feels, viscous2 its friction; they have",
@@ -57,7 +65,7 @@ pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
                 false => "viscous friction",
             };
             lines.push(format!("link 2. Armature and {friction} have none."));
-            say(&mut lines, named);
+            lines.extend(named);
         }
     }
     lines
@@ -135,42 +143,4 @@ fn over_base(
         return None;
     };
     Some((quantity.facts().linear?, setup.base(quantity).ok()?))
-}
-
-/// Returns a constant without factors of one and signs after signs.
-fn plain(constant: &Exact) -> String {
-    let mut text = String::new();
-    for c in constant.to_string().chars() {
-        if c == '*' {
-            let rest = text.strip_suffix('1');
-            let ends = |c: char| c.is_ascii_digit() || c == '.' || c == '/';
-            if let Some(rest) = rest.filter(|rest| !rest.ends_with(ends)) {
-                text.truncate(rest.len());
-                continue;
-            }
-        }
-        text.push(c);
-    }
-    text.replace("+-", " - ").replace('+', " + ")
-}
-
-/// Returns `Izz2 + 0.25 m3 - mx4`; exact.
-fn combination(terms: &[(Parameter, Exact)]) -> String {
-    let mut text = String::new();
-    for (parameter, factor) in terms {
-        let is_negative = factor.as_rational().is_some_and(Signed::is_negative);
-        let sign = match (text.is_empty(), is_negative) {
-            (true, true) => "-",
-            (true, false) => "",
-            (false, true) => " - ",
-            (false, false) => " + ",
-        };
-        let factor = match factor.as_rational() {
-            Some(value) if value.abs().is_one() => String::new(),
-            Some(value) => format!("{} ", decimal(&value.abs())),
-            None => format!("({}) ", plain(factor)),
-        };
-        text += &format!("{sign}{factor}{parameter}");
-    }
-    text
 }

@@ -344,12 +344,14 @@ impl Setup {
         function: Function,
         mut constant: impl FnMut(&Exact) -> S,
     ) -> Vec<Column<S>> {
-        if function.columns() == Columns::Links {
-            return of_links(self.robot.rows().len());
-        }
-        let base = self.base_of(function).ok().flatten();
-        let columns = base.map_or(&[][..], |base| &base.columns).iter();
-        columns.map(|c| c.map(&mut constant)).collect()
+        let columns = match function.columns() {
+            Columns::Links => of_links(&self.arm(Exact::clone)),
+            _ => match self.base_of(function) {
+                Ok(Some(base)) => base.columns.clone(),
+                Ok(None) | Err(_) => Vec::new(),
+            },
+        };
+        columns.iter().map(|c| c.map(&mut constant)).collect()
     }
 
     /// Returns the numbers that the lengths of a function's results follow from.

@@ -89,7 +89,7 @@ impl Statement<'_> {
         let by = reference_formulation(setup);
         let posed = self.task.posed(leaves);
         let constant = |x: &Exact| leaves.constant(x);
-        let mut all = of_links(setup.robot().rows().len());
+        let mut all = of_links(&setup.arm(constant));
         all.extend(of_drives(setup.robot()));
         let own: Vec<_> = self.columns.iter().map(|c| c.map(constant)).collect();
         let [whole, own] = [all, own].map(|columns| posed.regressor(by, self.quantity, &columns));

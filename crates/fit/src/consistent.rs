@@ -55,7 +55,7 @@ const NOTHING: f64 = 1e-6;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bodies {
     /// Of each link the ten of a full regressor: m, m x, m y, m z, Ixx, Iyy, Izz, Ixy, Iyz and
-    /// Ixz about the origin of its DH frame.
+    /// Ixz about the origin and in the axes of its own frame.
     pub links: Vec<[f64; 10]>,
     /// Rotor inertias; the robot file's where they are not identified.
     pub armature: Vec<f64>,

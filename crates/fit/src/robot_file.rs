@@ -2,6 +2,7 @@
 
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
+use dalembert_model::placed::Body;
 use dalembert_model::robot::{Inertia, Robot};
 use num_traits::Zero;
 
@@ -23,8 +24,7 @@ pub fn identified(model: &Model, bodies: &Bodies) -> Result<Robot, Error> {
     let mut robot = model.robot().clone();
     for (i, joint) in robot.joints.iter_mut().enumerate() {
         let link = bodies.links.get(i).copied().unwrap_or_default();
-        let (mass, com, inertia) = body(&link, i)?;
-        (joint.mass, joint.com, joint.inertia) = (mass, com, inertia);
+        joint.set_own_body(body(&link, i)?);
         joint.armature = rounded("armature", i, bodies.armature[i], 12)?;
         joint.viscous = rounded("viscous", i, bodies.viscous[i], 12)?;
         joint.coulomb = rounded("coulomb", i, bodies.coulomb[i], 12)?;
@@ -36,10 +36,7 @@ pub fn identified(model: &Model, bodies: &Bodies) -> Result<Robot, Error> {
 }
 
 /// Returns mass, centre of mass and the tensor about it, of the ten moments about the origin.
-fn body(
-    link: &[f64; 10],
-    index: usize,
-) -> Result<(Rational, [Rational; 3], Inertia<Rational>), Error> {
+fn body(link: &[f64; 10], index: usize) -> Result<Body, Error> {
     let [mass, x, y, z, xx, yy, zz, xy, yz, xz] = *link;
     let com = [x, y, z].map(|first| first / mass);
     let origin = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
@@ -59,7 +56,7 @@ fn body(
     for (digits, part) in attempts {
         let number = |value: f64| rounded("link", index, value, digits);
         let diagonal = |i: usize| number(about(i, i) + part * (xx + yy + zz));
-        let tensor = Inertia {
+        let inertia = Inertia {
             xx: diagonal(0)?,
             yy: diagonal(1)?,
             zz: diagonal(2)?,
@@ -68,9 +65,10 @@ fn body(
             xz: number(about(0, 2))?,
         };
         let mass = number(mass)?;
-        if tensor.defect(&mass).is_none() {
+        if inertia.defect(&mass).is_none() {
             let [x, y, z] = com;
-            return Ok((mass, [number(x)?, number(y)?, number(z)?], tensor));
+            let com = [number(x)?, number(y)?, number(z)?];
+            return Ok(Body { mass, com, inertia });
         }
     }
     Err(Error::Value {

@@ -216,7 +216,7 @@ impl<T: Float> Reference<T> {
         let motion = motion.of_rows(&arm.following);
         let arm = at_speeds(arm, &motion.qd);
         let columns = match quantity.shape().0.contains(&Axis::LinkParameters) {
-            true => &of_links(arm.links.len()),
+            true => &of_links(&arm),
             false => &at.columns,
         };
         let values = quantity.written(&Written {

@@ -16,10 +16,12 @@
 //! [`crate::verify::parameters`] proves it.
 //!
 //! - `moments`: the moments that links keep; `origins`: about which points
+//! - `names`: combinations in words
 //! - `elimination`: columns at random states, modulo a prime, and which depend on others
 
 mod elimination;
 mod moments;
+mod names;
 mod origins;
 
 use std::fmt;
@@ -37,7 +39,7 @@ use crate::words::Complaint;
 use elimination::{Reduced, reduced, values};
 use moments::{MAX_TERMS, Moment, kept, parts};
 
-/// A parameter of the robot file, about the origin of the link's DH frame.
+/// A parameter of the robot file, of a link about the origin and in the axes of its own frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Parameter {
     /// A parameter of a link.
@@ -109,8 +111,7 @@ impl BaseParameters {
             return Err(Complaint::new(message, help));
         }
         let arm = Arm::from_robot(robot, &mut Exact::clone).fold_base();
-        let n = arm.links.len();
-        let skeleton = Skeleton::with_columns(&arm, &setup.merged(), &of_links(n));
+        let skeleton = Skeleton::with_columns(&arm, &setup.merged(), &of_links(&arm));
         let regrouping = origins::chosen(&skeleton);
         // Without bodies of their own: only the frames matter here.
         let chain = Chain::new(&origins::without_bodies(&skeleton), &regrouping);
@@ -188,12 +189,19 @@ impl BaseParameters {
         })
     }
 
+    /// Returns every base parameter as a combination of the links' and the drives', in words.
+    pub fn names(&self) -> Vec<String> {
+        let all = self.combinations.iter();
+        all.map(|terms| names::combination(terms)).collect()
+    }
+
     /// Returns every base parameter's value for a robot of exact numbers.
     pub fn values(&self, arm: &Arm<Exact>) -> Vec<Exact> {
+        let bodies: Vec<_> = (0..arm.links.len()).map(|joint| arm.body(joint)).collect();
         let value = |terms: &Vec<(Parameter, Exact)>| {
             let terms = terms.iter().map(|(parameter, factor)| {
                 let own = match *parameter {
-                    Parameter::Link(joint, own) => own.of(&arm.links[joint]),
+                    Parameter::Link(joint, own) => own.of_body(&bodies[joint]),
                     Parameter::Armature(joint) => arm.links[joint].armature.clone(),
                     Parameter::Viscous(joint) => arm.links[joint].friction.viscous.clone(),
                 };

@@ -366,10 +366,10 @@ impl Arm {
     }
 
     /// Returns the parameters that base parameters add up: ten a link, about the origin and in the axes
-    /// of its frame, then armature and viscous friction of each row.
+    /// of its own frame, then armature and viscous friction of each row.
     pub(super) fn parameters(&self) -> Vec<Number> {
         let links = self.joints.iter().flat_map(|own| {
-            let body = own.body.moved(&own.link.inverse());
+            let body = own.body.moved(&own.shown.inverse());
             let [x, y, z] = body.first;
             let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = body.tensor;
             [body.mass, x, y, z, xx, yy, zz, xy, yz, xz]

@@ -266,7 +266,7 @@ impl<'a> At<'a> {
                 let joint = &mut arm.joints[place / 10];
                 let entry = |k: usize| if k == place % 10 { step } else { 0.into() };
                 let body = Body::new(std::array::from_fn(entry));
-                joint.body = joint.body.plus(&body.moved(&joint.link));
+                joint.body = joint.body.plus(&body.moved(&joint.shown));
             } else {
                 let joint = &mut arm.joints[place % rows];
                 let own = match place < 11 * rows {

@@ -52,16 +52,17 @@ pub(super) fn moments(j: &Pseudo) -> [f64; 10] {
     })
 }
 
-/// Returns J of a link of a robot file with the factor L of J = L Lᵀ. A link that no body has
-/// gets second moments until one has; one without a mass gets some.
+/// Returns J of a link of a robot file, in the link's own frame, with the factor L of J = L Lᵀ. A
+/// link that no body has gets second moments until one has; one without a mass gets some.
 pub(super) fn of_joint(joint: &Joint) -> (Pseudo, Pseudo) {
     let number = f64::nearest_rational;
-    let (mass, size) = match number(&joint.mass) {
+    let own = joint.own_body();
+    let (mass, size) = match number(&own.mass) {
         mass if mass > 0.0 => (mass, 0.1 * SOME_BODY.1),
         _ => SOME_BODY,
     };
-    let com = joint.com.each_ref().map(number);
-    let tensor = joint.inertia.map(number).rows();
+    let com = own.com.each_ref().map(number);
+    let tensor = own.inertia.map(number).rows();
     let half = 0.5 * (tensor[0][0] + tensor[1][1] + tensor[2][2]);
     let mut about: [[f64; 3]; 3] = core::array::from_fn(|i| {
         core::array::from_fn(|k| {

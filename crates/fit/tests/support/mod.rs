@@ -9,10 +9,14 @@ use dalembert_model::robot::{Inertia, Robot};
 
 pub const ARMS: [&str; 3] = ["puma560", "ur10", "panda"];
 
-/// Returns an arm of the generated ones.
+/// Returns an arm of the generated ones, or one whose joints are placed.
 pub fn file(name: &str) -> Robot {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../generated/robots");
-    let text = std::fs::read_to_string(format!("{folder}/{name}.toml")).unwrap();
+    let folder = match name.ends_with("_placed") {
+        true => "../model/tests/data",
+        false => "../../generated/robots",
+    };
+    let path = format!("{}/{folder}/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).unwrap();
     parse(&text).unwrap().robot
 }
 

@@ -154,6 +154,11 @@ impl<S> Default for Frames<S> {
 }
 
 impl<S> Frames<S> {
+    /// Returns a link's own frame in that of its row; `None` where it is that.
+    pub fn of_link(&self, link: usize) -> Option<&Columns<S>> {
+        self.links.get(link)?.as_ref()
+    }
+
     /// Returns every number through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Frames<T> {
         let links = self.links.iter();

@@ -27,10 +27,8 @@ pub fn poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> 
 
 /// Returns the pose of every link's own frame, in base axes.
 pub fn link_poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
-    let own = arm.frames.links.iter().map(Option::as_ref);
-    let own = own.chain(core::iter::repeat(None));
-    let poses = poses(arm, at).into_iter().zip(own);
-    let poses = poses.map(|(pose, own)| match own {
+    let poses = poses(arm, at).into_iter().enumerate();
+    let poses = poses.map(|(link, pose)| match arm.frames.of_link(link) {
         None => pose,
         Some(own) => pose.then(own),
     });

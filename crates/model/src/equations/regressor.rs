@@ -12,13 +12,13 @@ use alloc::vec::Vec;
 use super::chain::body::{Body, entry};
 pub use super::chain::{Column, Probed};
 use super::factor::scatter;
-use super::matrix::{minus, times, zero_vector};
+use super::matrix::{minus, opposite, times, transposed, zero_vector};
 use super::{Arm, DhVariables, Formulation, Link};
 use crate::robot::{Inertia, Robot};
 use crate::scalar::Scalar;
 
-/// An inertial parameter of a link, about the origin and in the axes of the
-/// link's DH frame; the tensor's entries as they stand in the matrix.
+/// An inertial parameter of a link, about the origin and in the axes of the link's own frame, as
+/// poses of links have it; the tensor's entries as they stand in the matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum LinkParameter {
     /// m
@@ -81,11 +81,6 @@ impl LinkParameter {
         body
     }
 
-    /// Returns its value for a link.
-    pub fn of<S: Scalar>(self, link: &Link<S>) -> S {
-        self.of_body(&Body::of(link))
-    }
-
     /// Returns its value for a body.
     pub fn of_body<S: Scalar>(self, body: &Body<S>) -> S {
         match self {
@@ -100,15 +95,39 @@ impl LinkParameter {
 }
 
 /// Returns the columns of a full regressor: every parameter of every link, link by link.
-pub fn of_links<S: Scalar>(joints: usize) -> Vec<Column<S>> {
+pub fn of_links<S: Scalar>(arm: &Arm<S>) -> Vec<Column<S>> {
     let of = |joint| {
+        let own = arm.frames.of_link(joint);
+        let in_row = move |unit: Body<S>| match own {
+            None => unit,
+            Some(own) => unit.carried(&transposed(&own.axes), &own.origin),
+        };
         let all = LinkParameter::ALL.into_iter();
         all.map(move |parameter| Column {
             joint,
-            of: Probed::Body(parameter.unit()),
+            of: Probed::Body(in_row(parameter.unit())),
         })
     };
-    (0..joints).flat_map(of).collect()
+    (0..arm.links.len()).flat_map(of).collect()
+}
+
+impl<S: Scalar> Arm<S> {
+    /// Returns the body of a link, about the origin and in the axes of the link's own frame.
+    pub fn body(&self, joint: usize) -> Body<S> {
+        let body = Body::of(&self.links[joint]);
+        match self.frames.of_link(joint) {
+            None => body,
+            Some(own) => body.moved(&opposite(&own.origin)).turned(&own.axes),
+        }
+    }
+
+    /// Returns every parameter of every link, in the order of [`of_links`].
+    pub fn parameters(&self) -> Vec<S> {
+        let bodies = (0..self.links.len()).map(|joint| self.body(joint));
+        bodies
+            .flat_map(|body| LinkParameter::ALL.map(|parameter| parameter.of_body(&body)))
+            .collect()
+    }
 }
 
 /// Returns the drives' columns of the parameters that a robot has: rotors' inertias,

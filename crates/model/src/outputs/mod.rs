@@ -121,7 +121,7 @@ registry! {
     regressor: Regressor { regressors: BaseRegressor }
         "Regressor Y(q, q̇, q̈) over the base parameters, n×k: the joint torques (forces) are τ = Y π.";
     full_regressor: FullRegressor { regressors: LinkRegressor }
-        "Regressor Y(q, q̇, q̈) over all links' parameters, n×10n: the links' part of the joint torques is Y π. A link has m, m x, m y, m z, Ixx, Iyy, Izz, Ixy, Iyz, Ixz, about the origin of its DH frame.";
+        "Regressor Y(q, q̇, q̈) over all links' parameters, n×10n: the links' part of the joint torques is Y π. A link has m, m x, m y, m z, Ixx, Iyy, Izz, Ixy, Iyz, Ixz about the origin of its frame, as `link_poses` has it.";
     passivity_regressor: PassivityRegressor { regressors: PassivityRegressor }
         "Regressor Y(q, q̇, v, a) of passivity-based control over the base parameters, n×k: D a + C v + c + b∘v = Y π, with C of the Christoffel symbols.";
     momentum_observer: MomentumObserver { energies: MomentumDrift }

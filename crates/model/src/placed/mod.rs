@@ -43,7 +43,7 @@ use alloc::vec::Vec;
 use crate::equations::matrix::Columns;
 use crate::number::recover::recovered;
 use crate::number::{Rational, Wide};
-use crate::robot::{Placement, Robot};
+use crate::robot::{Joint, Placement, Robot};
 use crate::scalar::Scalar;
 
 pub use frame::Body;
@@ -107,13 +107,8 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
         joint.a = recovered(&row.a, &size);
         joint.alpha = row.alpha;
         joint.beta = row.beta;
-        let own = Body {
-            mass: joint.mass.clone(),
-            com: joint.com.clone(),
-            inertia: joint.inertia.clone(),
-        };
         let back = frame::inverse(&row.frame);
-        let moved = frame::moved(&own, &back, &size);
+        let moved = frame::moved(&joint.body(), &back, &size);
         (joint.com, joint.inertia) = (moved.com, moved.inertia);
         joint.frame = placed_in(&back, joint.frame.as_ref(), &size).unless_identity();
         let fixed = robot.frames.iter_mut().filter(|frame| frame.joint == i);
@@ -127,6 +122,34 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
         *end = placed_in(&last, end.as_ref(), &size).unless_identity();
     }
     Ok(())
+}
+
+impl Joint {
+    /// Returns the link's body in the frame of its row.
+    fn body(&self) -> Body {
+        Body {
+            mass: self.mass.clone(),
+            com: self.com.clone(),
+            inertia: self.inertia.clone(),
+        }
+    }
+
+    /// Returns the link's body in the link's own frame.
+    pub fn own_body(&self) -> Body {
+        let body = self.body();
+        let Some(own) = &self.frame else { return body };
+        let back = frame::inverse(&frame::pose(own));
+        frame::moved(&body, &back, &own.size())
+    }
+
+    /// Replaces the link's body by one in the link's own frame.
+    pub fn set_own_body(&mut self, body: Body) {
+        let body = match &self.frame {
+            None => body,
+            Some(own) => frame::moved(&body, &frame::pose(own), &own.size()),
+        };
+        (self.mass, self.com, self.inertia) = (body.mass, body.com, body.inertia);
+    }
 }
 
 /// Returns where a frame is in another one, in which that which it is given in has this pose;

@@ -1,10 +1,11 @@
 //! Arms by frames, and their torques by the recursion in base axes over these
 //! frames: nothing of DH, nothing of the model's equations.
 
-use dalembert_model::reference::Reference;
+use dalembert_model::outputs::{Argument, Quantity};
+use dalembert_model::reference::{JointVectors, Reference};
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::field::Points;
-use nalgebra::{DVector, Matrix3, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use crate::support::vector;
 
@@ -228,8 +229,28 @@ fn by_frames(arm: &Arm, q: &[f64], qd: &[f64], qdd: &[f64]) -> (Vec<f64>, Pose) 
     ((0..n).map(torque).collect(), then(&at, &tool))
 }
 
+/// Returns the ten numbers of every link as the file gives them, in the link's frame: the mass,
+/// first moments and the tensor about the origin.
+fn parameters(arm: &Arm) -> DVector<f64> {
+    let link = |joint: &Joint| {
+        let mut sum = [0.0; 10];
+        for Body { mass, com, inertia } in &joint.bodies {
+            let tensor = inertia
+                + *mass * (Matrix3::identity() * com.norm_squared() - com * com.transpose());
+            let places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
+            let first = com.iter().map(|x| mass * x);
+            let own = [*mass].into_iter().chain(first);
+            let own = own.chain(places.map(|place| tensor[place]));
+            sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
+        }
+        sum
+    };
+    let all: Vec<f64> = arm.joints.iter().flat_map(link).collect();
+    DVector::from_vec(all)
+}
+
 /// Returns the worst difference at some states, relative to the largest torque; of
-/// poses, in metres.
+/// poses, in metres. Torques are those of the file's own parameters, too, by the regressor.
 pub fn compare(arm: &Arm, robot: &Robot, drawn: &mut Drawn) -> f64 {
     let runtime = Reference::<f64>::from_robot(robot);
     let mut worst: f64 = 0.0;
@@ -241,6 +262,22 @@ pub fn compare(arm: &Arm, robot: &Robot, drawn: &mut Drawn) -> f64 {
         let torques = vector(&torques);
         let found = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
         worst = worst.max((found - &torques).amax() / torques.amax());
+        let given = [
+            Argument::Position,
+            Argument::Velocity,
+            Argument::Acceleration,
+        ];
+        let given = given.into_iter().zip([&q, &qd, &qdd].map(Clone::clone));
+        let y = runtime.entries(Quantity::LinkRegressor, &JointVectors::new(given));
+        let (y, pi) = (
+            DMatrix::from_row_slice(n, 10 * n, &y.unwrap()),
+            parameters(arm),
+        );
+        let drives = arm.joints.iter().enumerate();
+        let drives = drives.map(|(i, own)| own.viscous * qd[i] + own.armature * qdd[i]);
+        let found = &y * &pi + DVector::from_iterator(n, drives);
+        let size = (y.abs() * pi.abs()).amax().max(torques.amax());
+        worst = worst.max((found - &torques).amax() / size);
         let pose = runtime.hand(&q).unwrap();
         for k in 0..3 {
             worst = worst.max((Vector3::from(pose.axes[k]) - hand.0.column(k)).amax());
