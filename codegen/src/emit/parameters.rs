@@ -4,7 +4,6 @@
 use dalembert_model::number::Exact;
 
 use super::say;
-use crate::figures::decimal;
 use crate::function::{Columns, Function};
 use crate::language::c99::{Names, float};
 use crate::program::{Literal, ScalarType};
