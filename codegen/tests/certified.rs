@@ -200,6 +200,7 @@ planar3r | | inverse_dynamics, gravity; parameters: gravity | 2
 planar2r | | TORQUES; sincos: polynomial | 6
 planar2r | | TORQUES; sincos: together; batch: on | 6
 planar2r | | TORQUES; fma: on | 6
+payload_frame | | regressor, full_regressor, passivity_regressor | 3
 "#;
 
 #[test]

@@ -36,6 +36,7 @@ const PASSIVITY: Linear = (
 /// a scene holds still or does not ask for needs fewer parameters; but rates that are zero are those
 /// of the arm, not those wished for: at rest friction and inertias have columns, which torques at
 /// rest have not. Parameters are more where gravity may have any direction than where it has one.
+/// Those of joints that are placed are in the frames of the file.
 const ROWS: &str = r#"
 planar2r | | torques passivity | 6 | 22 23 |
 planar3r | | torques passivity | 9 | 50 51 |
@@ -55,6 +56,7 @@ puma560  | velocity = "zero"; acceleration = "zero" | torques | +0 | |
 rubbed   | velocity = "zero"; acceleration = "zero" | torques | 4 | |
 rubbed   | velocity = "zero"; acceleration = "zero" | passivity | 7 | |
 rubbed   | joints = [2] | passivity | +1 | |
+payload_frame | | torques passivity | +0 | | in the axes of its own frame
 "#;
 
 /// Returns a regressor's case of an arm: of the tables, or a planar one with rotors and friction, or

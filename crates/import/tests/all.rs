@@ -5,5 +5,6 @@ mod golden;
 mod mimic;
 mod mjcf;
 mod mjcf_refusals;
+mod parameters;
 mod refusals;
 mod support;

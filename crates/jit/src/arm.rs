@@ -2,11 +2,15 @@
 
 use std::path::Path;
 
-use dalembert_codegen::workspace::{self, Argument, Code, Sizes, parse};
+use dalembert_codegen::workspace::{
+    self, Argument, Code, Parameter, Quantity, Setup, Sizes, parse,
+};
 use dalembert_codegen::{
     Counts, Function as Output, Language, Plan, Request, RobotFileError, ScalarType, generate,
 };
 use dalembert_import::{Text, Unopened, is_model, open_text};
+use dalembert_model::equations::regressor::LinkParameter;
+use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
 use dalembert_stamp::{Comment, Stamp};
 
@@ -244,6 +248,44 @@ impl Arm {
     /// [`files`](Arm::files), under its name and with the ending `claim.json`.
     pub fn claim(&self) -> &str {
         &self.entry.claim
+    }
+
+    /// Returns the parameters of every link by their names, a column of `full_regressor` each, of
+    /// links in their own frames.
+    ///
+    /// # Errors
+    /// [`LoadError`]: what is kept is damaged.
+    pub fn parameters(&self) -> Result<Vec<(String, f64)>, LoadError> {
+        let values = self.setup()?.arm(Exact::clone).parameters();
+        let links = 0..values.len() / LinkParameter::COUNT;
+        let names = links.flat_map(|link| {
+            let all = LinkParameter::ALL.into_iter();
+            all.map(move |own| Parameter::Link(link, own).to_string())
+        });
+        Ok(names.zip(values.iter().map(f64::nearest)).collect())
+    }
+
+    /// Returns the base parameters, each by the combination of parameters that it is, a column of
+    /// `regressor` each.
+    ///
+    /// # Errors
+    /// [`LoadError`]: among others, that there are none.
+    pub fn base_parameters(&self) -> Result<Vec<(String, f64)>, LoadError> {
+        let setup = self.setup()?;
+        let base = setup.base(Quantity::BaseRegressor);
+        let base = base.map_err(|why| LoadError::Generate(why.clone().into()))?;
+        let values = base.values(&setup.arm(Exact::clone));
+        let names = base.names().into_iter();
+        Ok(names.zip(values.iter().map(f64::nearest)).collect())
+    }
+
+    /// Returns the robot in its scene.
+    fn setup(&self) -> Result<Setup, LoadError> {
+        let reading = read_robot(&self.entry.robot, "the arm's robot file")?;
+        let request = self.load.request(&reading)?;
+        let setup = Setup::in_scene(&reading.robot, request.scene.as_ref());
+        let setup = setup.map_err(|why| LoadError::Generate(why.into()))?;
+        Ok(setup.taking(&request.parameters))
     }
 
     /// Returns what a user should know of the robot and its functions.

@@ -118,6 +118,19 @@ impl Arm {
         self.0.claim()
     }
 
+    /// Returns the parameters of every link, by their names.
+    #[getter]
+    fn parameters(&self) -> PyResult<Vec<(String, f64)>> {
+        self.0.parameters().map_err(|error| raised(&error))
+    }
+
+    /// Returns the base parameters, by the combinations that they are.
+    #[getter]
+    fn base_parameters(&self, py: Python<'_>) -> PyResult<Vec<(String, f64)>> {
+        let base = py.detach(|| self.0.base_parameters());
+        base.map_err(|error| raised(&error))
+    }
+
     /// Returns what there is to know of the robot and its functions.
     #[getter]
     fn notes(&self) -> Vec<String> {

@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import sys
 import warnings
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -253,6 +254,44 @@ def test_a_payload_is_a_body_and_no_load():
             arm.load([payload, wrong])
     # A plate whose moments are rounded.
     arm.load([1, 0, 0, 0, 0.1, 0.2, 0.3000001, 0, 0, 0])
+
+
+def test_parameters_are_those_of_the_urdf():
+    path = ROOT / "gallery" / "urdf" / "iiwa14.urdf"
+    outputs = ["inverse_dynamics", "full_regressor"]
+    arm = dalembert.load(path, tip="iiwa_link_ee", outputs=outputs)
+    root = ElementTree.parse(path).getroot()
+    expected, damping = [], []
+    for number, (name, _) in enumerate(arm.joints, 1):
+        joint = root.find(f"joint[@name='{name}']")
+        damping.append(float(joint.find("dynamics").get("damping")))
+        link = root.find(f"link[@name='{joint.find('child').get('link')}']/inertial")
+        c = np.array(link.find("origin").get("xyz").split(), float)
+        mass = float(link.find("mass").get("value"))
+        given = {key: float(value) for key, value in link.find("inertia").items()}
+        rows = np.array([[given["i" + min(a + b, b + a)] for b in "xyz"] for a in "xyz"])
+        about = rows + mass * (c @ c * np.eye(3) - np.outer(c, c))
+        expected += [mass, *(mass * c)] + [about[k] for k in ((0, 0), (1, 1), (2, 2))]
+        expected += [about[k] for k in ((0, 1), (1, 2), (0, 2))]
+        assert_allclose(arm.parameters[f"Ixy{number}"], about[0, 1], rtol=1e-12, atol=1e-15)
+    assert list(arm.parameters)[:11] == "m1 mx1 my1 mz1 Ixx1 Iyy1 Izz1 Ixy1 Iyz1 Ixz1 m2".split()
+    assert_allclose(list(arm.parameters.values()), expected, rtol=1e-12, atol=1e-15)
+    q, qd, qdd = np.random.default_rng(4).uniform(-2, 2, (3, 7))
+    tau = arm.inverse_dynamics(q, qd, qdd) - damping * qd
+    assert_allclose(arm.full_regressor(q, qd, qdd) @ expected, tau, atol=1e-11)
+
+
+def test_base_parameters_give_the_torques():
+    arm = dalembert.load(robot("planar2r"), outputs=["inverse_dynamics", "regressor"])
+    state = np.random.default_rng(5).uniform(-2, 2, (3, 2))
+    pi = list(arm.base_parameters.values())
+    assert_allclose(arm.regressor(*state) @ pi, arm.inverse_dynamics(*state), atol=1e-12)
+    # Each name is a sum of parameters.
+    for name, value in arm.base_parameters.items():
+        terms = re.findall(r"(-?) ?([\d.]+ )?([a-zI]+\d)", name)
+        signs = [-1 if minus else 1 for minus, _, _ in terms]
+        sums = [float(factor or 1) * arm.parameters[own] for _, factor, own in terms]
+        assert_allclose(np.dot(signs, sums), value, atol=1e-12)
 
 
 def test_arms_are_pickled_and_copied(tmp_path):

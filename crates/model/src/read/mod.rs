@@ -37,8 +37,8 @@
 //! this order, as in URDF. Joints are placed all or none; their `com` and
 //! `inertia`, the `tool` and payloads are in the links' own frames, whose
 //! origins lie on the joints' axes. [`placed`](crate::placed) says which rows they
-//! get. `link_poses` are those of the links' own frames: a joint with a row may say where
-//! that is in the row's, `frame`. Frames by name are in the links' own where joints are
+//! get. `link_poses` and the parameters of regressors are those of the links' own frames: a
+//! joint with a row may say where that is in the row's, `frame`. Frames by name are in the links' own where joints are
 //! placed, and in the rows' otherwise. A row may turn about y after
 //! its twist, `beta`, where axes are nearly parallel.
 //!

@@ -235,8 +235,8 @@ fn parameters(arm: &Arm) -> DVector<f64> {
     let link = |joint: &Joint| {
         let mut sum = [0.0; 10];
         for Body { mass, com, inertia } in &joint.bodies {
-            let tensor = inertia
-                + *mass * (Matrix3::identity() * com.dot(com) - com * com.transpose());
+            let tensor =
+                inertia + *mass * (Matrix3::identity() * com.dot(com) - com * com.transpose());
             let places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
             let first = com.iter().map(|x| mass * x);
             let own = [*mass].into_iter().chain(first);

@@ -111,6 +111,24 @@ class Arm:
         return Limits(*np.array(self._native.limits).reshape(-1, 5).T.copy())
 
     @property
+    def parameters(self) -> dict[str, float]:
+        """π of ``full_regressor``: ten numbers of each link, with the names of its columns.
+
+        ``m2`` is the mass of link 2, ``mx2``, ``my2`` and ``mz2`` its first moments, ``Ixx2`` to
+        ``Ixz2`` its tensor, about the origin and in the axes of the link's frame in the file, as
+        ``link_poses`` has it. What is fixed to a link is part of it.
+        """
+        return dict(self._native.parameters)
+
+    @functools.cached_property
+    def base_parameters(self) -> dict[str, float]:
+        """π of ``regressor``: each base parameter by its combination of :attr:`parameters`.
+
+        ``armature2`` is the rotor's inertia that joint 2 feels, ``viscous2`` its friction.
+        """
+        return dict(self._native.base_parameters)
+
+    @property
     def counts(self) -> dict[str, dict[str, int]]:
         """The operations of each function."""
         return {about["name"]: about["counts"] for about in reversed(self._native.functions)}

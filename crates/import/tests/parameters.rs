@@ -1,0 +1,209 @@
+//! τ = Y π with the ten numbers that the model itself gives of each link, in the frame of that link,
+//! what is fixed to it included.
+
+use crate::support::{exact, imported, source};
+use dalembert_import::{Options, import};
+use dalembert_model::outputs::{Argument, Quantity};
+use dalembert_model::reference::{JointVectors, Reference};
+use dalembert_model::robot::Robot;
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use num_traits::ToPrimitive;
+use roxmltree::{Document, Node};
+
+/// The mass, the first moments, and the tensor about the origin.
+type Parameters = [f64; 10];
+
+fn list(node: Node, key: &str, otherwise: &str) -> Vec<f64> {
+    let text = node.attribute(key).unwrap_or(otherwise);
+    let numbers = text.split_whitespace();
+    numbers.map(|x| x.parse().unwrap()).collect()
+}
+
+fn child<'a, 'i>(node: Node<'a, 'i>, tag: &str) -> Option<Node<'a, 'i>> {
+    node.children().find(|own| own.has_tag_name(tag))
+}
+
+/// A rotation and a translation.
+#[derive(Clone, Copy)]
+struct Pose(Matrix3<f64>, Vector3<f64>);
+
+impl Pose {
+    fn identity() -> Pose {
+        Pose(Matrix3::identity(), Vector3::zeros())
+    }
+
+    /// Returns this pose, then another one that is relative to it.
+    fn then(self, Pose(turned, at): Pose) -> Pose {
+        Pose(self.0 * turned, self.1 + self.0 * at)
+    }
+}
+
+/// Adds a body whose centre of mass is at a pose.
+fn add(sum: &mut Parameters, mass: f64, inertia: Matrix3<f64>, at: Pose) {
+    let Pose(turned, c) = at;
+    let about_centre = turned * inertia * turned.transpose();
+    let tensor = about_centre + mass * (Matrix3::identity() * c.dot(&c) - c * c.transpose());
+    let places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
+    let own = [mass].into_iter().chain(c.iter().map(|x| mass * x));
+    let own = own.chain(places.map(|place| tensor[place]));
+    sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
+}
+
+/// Returns where the origin of an element of a URDF is.
+fn origin(node: Node) -> Pose {
+    let origin = child(node, "origin");
+    let list = |key| origin.map_or(vec![0.0; 3], |own| list(own, key, "0 0 0"));
+    let rpy = list("rpy");
+    let ([sr, sp, sy], [cr, cp, cy]) = (
+        [0, 1, 2].map(|i| rpy[i].sin()),
+        [0, 1, 2].map(|i| rpy[i].cos()),
+    );
+    let about_x = Matrix3::new(1.0, 0.0, 0.0, 0.0, cr, -sr, 0.0, sr, cr);
+    let about_y = Matrix3::new(cp, 0.0, sp, 0.0, 1.0, 0.0, -sp, 0.0, cp);
+    let about_z = Matrix3::new(cy, -sy, 0.0, sy, cy, 0.0, 0.0, 0.0, 1.0);
+    Pose(
+        about_z * about_y * about_x,
+        Vector3::from_column_slice(&list("xyz")),
+    )
+}
+
+/// Adds a link of a URDF and all that is fixed to it, or locked at zero.
+fn add_link(sum: &mut Parameters, root: Node, link: &str, at: Pose, moving: &[String]) {
+    let tagged = |tag: &'static str| root.children().filter(move |own| own.has_tag_name(tag));
+    let own = tagged("link").find(|own| own.attribute("name") == Some(link));
+    if let Some(inertial) = child(own.unwrap(), "inertial") {
+        let number = |tag: &str, key: &str| list(child(inertial, tag).unwrap(), key, "0")[0];
+        let [xx, yy, zz, xy, yz, xz] =
+            ["ixx", "iyy", "izz", "ixy", "iyz", "ixz"].map(|key| number("inertia", key));
+        let inertia = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+        add(
+            sum,
+            number("mass", "value"),
+            inertia,
+            at.then(origin(inertial)),
+        );
+    }
+    for joint in tagged("joint") {
+        let end = |tag: &str| child(joint, tag).and_then(|own| own.attribute("link"));
+        let is_moving = moving
+            .iter()
+            .any(|own| joint.attribute("name") == Some(own.as_str()));
+        if end("parent") == Some(link) && !is_moving {
+            let at = at.then(origin(joint));
+            add_link(sum, root, end("child").unwrap(), at, moving);
+        }
+    }
+}
+
+/// Adds a body of an MJCF and all that is fixed to it.
+fn add_body(sum: &mut Parameters, body: Node, at: Pose) {
+    let pose = |node: Node| {
+        let quat = list(node, "quat", "1 0 0 0");
+        // (w² − v·v) 1 + 2 (v vᵀ + w v×), over the square of a quaternion that need not be one.
+        let (w, v) = (quat[0], Vector3::from_column_slice(&quat[1..]));
+        let square = w * w + v.dot(&v);
+        let turned = Matrix3::identity() * (w * w - v.dot(&v))
+            + 2.0 * (v * v.transpose() + w * v.cross_matrix());
+        Pose(
+            turned / square,
+            Vector3::from_column_slice(&list(node, "pos", "0 0 0")),
+        )
+    };
+    let inertial = child(body, "inertial").unwrap();
+    let moments = list(inertial, "diaginertia", "0 0 0");
+    let inertia = Matrix3::from_diagonal(&Vector3::from_column_slice(&moments));
+    let mass = list(inertial, "mass", "0")[0];
+    add(sum, mass, inertia, at.then(pose(inertial)));
+    let inside = body.children().filter(|own| own.has_tag_name("body"));
+    for own in inside.filter(|own| child(*own, "joint").is_none()) {
+        add_body(sum, own, at.then(pose(own)));
+    }
+}
+
+/// Returns the parameters of every link, by the joint that moves it.
+fn parameters(robot: &Robot, text: &str) -> Vec<f64> {
+    let document = Document::parse(text).unwrap();
+    let root = document.root_element();
+    let names: Vec<String> = robot
+        .joints
+        .iter()
+        .map(|joint| joint.name.clone().unwrap())
+        .collect();
+    let link = |name: &String| {
+        let mut sum = [0.0; 10];
+        let named = |own: &Node| own.attribute("name") == Some(name.as_str());
+        let joint = |own: &Node| own.has_tag_name("joint") && named(own);
+        if root.has_tag_name("mujoco") {
+            let joint = root.descendants().find(joint).unwrap();
+            add_body(&mut sum, joint.parent().unwrap(), Pose::identity());
+        } else {
+            let joint = root.children().find(joint).unwrap();
+            let link = child(joint, "child").unwrap().attribute("link").unwrap();
+            add_link(&mut sum, root, link, Pose::identity(), &names);
+        }
+        sum
+    };
+    names.iter().flat_map(link).collect()
+}
+
+/// Compares Y π with the torques, relative to what the sums are made of.
+fn check(name: &str, robot: &Robot, text: &str) {
+    let (n, pi) = (
+        robot.joints.len(),
+        DVector::from_vec(parameters(robot, text)),
+    );
+    let runtime = Reference::<f64>::from_robot(robot);
+    for state in 0..8 {
+        let [q, qd, qdd] = [1.7, 2.3, 5.9].map(|most| {
+            DVector::from_fn(n, |i, _| most * f64::sin(most * (1 + i + n * state) as f64))
+        });
+        let tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
+        let drives = DVector::from_fn(n, |i, _| {
+            let [viscous, armature] = [&robot.joints[i].viscous, &robot.joints[i].armature]
+                .map(|own| own.to_f64().unwrap());
+            viscous * qd[i] + armature * qdd[i]
+        });
+        let given = [
+            Argument::Position,
+            Argument::Velocity,
+            Argument::Acceleration,
+        ];
+        let given = given.into_iter().zip([q, qd, qdd]);
+        let y = runtime.entries(Quantity::LinkRegressor, &JointVectors::new(given));
+        let y = DMatrix::from_row_slice(n, 10 * n, &y.unwrap());
+        let size = (y.abs() * pi.abs()).amax();
+        let off = (&y * &pi + drives - tau).amax() / size;
+        assert!(off < 1e-12, "{name}: {off:e}");
+    }
+}
+
+/// The gallery's arm, then links with hands, fingers and frames that are merged, and turned.
+#[test]
+fn the_numbers_of_a_urdf_give_the_torques() {
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../gallery/urdf/iiwa14.urdf"
+    );
+    let text = std::fs::read_to_string(path).unwrap();
+    let options = Options {
+        exact: true,
+        tip: Some("iiwa_link_ee".to_owned()),
+        ..Options::default()
+    };
+    check("iiwa14", &import(&text, &options).unwrap().robot, &text);
+    for name in ["panda", "z1", "so101"] {
+        check(name, &imported(name, &exact(name)).robot, &source(name));
+    }
+}
+
+#[test]
+fn the_numbers_of_an_mjcf_give_the_torques() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/mjcf/ur5.xml");
+    let text = std::fs::read_to_string(path).unwrap();
+    let options = Options {
+        exact: true,
+        tip: Some("tool0".to_owned()),
+        ..Options::default()
+    };
+    check("ur5", &import(&text, &options).unwrap().robot, &text);
+}
