@@ -127,7 +127,8 @@ fn headers_are_compiled_without_a_warning() {
 /// stands behind them.
 #[test]
 fn a_payload_is_a_body_and_no_load() {
-    let asked = "outputs: gravity; parameters: payload; sincos: polynomial; language: c";
+    let asked = "outputs: gravity; parameters: payload; scalar: f64, f32; sincos: polynomial; \
+                 language: c";
     let text = Case::new("planar2r", "", asked).generated().text();
     let bodies = [
         ("0, 0, 0, 0, 0, 0, 0, 0, 0, 0", 1),
