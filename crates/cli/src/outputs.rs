@@ -53,8 +53,9 @@ pub(crate) fn run() -> Outcome {
         }
     }
     report.line(
-        "\nn joints, p base parameters. Units are for revolute joints; for a prismatic joint read N for N·m and m\n\
-         for rad. `NAME@FRAME` is an output at a frame, `NAME=A+B` a function with the results of A and B.",
+        "\nn joints, p base parameters. Units are for revolute joints; for a prismatic joint read N for\n\
+         N·m and m for rad. `NAME@FRAME` is an output at a frame, `NAME=A+B` a function with the\n\
+         results of A and B.",
     );
     report.table("arguments", "", arguments);
     Ok(report.into())

@@ -52,10 +52,15 @@ impl Tree<'_, '_, '_> {
             return Some(*link);
         }
         let message = match holds {
-            true => format!("{} links may be where the arm ends", tips.len()),
+            true => format!("{} links may be where the arm ends", moved.len()),
             false => format!("{} chains have {most} joints", moved.len()),
         };
-        let names: Vec<&str> = tips.iter().take(MAX_NAMES).map(name).collect();
+        // One end of each chain: those that one joint moves differ in poses alone.
+        let mut chains = BTreeSet::new();
+        let ends = tips
+            .iter()
+            .filter(|tip| chains.insert(self.moved_with(**tip, base)));
+        let names: Vec<&str> = ends.take(MAX_NAMES).map(name).collect();
         let mut help = format!("choose the end by --tip: {}", names.join(", "));
         let stands = self.fixed_to(base);
         let is_loaded = |tip: &usize| self.is_loaded(*tip, &stands, &heights);
