@@ -157,7 +157,7 @@ p_base_parameters(double → p_base_parameters(float
 ",
     );
     let own = planar2r(
-        "gravity; scalar: f64; name: p; language: c; parameters: payload",
+        "gravity; scalar: f64; name: p; parameters: payload; language: c",
         2,
     );
     own.refuses(

@@ -26,9 +26,9 @@ pub(super) fn check(
     let Some(name) = header::misnamed(&name, functions, request) else {
         return Ok(());
     };
-    let message = format!("`{name}` is not a valid C identifier for every compiler, or not unique");
-    let help = "at most 31 letters, digits and `_`, each name once: set the option `name` to a \
-                short one";
+    let message = format!("`{name}` is not a valid C identifier, or there are two of it");
+    let help =
+        "names have at most 31 letters, digits and `_`: set the option `name` to a short one";
     Err(GenerateError::refused(None, message, help))
 }
 

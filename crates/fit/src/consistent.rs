@@ -37,6 +37,9 @@ use barrier::Barrier;
 /// What is left of the barrier at the end: what it adds to the squared distance is below
 /// 2 μ times four a link and one a drive's parameter.
 const LAST: f64 = 5e-9;
+/// The least part of the squared distance that is left of the barrier: rounding hides what less of
+/// it does.
+const HIDDEN: f64 = 1e-12;
 /// The factor by which the barrier weakens at first. The objective is self-concordant: steps at
 /// one strength are bounded by (1/f − 1 + log f) times the barrier's parameter, some 50, over
 /// what a step gains, 0.1 or more (Boyd and Vandenberghe 2004, 11.5). Where the free parameters
@@ -137,7 +140,7 @@ pub fn consistent(model: &Model, fit: &Fit) -> Result<Bodies, Error> {
     // So strong that the robot file's bodies are near the best ones.
     let mut strength = distance(&theta).max(LAST / WEAKEN);
     let (mut weaken, mut steps) = (WEAKEN, 0);
-    while strength > LAST {
+    while strength > LAST.max(HIDDEN * distance(&theta)) {
         strength = (strength * weaken).max(LAST);
         let before = steps;
         let value = |theta: &[f64]| {

@@ -88,7 +88,7 @@ const ROWS: &[Row] = &[
     ("mass = 2", "mass = 99999999999999999999", "is not a number that TOML can hold", "1e30"),
     ("mass = 2", "mass = \"1/0\"", "denominator zero", ""),
     ("mass = 2", "mass = \"2 kg\"", "expected a number, found the string `2 kg`", "SI units"),
-    ("mass = 2", "mass = \"pi\"", "expected a number", "no angle"),
+    ("mass = 2", "mass = \"pi\"", "expected a number", "not an angle"),
     ("mass = 2", "mass = 2 kg", "expected newline, found an identifier", ""),
     ("a = 0.5", "a = half", "`half` is neither a number nor a quoted string", "in quotes"),
     ("a = 0.5", "a = 1979-05-27", "is not a number", ""),
