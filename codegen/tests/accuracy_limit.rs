@@ -1,10 +1,12 @@
 //! The limit on rounding errors: what it refuses, what is taken instead, and
 //! that a robot's last digits do not decide.
 
+use std::ops::Range;
+
 use dalembert_codegen::workspace::{Rounding, Runtime, Setup, seeded};
 use dalembert_codegen::{Function, GeneratedFunction, ScalarType};
 
-use crate::support::{Case, dose, largest, source};
+use crate::support::{Case, daily_and_campaign, largest, source};
 
 const TORQUES: &str = "inverse_dynamics";
 
@@ -27,9 +29,12 @@ fn heavier(source: &str, factor: f64) -> String {
     source.lines().map(line).collect()
 }
 
+daily_and_campaign! {
+    neighbours_cost_about_the_same: (0..2), (2..6);
+}
+
 /// An arm whose cheapest program is just about as inaccurate as is allowed.
-#[test]
-fn neighbours_cost_about_the_same() {
+fn neighbours_cost_about_the_same(places: Range<usize>) {
     let file = source("gen3", "");
     let own = operations(&found(&file, TORQUES, "accuracy"));
     let neighbours = [
@@ -40,7 +45,7 @@ fn neighbours_cost_about_the_same() {
         file.replace("d = -0.0016", "d = -0.0013"),
         file.replace("d = -0.0016", "d = -0.002"),
     ];
-    for neighbour in dose(&neighbours, 2) {
+    for neighbour in &neighbours[places] {
         assert_ne!(*neighbour, file);
         let other = operations(&found(neighbour, TORQUES, "accuracy"));
         assert!(own.abs_diff(other) * 50 <= own, "{own} and {other}");

@@ -6,7 +6,8 @@ use dalembert_codegen::workspace::{Certificate, Setup, claim, claim_of, keep};
 use dalembert_codegen::{Generated, Plan};
 
 use crate::support::{
-    self, Case, changes, dose, every_line_counts, every_output, in_scene, path, rows, source,
+    self, Case, all_but_one_in, changes, every_line_counts, every_output, in_scene, one_in, path,
+    rows, source,
 };
 
 /// A file, its claim and its robot.
@@ -30,6 +31,12 @@ impl Certified {
     /// Generates what is asked of a robot file.
     pub fn of(robot: &str, scene: Option<&str>, asked: &str) -> Vec<Certified> {
         Certified::from(&Case::read(robot, asked), robot, scene)
+    }
+
+    /// Generates what is asked of the arm in the plane; its first file.
+    pub fn planar2r(asked: &str) -> Certified {
+        let robot = source("planar2r", "");
+        Certified::from(&Case::planar2r(asked), &robot, None).remove(0)
     }
 
     fn from(case: &Case, robot: &str, scene: Option<&str>) -> Vec<Certified> {
@@ -135,9 +142,14 @@ impl Certified {
     }
 
     /// Asserts that nothing is shown with a line of code taken away or with one of these changes in
-    /// it, of which every so manyth is tried; returns how many were.
+    /// it, of which those at some places are tried; returns how many were.
     #[track_caller]
-    pub fn every_line_counts(&self, step: usize, table: &str, is_code: fn(&str) -> bool) -> usize {
+    pub fn every_line_counts(
+        &self,
+        is_tried: fn(usize) -> bool,
+        table: &str,
+        is_code: fn(&str) -> bool,
+    ) -> usize {
         let changes = changes(table);
         let others = |_, line: &str| {
             let changed = changes.iter().map(|[from, to]| line.replacen(from, to, 1));
@@ -147,77 +159,106 @@ impl Certified {
             }
         };
         let is_refused = |text: &str| self.with(text).refusal().is_some();
-        every_line_counts(&self.text, step, others, is_refused)
+        every_line_counts(&self.text, is_tried, others, is_refused)
     }
 }
 
-/// Arms of two and three joints, one of them with a base and a tool at odd angles, one of placed
-/// joints, then larger ones for optimised tests: of ten joints, with joints that follow, of
-/// general angles.
-const ROBOTS: &str = "planar2r base_and_tool scara_placed planar3r scara stanford puma560 \
-    open_manipulator panda general6r";
+/// Generates what is asked of a robot file in Rust and in C: the files, and the number of scalars in
+/// each. The programs of Rust are not searched for again.
+fn in_both(robot: &str, scene: Option<&str>, asked: &str) -> Vec<(Certified, usize)> {
+    let (mut plan, mut files) = (None, Vec::new());
+    for (language, scalars) in [("rust", 1), ("c", 2)] {
+        // Batches in Rust are what the crate of vectors has made of them.
+        let asked = match language {
+            "rust" => asked.replace("; batch: on", ""),
+            _ => asked.to_owned(),
+        };
+        let asked = format!("{asked}; scalar: f64, f32; language: {language}");
+        let mut case = Case::read(robot, &asked);
+        case.request.plan = plan.take();
+        let generated = case.generated();
+        let written = Certified::of_generated(&case, &generated, robot, scene);
+        files.extend(written.into_iter().map(|own| (own, scalars)));
+        plan = Some(keep(case.robot(), &case.request, &generated, None).plan);
+    }
+    assert_eq!(files.len(), 3, "{asked}");
+    files
+}
 
-#[test]
-fn every_function_is_shown_in_both_scalars_and_languages() {
-    let robots: Vec<&str> = ROBOTS.split(' ').collect();
-    for name in dose(&robots, 3) {
-        let (robot, mut plan) = (source(name, ""), None);
-        for (language, count) in [("rust", 35), ("c", 70)] {
-            let outputs = every_output();
-            let asked = format!("outputs: {outputs}; scalar: f64, f32; language: {language}");
-            let mut case = Case::read(&robot, &asked);
-            case.request.plan = plan.take();
-            let generated = case.generated();
-            let files = Certified::of_generated(&case, &generated, &robot, None);
-            for own in &files {
-                own.is_shown(count, &format!("{name} {language}"));
-            }
-            assert_eq!(files.len() * count, 70);
-            // What was found is not searched for again.
-            plan = Some(keep(case.robot(), &case.request, &generated, None).plan);
+/// Arms of two and three joints, one of them with a base and a tool at odd angles, then those of a
+/// campaign: one of placed joints, and larger ones: of ten joints, with joints that follow, of
+/// general angles.
+const ROBOTS: [&str; 10] = [
+    "planar2r",
+    "base_and_tool",
+    "scara_placed",
+    "planar3r",
+    "scara",
+    "stanford",
+    "puma560",
+    "open_manipulator",
+    "panda",
+    "general6r",
+];
+
+support::daily_and_campaign! {
+    every_function_is_shown_in_both_scalars_and_languages: (&ROBOTS[..2]), (&ROBOTS[2..]);
+    scenes_frames_friction_arguments_and_ways_of_printing_are_shown: (CASES[0]), (CASES[1]);
+    variants_that_a_tolerance_admits_are_shown: (&TOLERATED[..2]), (&TOLERATED[2..]);
+    variants_of_plans_are_shown: (&PLANNED[..1]), (&PLANNED[1..]);
+    robots_that_are_others: (FEW), (&others_than_few());
+    no_line_of_a_function_can_say_something_else: (one_in::<22>), (all_but_one_in::<22>);
+}
+
+fn every_function_is_shown_in_both_scalars_and_languages(robots: &[&str]) {
+    let asked = format!("outputs: {}", every_output());
+    for name in robots {
+        for (own, scalars) in in_both(&source(name, ""), None, &asked) {
+            own.is_shown(35 * scalars, name);
         }
     }
 }
 
 /// What scenes fix and carry, frames, friction, joints that follow, arguments, sources of sines and
 /// ways of printing: a robot, the lines of a scene or of a frame, what is asked, and how many
-/// functions there are.
-const CASES: &str = r#"
-TORQUES := inverse_dynamics, gravity, inertia, forward_dynamics, dalembert_terms, link_poses
-EYE := [[frame]]; name = "eye"; link = 2; xyz = [0.1, 0.2, 0]; rpy = [0, 0.3, 0.5]
+/// functions there are. The second table is a campaign's.
+const CASES: [&str; 2] = [
+    r#"
 planar3r | lock = { 2 = 0.3 }; payload = { mass = 1.5, com = [0.1, 0.2, 0], inertia = [0.1, 0.2, 0.25, 0, 0, 0] }; gravity = [1, 2, -3] | TORQUES | 6
-planar3r | lock = { 2 = "pi/6" }; joints = [1, 2] | TORQUES, inverse_dynamics_derivatives, null_space_projector | 8
-planar3r | velocity = "zero"; acceleration = "zero"; joints = [3, 1] | TORQUES, regressor | 7
-scara    | lock = { 3 = 0.1 } | TORQUES, jacobian | 7
+planar3r | lock = { 2 = "pi/6" }; joints = [1, 2] | inverse_dynamics_derivatives, null_space_projector | 2
 planar2r | EYE | jacobian@eye:local:linear, jacobian@eye:world, jacobian_rate@eye:local, jacobian_rate@eye:world:x_rz, forward_kinematics@eye, contact_wrench@eye:linear, operational_inertia@eye:x_y, null_space_projector@hand:linear, inverse_dynamics_with_wrench@eye:local | 9
 planar2r | | servo=inverse_dynamics+jacobian, kinetic_energy | 2
-coulomb  | | inverse_dynamics, forward_dynamics, inverse_dynamics_derivatives, passivity, momentum_observer, forward_dynamics_derivatives | 6
-coulomb  | velocity = "zero" | inverse_dynamics, inverse_dynamics_derivatives | 2
-coulomb  | | forward_dynamics_second_derivatives, inverse_dynamics_second_derivatives | 2
-wafer    | | inverse_dynamics, gravity, coriolis_matrix, forward_dynamics | 4
+coulomb  | | inverse_dynamics, passivity | 2
+wafer    | | inverse_dynamics, gravity | 2
 planar2r | | inverse_dynamics, inertia, forward_dynamics; parameters: payload, gravity | 4
-planar3r | | inverse_dynamics, gravity; parameters: gravity | 2
 planar2r | | TORQUES; sincos: polynomial | 6
 planar2r | | TORQUES; sincos: together; batch: on | 6
 planar2r | | TORQUES; fma: on | 6
 payload_frame | | regressor, full_regressor, passivity_regressor | 3
-"#;
+"#,
+    r#"
+planar3r | lock = { 2 = "pi/6" }; joints = [1, 2] | TORQUES | 6
+planar3r | velocity = "zero"; acceleration = "zero"; joints = [3, 1] | TORQUES, regressor | 7
+scara    | lock = { 3 = 0.1 } | TORQUES, jacobian | 7
+coulomb  | | forward_dynamics, inverse_dynamics_derivatives, momentum_observer, forward_dynamics_derivatives | 4
+coulomb  | velocity = "zero" | inverse_dynamics, inverse_dynamics_derivatives | 2
+coulomb  | | forward_dynamics_second_derivatives, inverse_dynamics_second_derivatives | 2
+wafer    | | coriolis_matrix, forward_dynamics | 2
+planar3r | | inverse_dynamics, gravity; parameters: gravity | 2
+"#,
+];
 
-#[test]
-fn scenes_frames_friction_arguments_and_ways_of_printing_are_shown() {
-    for [name, lines, asked, count] in rows::<4>(CASES) {
+fn scenes_frames_friction_arguments_and_ways_of_printing_are_shown(table: &str) {
+    let names = r#"
+TORQUES := inverse_dynamics, gravity, inertia, forward_dynamics, dalembert_terms, link_poses
+EYE := [[frame]]; name = "eye"; link = 2; xyz = [0.1, 0.2, 0]; rpy = [0, 0.3, 0.5]
+"#;
+    for [name, lines, asked, count] in rows::<4>(&format!("{names}{table}")) {
+        let (robot, asked) = in_scene(&name, &lines, &format!("{asked}; name: p"));
+        let scene = asked.starts_with("scene: ").then_some("test");
         let count: usize = count.parse().unwrap();
-        for language in ["rust", "c"] {
-            // Batches in Rust are what the crate of vectors has made of them.
-            let asked = match language {
-                "rust" => asked.replace("; batch: on", ""),
-                _ => asked.clone(),
-            };
-            let asked = format!("{asked}; scalar: f64, f32; name: p; language: {language}");
-            for own in Certified::all(&name, &lines, &asked) {
-                let count = if language == "c" { 2 * count } else { count };
-                own.is_shown(count, &format!("{name} {lines} {asked}"));
-            }
+        for (own, scalars) in in_both(&robot, scene, &asked) {
+            own.is_shown(count * scalars, &format!("{name} {lines} {asked}"));
         }
     }
 }
@@ -236,26 +277,23 @@ const TOLERATED: [(&str, usize, usize); 8] = [
     ("allfn", 48, 41),
 ];
 
-#[test]
-fn variants_that_a_tolerance_admits_are_shown() {
+fn variants_that_a_tolerance_admits_are_shown(scenes: &[(&str, usize, usize)]) {
     let scara =
         std::fs::read_to_string(path("../crates/checker/tests/data/attacks/scara.toml")).unwrap();
-    for &(scene, count, held) in dose(&TOLERATED, 3) {
-        for language in ["rust", "c"] {
-            let asked = format!("scene: {scene}; scalar: f64, f32; language: {language}");
-            for own in Certified::of(&scara, Some(scene), &asked) {
-                let both = if language == "c" { 2 } else { 1 };
-                own.holds(both * count, both * held, &asked);
-            }
+    for &(scene, count, held) in scenes {
+        for (own, scalars) in in_both(&scara, Some(scene), &format!("scene: {scene}")) {
+            own.holds(scalars * count, scalars * held, scene);
         }
     }
 }
 
-/// A joint that slides, seven joints of modified rows, three parallel axes and sines by polynomials:
-/// variants of the plans beside these robots.
-#[test]
-fn variants_of_plans_are_shown() {
-    for &(name, count) in dose(&[("stanford", 6), ("panda", 7), ("ur10", 6)], 1) {
+/// Robots with plans, and the number of results: a joint that slides, seven joints of modified rows,
+/// three parallel axes and sines by polynomials.
+const PLANNED: [(&str, usize); 3] = [("stanford", 6), ("panda", 7), ("ur10", 6)];
+
+/// Variants of the plans beside these robots.
+fn variants_of_plans_are_shown(robots: &[(&str, usize)]) {
+    for &(name, count) in robots {
         let robot = source(name, "");
         let plan = std::fs::read_to_string(path(&format!("../generated/robots/{name}.plan")));
         let mut case = Case::read(&robot, "scene: swing; scalar: f64");
@@ -266,21 +304,30 @@ fn variants_of_plans_are_shown() {
     }
 }
 
+/// Outputs that are looked at daily.
+const FEW: &str = "inverse_dynamics, gravity, inertia, forward_kinematics, link_poses";
+
+/// Returns the names of all others.
+fn others_than_few() -> String {
+    let all = every_output();
+    let is_few = |name: &str| FEW.split(", ").any(|few| few == name);
+    let others: Vec<&str> = all.split(", ").filter(|name| !is_few(name)).collect();
+    others.join(", ")
+}
+
 /// Another robot, scene or frame is seen in what it changes, and in nothing else: words of a robot
-/// file, those in their place, and a function that is the same.
-#[test]
-fn robots_that_are_others() {
+/// file, those in their place, and a function that is the same, one daily and one of the others.
+fn robots_that_are_others(outputs: &str) {
     let robot = std::fs::read_to_string(path("../crates/checker/tests/data/hand.toml")).unwrap();
-    let asked = format!("outputs: {}; scalar: f64", every_output());
-    let own = &Certified::of(&robot, None, &asked)[0];
-    own.is_shown(35, "hand");
+    let own = &Certified::of(&robot, None, &format!("outputs: {outputs}; scalar: f64"))[0];
+    own.is_shown(outputs.split(", ").count(), "hand");
     for [from, to, kept] in rows(
         "
-0, 0.107]      | 0, 0.1071]                      | inertia
-[0, 0, -0.2]   | [0, 0, -0.21]                   | forward_kinematics
-0.1, 0.2, 0.8] | 0.1, 0.2, 0.81]                 | inertia
-viscous = 0.4  | viscous = 0.41                  | gravity
-viscous = 0.4  | viscous = 0.4000000000000000001 | gravity
+0, 0.107]      | 0, 0.1071]                      | inertia coriolis
+[0, 0, -0.2]   | [0, 0, -0.21]                   | forward_kinematics jacobian
+0.1, 0.2, 0.8] | 0.1, 0.2, 0.81]                 | inertia coriolis
+viscous = 0.4  | viscous = 0.41                  | gravity kinetic_energy
+viscous = 0.4  | viscous = 0.4000000000000000001 | gravity kinetic_energy
 ",
     ) {
         assert!(robot.contains(&from), "{from}");
@@ -288,7 +335,8 @@ viscous = 0.4  | viscous = 0.4000000000000000001 | gravity
         other.robot = robot.replacen(&from, &to, 1);
         let report = other.report().unwrap();
         let mut lines = report.lines.iter();
-        let is_kept = lines.any(|line| line.name == kept && line.result.is_ok());
+        let is_one = |name: &str| kept.split(' ').any(|kept| kept == name);
+        let is_kept = lines.any(|line| is_one(&line.name) && line.result.is_ok());
         assert!(!report.is_shown() && is_kept, "{to}: {report:?}");
     }
 }
@@ -349,19 +397,18 @@ const· → const volatile· … { → { let x = 0.0;
 ";
 
 /// Each line changed in each way, or taken away: nothing is shown then.
-#[test]
-fn no_line_of_a_function_can_say_something_else() {
-    let step = if cfg!(debug_assertions) { 11 } else { 1 };
+fn no_line_of_a_function_can_say_something_else(is_tried: fn(usize) -> bool) {
     let mut count = 0;
     for name in every_output().split(", ") {
         for language in ["rust", "c"] {
             let asked = format!("{name}; scalar: f64; name: p; language: {language}");
-            let own = &Certified::all("planar2r", "", &asked)[0];
+            let own = Certified::planar2r(&asked);
             own.is_shown(1, &asked);
-            count += own.every_line_counts(step, CHANGES, is_code);
+            count += own.every_line_counts(is_tried, CHANGES, is_code);
         }
     }
-    assert!(count > 18_000 / step, "{count}");
+    let least = (0..17_000).filter(|place| is_tried(*place)).count();
+    assert!(count > least, "{count}");
 }
 
 /// Returns whether a line is neither a comment nor a brace.

@@ -6,7 +6,7 @@ use dalembert_checker::identity::table::Function;
 use serde_json::{Value, json};
 
 use crate::certified::Certified;
-use crate::support::{changes, path, rows};
+use crate::support::{all_but_one_in, changes, daily_and_campaign, one_in, path, rows};
 
 /// Returns a file of the attacks on the checker.
 fn attack(name: &str) -> String {
@@ -18,7 +18,7 @@ fn attack(name: &str) -> String {
 
 /// Returns a file of what is asked of the arm in the plane, of which so many functions are shown.
 fn planar2r(asked: &str, count: usize) -> Certified {
-    let own = Certified::all("planar2r", "", asked).remove(0);
+    let own = Certified::planar2r(asked);
     own.is_shown(count, asked);
     own
 }
@@ -71,10 +71,13 @@ sines[0] → sines[1] … &q[0] → &q[1] … sines, cosines → cosines, sines 
 _sines_2 → _sines_1
 ";
 
+daily_and_campaign! {
+    lines_around_functions_that_are_something_else: (one_in::<5>), (all_but_one_in::<5>);
+}
+
 /// No line of the functions that give sines, or of those that call a function at many states, can
 /// go or say something else.
-#[test]
-fn lines_around_functions_that_are_something_else() {
+fn lines_around_functions_that_are_something_else(is_tried: fn(usize) -> bool) {
     const OTHERS: [&str; 9] = [
         "const double t",
         "//",
@@ -90,12 +93,11 @@ fn lines_around_functions_that_are_something_else() {
         let words = line.trim();
         !words.is_empty() && !OTHERS.iter().any(|start| words.starts_with(start))
     };
-    let step = if cfg!(debug_assertions) { 5 } else { 1 };
     for options in ["together", "together; batch: on"] {
         let asked = "gravity, kinetic_energy, servo=inertia+gravity; scalar: f64; name: p";
         let asked = format!("{asked}; sincos: {options}; language: c");
         let own = planar2r(&asked, 3);
-        let count = own.every_line_counts(step, AROUND, is_around);
+        let count = own.every_line_counts(is_tried, AROUND, is_around);
         assert!(count > 60, "{count}");
     }
 }

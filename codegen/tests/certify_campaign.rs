@@ -1,7 +1,9 @@
 //! No certificate is violated, and none is much too large: pruned variants of four robots, and of
 //! robots that nobody chose, run at corners, random states and where a climb ends. The whole
-//! campaign is in `src/certificate/README.md`; this is its smaller dose. And bars of the PUMA's
+//! campaign is in `src/certificate/README.md`; this is a smaller one. And bars of the PUMA's
 //! certified trade, which only ever go down.
+
+use std::ops::Range;
 
 use dalembert_codegen::workspace::{
     BoundEffort, BoxEffort, Certificate, ErrorBudget, InputBox, PruneSettings, Setup,
@@ -14,7 +16,7 @@ use dalembert_model::scene::{Scale, Scene};
 
 use crate::certify_certificate::{Exact, certified, tried};
 use crate::support::draw::{Draw, robots};
-use crate::support::{self, largest};
+use crate::support::{self, daily_and_campaign, largest};
 
 /// Between a glance and a certificate.
 const FINENESS: BoundEffort = BoundEffort {
@@ -70,26 +72,26 @@ fn campaign(name: &str, tolerance: f64, scalars: &[ScalarType], guesses: usize) 
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "a minute without optimisation")]
+#[ignore = "minutes: the step `campaigns` of .ci/run"]
 fn puma_at_a_tenth() {
     campaign("puma560", 1e-1, &ScalarType::ALL, 5);
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "half a minute without optimisation")]
+#[ignore = "minutes: the step `campaigns` of .ci/run"]
 fn stanford_at_a_hundredth() {
     campaign("stanford", 1e-2, &ScalarType::ALL, 5);
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "half a minute without optimisation")]
+#[ignore = "minutes: the step `campaigns` of .ci/run"]
 fn ur10_at_a_tenth() {
     campaign("ur10", 1e-1, &[ScalarType::F64], 3);
 }
 
 /// A search over seven joints takes longer than a test may: rounding alone.
 #[test]
-#[cfg_attr(debug_assertions, ignore = "half a minute without optimisation")]
+#[ignore = "minutes: the step `campaigns` of .ci/run"]
 fn panda_at_a_billionth() {
     campaign("panda", 1e-9, &[ScalarType::F64], 0);
 }
@@ -116,12 +118,16 @@ fn limited(mut robot: Robot, draw: &mut Draw) -> Robot {
     robot
 }
 
-/// Robots of 1 to 4 joints, sliding ones and parts of the circle among them: in single precision as
-/// they are, and with what a tolerance leaves out, where that takes no longer than a test may.
-#[test]
-fn bounds_of_robots_that_nobody_chose() {
+daily_and_campaign! {
+    bounds_of_robots_that_nobody_chose: (0xb0..0xb4), (0xb4..0xbc);
+}
+
+/// Robots of 1 to 4 joints, sliding ones and parts of the circle among them, those of some seeds: in
+/// single precision as they are, and with what a tolerance leaves out, where that takes no longer
+/// than a test may.
+fn bounds_of_robots_that_nobody_chose(seeds: Range<u64>) {
     let small = robots(12, 0xb0).filter(|(_, robot, _)| robot.joints.len() <= 4);
-    for (seed, robot, mut draw) in small {
+    for (seed, robot, mut draw) in small.filter(|(seed, ..)| seeds.contains(seed)) {
         let n = robot.joints.len();
         let range = |robot: &Robot, program: &Program| {
             let setup = Setup::whole(robot);
@@ -176,19 +182,19 @@ fn bar(tolerance: f64, operations: usize) {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "minutes without optimisation")]
+#[ignore = "minutes: the step `campaigns` of .ci/run"]
 fn puma_at_five_percent() {
     bar(5e-2, 77);
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "minutes without optimisation")]
+#[ignore = "minutes: the step `campaigns` of .ci/run"]
 fn puma_at_one_percent() {
     bar(1e-2, 117);
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "minutes without optimisation")]
+#[ignore = "minutes: the step `campaigns` of .ci/run"]
 fn pumas_inertia_is_positive_definite_over_the_whole_box() {
     let robot = support::robot("puma560");
     let program = support::one(&robot, Function::Inertia).program;

@@ -4,6 +4,8 @@
 //! test's own, and run against the runtime.
 
 use std::collections::HashMap;
+use std::ops::Range;
+use std::sync::LazyLock;
 
 use dalembert_checker::certify::Bounded;
 use dalembert_checker::claim::Claim;
@@ -17,10 +19,11 @@ use dalembert_model::scalar::Scalar;
 use serde_json::Value;
 
 use crate::certified::Certified;
-use crate::support::{Case, largest, read};
+use crate::support::{Case, daily_and_campaign, largest, read};
 
-/// Of each kind.
-const MUTATIONS: usize = 100;
+/// The mutations of each kind that are tried daily, and the others.
+const DAILY: Range<usize> = 0..25;
+const OTHERS: Range<usize> = 25..100;
 
 const ROBOT: &str = r#"
 name = "r2"
@@ -66,18 +69,18 @@ fn certificate(generated: &Generated) -> &Certificate {
 
 /// Variants to change: libm's sines with edits, those of all angles
 /// together, and polynomials.
-fn honest() -> Vec<Certificate> {
+static HONEST: LazyLock<[Certificate; 3]> = LazyLock::new(|| {
     let [libm, polynomial] = ["libm", "polynomial"].map(|sincos| {
         let case = Case::read(ROBOT, &format!("scene: pick; sincos: {sincos}"));
         certificate(&case.generated()).clone()
     });
     let together = libm.calling(Library::Together);
-    vec![libm, polynomial, together]
-}
+    [libm, polynomial, together]
+});
 
-/// Returns these as text and claim.
-fn variants(all: &[Certificate]) -> Vec<Certified> {
-    let all = all.iter().map(|own| Certified::variant(ROBOT, own));
+/// Returns them as text and claim.
+fn variants() -> Vec<Certified> {
+    let all = HONEST.iter().map(|own| Certified::variant(ROBOT, own));
     all.collect()
 }
 
@@ -218,35 +221,35 @@ fn one_of<'a, T>(all: &'a [T], random: &mut Random) -> &'a T {
     &all[random.below(all.len())]
 }
 
-/// Changes programs of honest variants at random, text and claim alike; returns how many were
-/// refused.
-fn programs(change: impl Fn(&mut [Node], &mut Random)) -> usize {
-    let honest = honest();
+/// Changes programs of honest variants at random, text and claim alike; returns how many of these
+/// mutations were refused.
+fn programs(mutations: &Range<usize>, change: impl Fn(&mut [Node], &mut Random)) -> usize {
     let mut random = Random::new(0xbad);
-    let refused = (0..MUTATIONS).filter(|index| {
-        let mut other = honest[index % honest.len()].clone();
+    let refused = (0..mutations.end).filter(|index| {
+        let mut other = HONEST[index % HONEST.len()].clone();
         change(&mut other.emitted.dag.nodes, &mut random);
-        is_refused(&Certified::variant(ROBOT, &other.printed()))
+        mutations.contains(index) && is_refused(&Certified::variant(ROBOT, &other.printed()))
     });
     refused.count()
 }
 
 /// Changes one place of the claim of honest variants, picked from all its places; returns how many
-/// were refused.
+/// of these mutations were refused.
 fn claims(
+    mutations: &Range<usize>,
     pick: impl Fn(&str, &Value) -> bool,
     with: impl Fn(&Value, &mut Random) -> Value,
 ) -> usize {
-    let honest = variants(&honest());
+    let honest = variants();
     let mut random = Random::new(0xbad);
-    let refused = (0..MUTATIONS).filter(|index| {
+    let refused = (0..mutations.end).filter(|index| {
         let mut own = honest[index % honest.len()].clone();
         let mut json: Value = serde_json::from_str(&own.claim).unwrap();
         let place = one_of(&places(&json, "", &pick), &mut random).clone();
         let value = json.pointer_mut(&place).unwrap();
         *value = with(value, &mut random);
         own.claim = json.to_string();
-        is_refused(&own)
+        mutations.contains(index) && is_refused(&own)
     });
     refused.count()
 }
@@ -269,7 +272,7 @@ fn places(value: &Value, path: &str, pick: &impl Fn(&str, &Value) -> bool) -> Ve
 
 #[test]
 fn honest_variants_are_shown_and_the_judge_can_tell() {
-    for own in variants(&honest()) {
+    for own in variants() {
         let results = shown(&own).unwrap();
         assert!(results.iter().all(Bounded::holds), "{results:?}");
         assert!(is_true(&own, &results));
@@ -288,10 +291,18 @@ fn honest_variants_are_shown_and_the_judge_can_tell() {
     }
 }
 
+daily_and_campaign! {
+    operations: (&DAILY), (&OTHERS);
+    constants: (&DAILY), (&OTHERS);
+    words: (&DAILY), (&OTHERS);
+    numbers: (&DAILY), (&OTHERS);
+    scenes: (&DAILY), (&OTHERS);
+    plans: (&DAILY), (&OTHERS);
+}
+
 /// Operations and their operands: one in ten is the same again, or within the tolerance.
-#[test]
-fn operations() {
-    let refused = programs(|nodes, random| {
+fn operations(mutations: &Range<usize>) {
+    let refused = programs(mutations, |nodes, random| {
         let applied = nodes.iter().enumerate();
         let applied = applied.filter_map(|(place, own)| match own {
             Node::Apply(operation, _) => Some((place, *operation)),
@@ -307,12 +318,11 @@ fn operations() {
             _ => operands[random.below(2)] = random.below(place) as u32,
         }
     });
-    assert!(refused >= MUTATIONS * 6 / 10, "{refused}");
+    assert!(refused >= mutations.len() * 6 / 10, "{refused}");
 }
 
 /// Constants, changed by a share; half of the changes matter less than the tolerance.
-#[test]
-fn constants() {
+fn constants(mutations: &Range<usize>) {
     const SHARES: [[i64; 2]; 6] = [
         [1, 1_000_000_000],
         [1, 1000],
@@ -321,7 +331,7 @@ fn constants() {
         [-1, 2],
         [1, 1],
     ];
-    let refused = programs(|nodes, random| {
+    let refused = programs(mutations, |nodes, random| {
         let [over, under] = *one_of(&SHARES, random);
         let factor = Exact::from(Rational::new((over + under).into(), under.into()));
         let constants = nodes.iter_mut().filter_map(|own| match own {
@@ -332,33 +342,34 @@ fn constants() {
         let place = random.below(constants.len());
         *constants[place] = constants[place].mul(&factor);
     });
-    let some = MUTATIONS / 5..MUTATIONS * 4 / 5;
+    let some = mutations.len() / 5..mutations.len() * 4 / 5;
     assert!(some.contains(&refused), "{refused}");
 }
 
 /// Words that say what the claim is about, and words of its programs.
-#[test]
-fn words() {
+fn words(mutations: &Range<usize>) {
     const ABOUT: [&str; 9] = [
         "", "gravity", "coriolis", "f16", "range", "1", "r2", "q", "trust me",
     ];
     let is_one = |path: &str, keys: &[&str]| keys.iter().any(|key| path.ends_with(key));
     let refused = claims(
+        mutations,
         |path, _| is_one(path, &["/function", "/relative_to", "/scene"]),
         |_, random| (*one_of(&ABOUT, random)).into(),
     );
-    assert_eq!(refused, MUTATIONS);
+    assert_eq!(refused, mutations.len());
     let words = "t1 t2 #0 #3 s1 t1+t2 q[0]*#1 t3-t3 -t4 t9*t9";
     let refused = claims(
+        mutations,
         |path, _| is_one(path, &["/steps", "/returns"]),
         |text, random| other_word(text.as_str().unwrap(), random, words).into(),
     );
-    assert!(refused >= MUTATIONS * 8 / 10, "{refused}");
+    assert!(refused >= mutations.len() * 8 / 10, "{refused}");
 }
 
-#[test]
-fn numbers() {
+fn numbers(mutations: &Range<usize>) {
     let refused = claims(
+        mutations,
         |_, value| value.is_f64(),
         |number, random| {
             let x = number.as_f64().unwrap();
@@ -368,18 +379,17 @@ fn numbers() {
             (*one_of(&all, random)).into()
         },
     );
-    assert!(refused >= MUTATIONS / 2, "{refused}");
+    assert!(refused >= mutations.len() / 2, "{refused}");
 }
 
 /// The robot file is changed and the claim is not.
-#[test]
-fn scenes() {
-    let honest = variants(&honest());
+fn scenes(mutations: &Range<usize>) {
+    let honest = variants();
     let mut random = Random::new(0x5ce2e);
     let digits = ROBOT.char_indices().filter(|(_, c)| c.is_ascii_digit());
     let digits: Vec<usize> = digits.map(|(at, _)| at).collect();
     let (mut tried, mut refused) = (0, 0);
-    while tried < MUTATIONS {
+    while tried < mutations.end {
         let at = *one_of(&digits, &mut random);
         let digit = random.below(10).to_string();
         let mut own = honest[tried % 2].clone();
@@ -389,12 +399,12 @@ fn scenes() {
             continue;
         };
         if Setup::in_scene(&robot.robot, Some(&robot.scenes[0])).is_ok() {
-            refused += usize::from(is_refused(&own));
+            refused += usize::from(mutations.contains(&tried) && is_refused(&own));
             tried += 1;
         }
     }
     // Limits of joints may be narrower, and torques higher.
-    assert!(refused >= MUTATIONS / 3, "{refused}");
+    assert!(refused >= mutations.len() / 3, "{refused}");
 }
 
 /// Returns a document with one of its words changed into one of `words`, which blanks part.
@@ -411,8 +421,7 @@ fn other_word(text: &str, random: &mut Random, words: &str) -> String {
 }
 
 /// What the command does with a plan: it generates from it, and what it certifies is true.
-#[test]
-fn plans() {
+fn plans(mutations: &Range<usize>) {
     let words = "t1+t2 t2*#1 t7-t1 qd[1]*qd[1] s1*#0 c2-#2 s3*c2 #0 1/2 2 -t1 t2 t9 -7 [] 0 f32 \
         gravity q load planned returns";
     let mut case = Case::read(ROBOT, "scene: pick; sincos: libm");
@@ -425,8 +434,11 @@ fn plans() {
     let text = plan.write();
     let mut random = Random::new(0x91a2);
     let mut refused = 0;
-    for _ in 0..MUTATIONS {
+    for index in 0..mutations.end {
         let changed = other_word(&text, &mut random, words);
+        if !mutations.contains(&index) {
+            continue;
+        }
         case.request.plan = Plan::parse(&changed).ok();
         if case.request.plan.is_none() {
             refused += 1;
@@ -440,5 +452,5 @@ fn plans() {
             }
         }
     }
-    assert!(refused >= MUTATIONS / 3, "{refused}");
+    assert!(refused >= mutations.len() / 3, "{refused}");
 }

@@ -3,7 +3,7 @@
 
 use dalembert_codegen::Function;
 
-use crate::support::{self, Case, rows};
+use crate::support::{Case, daily_and_campaign, rows};
 
 /// Checks a table: robot files, the lines of a scene, what is asked, and the most operations of each
 /// function, or operations/sines. What inverts D divides once a joint at most.
@@ -28,11 +28,9 @@ fn check(table: &str) {
 }
 
 /// Torques of checked-in arms and of other kinds, with the load and the torques of any payload,
-/// and with any gravity.
-#[test]
-fn torques() {
-    check(
-        "
+/// and with any gravity. The second table is a campaign's.
+const TORQUES: [&str; 2] = [
+    "
 planar2r  | | inverse_dynamics | 23
 planar3r  | | inverse_dynamics | 46
 stanford  | | inverse_dynamics | 212
@@ -40,46 +38,90 @@ puma560   | | inverse_dynamics | 263
 ur10      | | inverse_dynamics | 264
 scara     | | inverse_dynamics | 62/2
 gantry    | | inverse_dynamics | 258
+planar3r  | | inverse_dynamics; parameters: payload | 18 57
+puma560   | | inverse_dynamics; parameters: payload | 28 337
+planar3r  | | inverse_dynamics; parameters: gravity | 50
+stanford  | | inverse_dynamics; parameters: gravity | 227
+",
+    "
 rprpr     | | inverse_dynamics | 315
 general6r | | inverse_dynamics | 688
 gen3      | | inverse_dynamics | 537
-planar3r  | | inverse_dynamics; parameters: payload | 18 57
-puma560   | | inverse_dynamics; parameters: payload | 28 337
 stanford  | | inverse_dynamics; parameters: payload | 28 283
 ur10      | | inverse_dynamics; parameters: payload | 31 320
 panda     | | inverse_dynamics; parameters: payload | 42 523
-planar3r  | | inverse_dynamics; parameters: gravity | 50
 puma560   | | inverse_dynamics; parameters: gravity | 284
-stanford  | | inverse_dynamics; parameters: gravity | 227
 ur10      | | inverse_dynamics; parameters: gravity | 286
 panda     | | inverse_dynamics; parameters: gravity | 547
 puma560   | | inverse_dynamics, dynamic_coefficients; formulation: lagrange_euler | 2699 2199
 ",
-    );
-}
+];
 
 /// Forward dynamics and derivatives; poses, from forms that turn two axes of the hand as well as
 /// from those that turn three; C, from composite momenta, and from the symbols where these are about
-/// as cheap.
-#[test]
-fn derivatives_poses_and_matrices() {
-    check(
-        "
+/// as cheap. The second table is a campaign's.
+const OTHERS: [&str; 2] = [
+    "
 planar2r | | forward_dynamics, inverse_dynamics_derivatives, inertia_inverse | 25 27 10
 planar3r | | forward_dynamics, inverse_dynamics_derivatives, inertia_inverse | 77 71 39
-stanford | | forward_dynamics, inverse_dynamics_derivatives, inertia_inverse | 879 360 234
-puma560  | | forward_dynamics, inverse_dynamics_derivatives, inertia_inverse | 1070 400 255
-panda    | | forward_dynamics, inverse_dynamics_derivatives | 2495 912
+stanford | | forward_dynamics, inertia_inverse | 360 234
 stanford | | forward_kinematics | 52
 puma560  | | forward_kinematics | 72
 ur10     | | forward_kinematics | 68
 panda    | | forward_kinematics | 104
 stanford | | coriolis_matrix | 295
-puma560  | | coriolis_matrix | 344
-ur10     | | coriolis_matrix | 267
 puma560  | | gravity | 28
 ",
-    );
+    "
+stanford | | inverse_dynamics_derivatives | 879
+puma560  | | forward_dynamics, inverse_dynamics_derivatives, inertia_inverse | 1070 400 255
+panda    | | forward_dynamics, inverse_dynamics_derivatives | 2495 912
+puma560  | | coriolis_matrix | 344
+ur10     | | coriolis_matrix | 267
+",
+];
+
+/// Less than the parts by themselves, where they have more in common than sines: of one arm, and of
+/// frames that have the way there in common. The second table is a campaign's.
+const BUNDLES: [&str; 2] = [
+    "
+planar3r       | motion=forward_kinematics+jacobian | 16
+planar3r       | model=inertia+coriolis_matrix+gravity | 44
+planar3r       | servo=inverse_dynamics+jacobian+forward_kinematics | 62
+frames/puma560 | a=forward_kinematics@camera+forward_kinematics@elbow+forward_kinematics@hand |
+",
+    "
+frames/puma560 | a=jacobian@camera+jacobian@elbow+jacobian@hand |
+frames/panda   | a=jacobian@camera+jacobian@elbow+jacobian@hand |
+frames/panda   | a=forward_kinematics@camera+forward_kinematics@elbow+forward_kinematics@hand |
+",
+];
+
+/// Second derivatives. CasADi's Hessians of λᵀτ and λᵀq̈ after common subexpressions, at the best of
+/// its ways, have 5309 and 6833 operations of the PUMA, 15464 and 19401 of the Panda
+/// (`benches/peers/peers.py counts`): at most half. The second is a campaign's.
+const SECOND: [&str; 2] = [
+    "puma560 | | inverse_dynamics_second_derivatives, forward_dynamics_second_derivatives | 2654 3416",
+    "panda | | inverse_dynamics_second_derivatives, forward_dynamics_second_derivatives | 7732 9700",
+];
+
+daily_and_campaign! {
+    torques: (TORQUES[0]), (TORQUES[1]);
+    derivatives_poses_and_matrices: (OTHERS[0]), (OTHERS[1]);
+    bundles_share_work: (BUNDLES[0]), (BUNDLES[1]);
+    second_derivatives_cost_half_of_casadi_s: (SECOND[0]), (SECOND[1]);
+}
+
+fn torques(table: &str) {
+    check(table);
+}
+
+fn derivatives_poses_and_matrices(table: &str) {
+    check(table);
+}
+
+fn second_derivatives_cost_half_of_casadi_s(table: &str) {
+    check(table);
 }
 
 /// Everything that a scene does not need is gone from the code, sines too.
@@ -93,19 +135,7 @@ puma560 | lock = { 1 = 0, 4 = 0, 6 = 0 }; joints = [2, 3, 5] | inverse_dynamics 
     );
 }
 
-/// Less than the parts by themselves, where they have more in common than sines: of one arm, and of
-/// frames that have the way there in common.
-#[test]
-fn bundles_share_work() {
-    let table = "
-planar3r       | motion=forward_kinematics+jacobian | 16
-planar3r       | model=inertia+coriolis_matrix+gravity | 44
-planar3r       | servo=inverse_dynamics+jacobian+forward_kinematics | 62
-frames/puma560 | a=jacobian@camera+jacobian@elbow+jacobian@hand |
-frames/panda   | a=jacobian@camera+jacobian@elbow+jacobian@hand |
-frames/puma560 | a=forward_kinematics@camera+forward_kinematics@elbow+forward_kinematics@hand |
-frames/panda   | a=forward_kinematics@camera+forward_kinematics@elbow+forward_kinematics@hand |
-";
+fn bundles_share_work(table: &str) {
     for [file, asked, most] in rows(table) {
         let most = match most.as_str() {
             "" => usize::MAX,
@@ -134,18 +164,4 @@ fn what_is_not_asked_for_is_not_computed() {
         counts[1] < counts[0] && 2 * counts[2] < counts[0],
         "{counts:?}"
     );
-}
-
-/// Of CasADi's Hessians of λᵀτ and λᵀq̈ after common subexpressions, at the best of its ways, there
-/// are 5309 and 6833 operations of the PUMA, 15464 and 19401 of the Panda
-/// (`benches/peers/peers.py counts`): at most half.
-#[test]
-fn second_derivatives_cost_half_of_casadi_s() {
-    let table = [
-        "SECOND := inverse_dynamics_second_derivatives, forward_dynamics_second_derivatives",
-        "puma560 | | SECOND | 2654 3416",
-        "panda | | SECOND | 7732 9700",
-    ];
-    // The larger one where tests are not optimised would take them minutes.
-    check(&support::dose(&table, 2).join("\n"));
 }

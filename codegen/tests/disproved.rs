@@ -1,6 +1,7 @@
 //! Faults planted into finished programs: the exact proof sees every one.
 
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
 
 use dalembert_codegen::Program;
 use dalembert_codegen::workspace::{
@@ -25,8 +26,10 @@ fn cases(robots: &str, outputs: &str) -> Vec<(Case, Program)> {
     cases
 }
 
-const ROBOTS: &str = "planar3r stanford puma560";
-const OUTPUTS: &str = "inverse_dynamics manipulator_equation dynamic_coefficients";
+static CASES: LazyLock<Vec<(Case, Program)>> = LazyLock::new(|| {
+    let outputs = "inverse_dynamics manipulator_equation dynamic_coefficients";
+    cases("planar3r stanford puma560", outputs)
+});
 
 fn proof(case: &Case, program: &Program) -> Result<(), Disproof> {
     let setup = case.request.setup(case.robot()).unwrap();
@@ -71,15 +74,15 @@ fn faults(step: &Step) -> Vec<(&'static str, Step)> {
 
 #[test]
 fn every_fault_of_a_step() {
-    for (case, program) in cases(ROBOTS, OUTPUTS) {
-        assert_eq!(proof(&case, &program), Ok(()));
+    for (case, program) in CASES.iter() {
+        assert_eq!(proof(case, program), Ok(()));
         let mut kinds = BTreeSet::new();
         let steps = program.dag.steps();
         let count = steps.steps.len();
         for index in (0..count).step_by((count / 60).max(1)) {
             for (fault, step) in faults(&steps.steps[index]) {
-                let wrong = with_step(&program, &steps, index, step);
-                let found = proof(&case, &wrong);
+                let wrong = with_step(program, &steps, index, step);
+                let found = proof(case, &wrong);
                 let is_seen = matches!(found, Err(Disproof::Output { .. }));
                 let name = &case.robot().name;
                 assert!(is_seen, "{name} step {index} {fault}: {found:?}");
@@ -92,17 +95,17 @@ fn every_fault_of_a_step() {
 
 #[test]
 fn every_fault_of_a_result() {
-    for (case, program) in cases(ROBOTS, OUTPUTS) {
+    for (case, program) in CASES.iter() {
         for index in 0..program.dag.outputs.len() {
             let mut wrong = program.clone();
             wrong.dag.outputs[index].negative ^= true;
             let is_zero = program.dag.is_zero(program.dag.outputs[index]);
-            let found = proof(&case, &wrong);
+            let found = proof(case, &wrong);
             assert_eq!(found.is_ok(), is_zero, "{} {index}", case.robot().name);
         }
-        let mut short = program;
+        let mut short = program.clone();
         short.dag.outputs.pop();
-        assert_eq!(proof(&case, &short), Err(Disproof::Shape));
+        assert_eq!(proof(case, &short), Err(Disproof::Shape));
     }
 }
 

@@ -8,7 +8,7 @@ use dalembert_codegen::workspace::{Quantity, Runtime, Sizes};
 use dalembert_codegen::{Function, Generated};
 use serde_json::Value;
 
-use crate::support::{self, Case, given, largest, numbers};
+use crate::support::{self, Case, all_but_one_in, given, largest, numbers, one_in};
 
 const ROBOTS: [&str; 6] = [
     "planar2r", "planar3r", "stanford", "puma560", "ur10", "panda",
@@ -53,9 +53,14 @@ fn off(found: &[f64], known: &[f64]) -> f64 {
     worst / largest(known).max(LEAST)
 }
 
-/// Compares every value of states with the runtime, and with code by these options one in `every`,
-/// from a place among them; returns how many values there are, and how many code gave.
-fn compare(name: &str, states: &[Value], options: &str, every: usize, from: usize) -> [usize; 2] {
+/// Compares values of states, those at some places among them, with code by these options, or with
+/// the runtime if there are none; returns how many there are, and how many were compared.
+fn compare(
+    name: &str,
+    states: &[Value],
+    options: Option<&str>,
+    is_compared: impl Fn(usize) -> bool,
+) -> [usize; 2] {
     let plain = Case::new(name, "", "outputs: gravity");
     let runtime = Runtime::new(plain.robot());
     let sizes = Sizes::whole(plain.robot().joints.len());
@@ -63,8 +68,9 @@ fn compare(name: &str, states: &[Value], options: &str, every: usize, from: usiz
     let keys = states[0].as_object().unwrap().keys();
     let asked: Vec<_> = keys.filter_map(|key| Some((key, asked(key)?))).collect();
     let mut compared = [asked.len(), 0];
-    for (index, (key, (function, quantity))) in asked.into_iter().enumerate() {
-        let code = (index % every == from % every).then(|| {
+    let values = asked.into_iter().enumerate();
+    for (_, (key, (function, quantity))) in values.filter(|(place, _)| is_compared(*place)) {
+        let code = options.map(|options| {
             let text = format!("outputs: {}; scalar: f64; {options}", function.text());
             &*codes
                 .entry(text.clone())
@@ -77,57 +83,80 @@ fn compare(name: &str, states: &[Value], options: &str, every: usize, from: usiz
             let state = given(json);
             let known = numbers(&json[key.as_str()]);
             let most = FILES * runtime.granted(function, &state).factor(quantity);
-            let error = off(&runtime.run(function, &state)[range.clone()], &known);
-            assert!(error <= most, "{name} {key} by the formulas: {error:e}");
-            if let Some(code) = code {
-                let error = off(&code.emitted[0].run(&state)[range.clone()], &known);
-                assert!(error <= most, "{name} {key}: {error:e}");
-            }
+            let found = match code {
+                Some(code) => code.emitted[0].run(&state),
+                None => runtime.run(function, &state),
+            };
+            let error = off(&found[range.clone()], &known);
+            assert!(error <= most, "{name} {key} {options:?}: {error:e}");
         }
-        compared[1] += usize::from(code.is_some());
+        compared[1] += 1;
     }
     compared
 }
 
-/// Values at frames, half of a robot's by code, a sixth where tests are not optimised; other ones of
-/// each robot.
-#[test]
-fn outputs_at_frames() {
-    let every = if cfg!(debug_assertions) { 6 } else { 2 };
-    for (number, name) in ROBOTS.into_iter().enumerate() {
-        let states = states(&format!("tests/data/frames/{name}.json"), 5);
-        let [all, coded] = compare(&format!("frames/{name}"), &states, "", every, number);
-        assert!(all == 76 && coded >= 76 / every, "{name}: {coded} of {all}");
-    }
+/// Returns the states of a robot in the file of values at frames.
+fn at_frames(name: &str) -> Vec<Value> {
+    states(&format!("tests/data/frames/{name}.json"), 5)
 }
 
-/// Second derivatives; torques, D, h and c with fused products. The large arms by their formulas
-/// alone where tests are not optimised.
+/// Folders of files for whole robots, the number of states in a file and of values in a state, and
+/// the options of code: second derivatives; torques, D, h and c with fused products.
+const WHOLE: [(&str, usize, usize, &str); 2] = [
+    ("tests/data/second_derivatives", 5, 8, ""),
+    ("../crates/model/tests/data/golden", 60, 4, "fma: on"),
+];
+
+/// Returns the states of an arm of which three joints follow others.
+fn of_followers() -> Vec<Value> {
+    states("../crates/import/tests/data/wafer.golden.json", 5)
+}
+
 #[test]
-fn whole_robots() {
-    for (folder, count, options, values) in [
-        ("tests/data/second_derivatives", 5, "", 8),
-        ("../crates/model/tests/data/golden", 60, "fma: on", 4),
-    ] {
-        for (number, name) in ROBOTS.into_iter().enumerate() {
+fn formulas() {
+    for name in ROBOTS {
+        let compared = compare(&format!("frames/{name}"), &at_frames(name), None, |_| true);
+        assert_eq!(compared, [76; 2], "{name}");
+        for (folder, count, values, _) in WHOLE {
             let states = states(&format!("{folder}/{name}.json"), count);
-            let is_large = cfg!(debug_assertions) && number >= 3;
-            let (every, from, coded) = match is_large {
-                true => (values + 1, values, 0),
-                false => (1, 0, values),
-            };
-            let compared = compare(name, &states, options, every, from);
-            assert_eq!(compared, [values, coded], "{name}");
+            assert_eq!(compare(name, &states, None, |_| true), [values; 2]);
+        }
+    }
+    assert_eq!(compare("wafer", &of_followers(), None, |_| true), [23; 2]);
+}
+
+support::daily_and_campaign! {
+    code_at_frames: (true, 39), (false, 189);
+    code_of_whole_robots: (&ROBOTS[..3]), (&ROBOTS[3..]);
+    code_of_followers: (one_in::<8>, 3), (all_but_one_in::<8>, 20);
+}
+
+/// Half of the values at frames, other ones of each robot: a third of them daily, of small robots.
+fn code_at_frames(is_daily: bool, count: usize) {
+    let mut compared = 0;
+    for (number, name) in ROBOTS.into_iter().enumerate() {
+        let is_compared = |place: usize| {
+            let is_small = number < 3 && one_in::<3>(place / 2);
+            place % 2 == number % 2 && is_small == is_daily
+        };
+        let states = at_frames(name);
+        compared += compare(&format!("frames/{name}"), &states, Some(""), is_compared)[1];
+    }
+    assert_eq!(compared, count);
+}
+
+fn code_of_whole_robots(robots: &[&str]) {
+    for (folder, count, values, options) in WHOLE {
+        for name in robots {
+            let states = states(&format!("{folder}/{name}.json"), count);
+            let compared = compare(name, &states, Some(options), |_| true);
+            assert_eq!(compared, [values; 2], "{name}");
         }
     }
 }
 
-/// An arm of which three joints follow others; every second value by code where tests are not
-/// optimised. `values` has all of its outputs.
-#[test]
-fn followers() {
-    let states = states("../crates/import/tests/data/wafer.golden.json", 5);
-    let every = if cfg!(debug_assertions) { 2 } else { 1 };
-    let [all, coded] = compare("wafer", &states, "", every, 0);
-    assert!(all == 23 && coded >= 23 / every, "{coded} of {all}");
+/// `values` has all outputs of this arm.
+fn code_of_followers(is_compared: fn(usize) -> bool, count: usize) {
+    let compared = compare("wafer", &of_followers(), Some(""), is_compared);
+    assert_eq!(compared, [23, count]);
 }

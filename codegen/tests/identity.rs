@@ -7,7 +7,7 @@ use dalembert_checker::identity::{Base, Statement, check, robot};
 use dalembert_checker::program::{Operand as Checked, Program as Straight};
 
 use crate::certified::Certified;
-use crate::support::every_output;
+use crate::support::{all_but_one_in, daily_and_campaign, every_output, one_in};
 
 /// A function's program as it is claimed, and the parameters that its columns add up.
 struct Shown {
@@ -32,10 +32,9 @@ impl Shown {
     }
 }
 
-/// Generates all functions of a robot.
-fn all(name: &str) -> Vec<Shown> {
-    let asked = format!("{}; scalar: f64", every_output());
-    let file = &Certified::all(name, "", &asked)[0];
+/// Generates all functions of the arm in the plane.
+fn all() -> Vec<Shown> {
+    let file = Certified::planar2r(&format!("{}; scalar: f64", every_output()));
     let claim = Claim::read(&file.claim).unwrap();
     let constants = claim.constants().unwrap();
     let shown = claim.functions.iter().map(|own| Shown {
@@ -47,14 +46,18 @@ fn all(name: &str) -> Vec<Shown> {
     shown.collect()
 }
 
-/// Another sign, operand or order, and a constant that is off by 1e-17.
-#[test]
-fn every_mutant_of_a_program_is_refused() {
-    let most = if cfg!(debug_assertions) { 5 } else { 40 };
+daily_and_campaign! {
+    every_mutant_of_a_program_is_refused: (one_in::<4>), (all_but_one_in::<4>);
+}
+
+/// Another sign, operand or order, and a constant that is off by 1e-17; at some of forty places of a
+/// program.
+fn every_mutant_of_a_program_is_refused(is_tried: fn(usize) -> bool) {
     let mut count = 0;
-    for own in all("planar2r") {
+    for own in all() {
         let steps = own.program.steps.len();
-        for index in (0..steps).step_by(steps / most + 1) {
+        let places = (0..steps).step_by(steps / 40 + 1).enumerate();
+        for (_, index) in places.filter(|(number, _)| is_tried(*number)) {
             for kind in 0..4 {
                 if let Some(mutant) = mutant(&own.program, index, kind) {
                     count += 1;

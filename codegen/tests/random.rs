@@ -6,13 +6,15 @@
 //! never said to be contradicted. The reader's own fuzzing, of arbitrary bytes, is in the model's
 //! tests.
 
+use std::ops::Range;
+
 use dalembert_codegen::workspace::{Random, Word, seeded};
 use dalembert_codegen::{Function, GenerateError, Request, ScalarType, Start, generate};
 use dalembert_model::read::parse;
 use dalembert_model::robot::write;
 
 use crate::support::draw::{Draw, robots};
-use crate::support::{self, Case};
+use crate::support::{self, Case, daily_and_campaign};
 use crate::values::is_whole_robots;
 
 /// Returns a function whose code stays small enough for a test.
@@ -25,10 +27,17 @@ fn function(n: usize, draw: &mut Draw) -> Function {
     Function::ALL[draw.0.below(few)]
 }
 
-#[test]
-fn proved_and_accurate() {
-    let many = if cfg!(debug_assertions) { 12 } else { 24 };
-    for (seed, robot, mut draw) in robots(many, 0x5eed) {
+daily_and_campaign! {
+    proved_and_accurate: (0..8), (8..24);
+    friction_is_proved_and_accurate: (0..4), (4..40);
+    accepted_files_give_proved_code: (0..30), (30..60);
+    exact_programs_are_not_contradicted: (0..12), (12..40);
+    certificates_are_not_contradicted: (0..6), (6..20);
+}
+
+fn proved_and_accurate(places: Range<usize>) {
+    let all = robots(places.end, 0x5eed);
+    for (seed, robot, mut draw) in all.skip(places.start) {
         let function = function(robot.joints.len(), &mut draw);
         let what = format!("seed {seed}, {function}");
         let case = Case::read(&write(&robot), &format!("outputs: {function}"));
@@ -37,11 +46,10 @@ fn proved_and_accurate() {
 }
 
 /// With Coulomb friction, what reads it is proved of each, and h, which must not.
-#[test]
-fn friction_is_proved_and_accurate() {
+fn friction_is_proved_and_accurate(places: Range<usize>) {
     let asked = "outputs: inverse_dynamics, passivity, forward_dynamics, coriolis";
     let mut draw = Draw(Random::new(0x636f_756c));
-    for _ in 0..if cfg!(debug_assertions) { 4 } else { 40 } {
+    for place in 0..places.end {
         let mut robot = draw.robot(3);
         for joint in &mut robot.joints {
             if !draw.chance(3) {
@@ -49,8 +57,10 @@ fn friction_is_proved_and_accurate() {
                 joint.coulomb_width = draw.milli(1, 100);
             }
         }
-        let text = write(&robot);
-        Case::read(&text, asked).rounds_well(40, &text);
+        if places.contains(&place) {
+            let text = write(&robot);
+            Case::read(&text, asked).rounds_well(40, &text);
+        }
     }
 }
 
@@ -129,27 +139,30 @@ fn file(random: &mut Random) -> String {
     text
 }
 
-/// Sixty files for every day; `FUZZ_TIMES` multiplies them.
-#[test]
-fn accepted_files_give_proved_code() {
+/// `FUZZ_TIMES` multiplies the files.
+fn accepted_files_give_proved_code(places: Range<usize>) {
     let times = std::env::var("FUZZ_TIMES").ok();
     let times: Option<usize> = times.and_then(|times| times.parse().ok());
-    let runs = 60 * times.unwrap_or(1);
+    let times = times.unwrap_or(1);
+    let runs = places.start * times..places.end * times;
     let mut random = Random::new(31);
     let (mut accepted, mut proved) = (0, 0);
-    for _ in 0..runs {
+    for place in 0..runs.end {
         let source = file(&mut random);
         let Ok(reading) = parse(&source) else {
             continue;
         };
-        accepted += 1;
-        let robot = reading.robot;
-        assert_eq!(support::read_robot(&write(&robot)), robot, "{source}");
         let functions = [Function::InverseDynamics, Function::Inertia];
         let request = Request {
             scalars: vec![ScalarType::ALL[random.below(2)]],
             ..Request::new(&[functions[random.below(2)]])
         };
+        if !runs.contains(&place) {
+            continue;
+        }
+        accepted += 1;
+        let robot = reading.robot;
+        assert_eq!(support::read_robot(&write(&robot)), robot, "{source}");
         // Generated means proved and read back; all else is an error that
         // says why, such as a constant beyond f32.
         match generate(&robot, &request) {
@@ -162,6 +175,7 @@ fn accepted_files_give_proved_code() {
             Err(error) => assert!(!error.to_string().is_empty()),
         }
     }
+    let runs = runs.len();
     println!("{runs} files, {accepted} accepted, {proved} proved");
     assert!(2 * proved > runs / 2, "{accepted}, {proved}");
 }
@@ -215,15 +229,12 @@ fn arm(seed: usize) -> String {
     text
 }
 
-/// So many extreme arms; fewer of them where nothing is optimised.
-const ARMS: usize = if cfg!(debug_assertions) { 12 } else { 40 };
-
-/// Asserts of so many arms that no defect is reported that there is not, refused or not; of these
-/// outputs in turn. Returns how many were generated.
-fn never_contradicted(arms: usize, scene: &str, outputs: &str, options: &str) -> usize {
+/// Asserts of arms, by their seeds, that no defect is reported that there is not, refused or not; of
+/// these outputs in turn. Returns how many were generated.
+fn never_contradicted(seeds: Range<usize>, scene: &str, outputs: &str, options: &str) -> usize {
     let names: Vec<&str> = outputs.split(' ').collect();
     let mut done = 0;
-    for seed in 0..arms {
+    for seed in seeds {
         let asked = format!("outputs: {}; {options}", names[seed % names.len()]);
         let case = Case::read(&(arm(seed) + scene), &asked);
         match generate(case.robot(), &case.request) {
@@ -237,24 +248,22 @@ fn never_contradicted(arms: usize, scene: &str, outputs: &str, options: &str) ->
     done
 }
 
-#[test]
-fn exact_programs_are_not_contradicted() {
+fn exact_programs_are_not_contradicted(seeds: Range<usize>) {
     let outputs = "inverse_dynamics gravity inertia coriolis forward_dynamics kinetic_energy \
         jacobian regressor";
     let done = ["f64", "f32"].map(|scalar| {
         let options = format!("scalar: {scalar}");
-        never_contradicted(ARMS, "", outputs, &options)
+        never_contradicted(seeds.clone(), "", outputs, &options)
     });
-    assert!(done.iter().sum::<usize>() > ARMS / 2, "{done:?}");
+    assert!(done.iter().sum::<usize>() > seeds.len() / 2, "{done:?}");
 }
 
 /// Certificates, too: E is a bound wherever there is one.
-#[test]
-fn certificates_are_not_contradicted() {
+fn certificates_are_not_contradicted(seeds: Range<usize>) {
     let scene = "[scene.t]\ntolerance = { value = 1e-2, relative_to = \"range\" }\n";
     let outputs = "inverse_dynamics gravity inertia coriolis";
-    let done = never_contradicted(ARMS / 2, scene, outputs, "scene: t");
-    assert!(done > ARMS / 8, "{done}");
+    let done = never_contradicted(seeds.clone(), scene, outputs, "scene: t");
+    assert!(done > seeds.len() / 4, "{done}");
 }
 
 /// A rate beyond f32: the state that is tried has the largest number in its place,

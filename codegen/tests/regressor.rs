@@ -9,7 +9,7 @@ use dalembert_model::equations::Arm;
 use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::scalar::Scalar;
 
-use crate::support::{self, BOUND, Case, is_close, rows};
+use crate::support::{self, BOUND, Case, daily_and_campaign, is_close, rows};
 
 /// A regressor, what Y π is, and the constant with π.
 type Linear = (Function, Function, &'static str);
@@ -37,27 +37,38 @@ const PASSIVITY: Linear = (
 /// of the arm, not those wished for: at rest friction and inertias have columns, which torques at
 /// rest have not. Parameters are more where gravity may have any direction than where it has one.
 /// Those of joints that are placed are in the frames of the file.
-const ROWS: &str = r#"
+///
+/// The second table is a campaign's.
+const ROWS: [&str; 2] = [
+    r#"
 planar2r | | torques passivity | 6 | 22 23 |
 planar3r | | torques passivity | 9 | 50 51 |
-puma560  | | torques passivity | 36 | 599 653 |
 stanford | | torques | 33 | 526 |
-puma560  | | torques passivity; parameters: gravity | 38 | |
-ur10     | | torques | 36 | 496 |
-panda    | | torques | 43 | 977 |
 scara    | | torques passivity | +0 | |
-gantry   | | torques passivity | +0 | |
-rprpr    | | torques passivity | +0 | |
 driven   | | torques passivity | +3 | | Izz1 + m2 + armature1 … armature2 … viscous1
 puma560  | lock = { 1 = 0, 4 = 0, 6 = "pi/6" } | torques | +0 | |
 puma560  | joints = [3, 1]; velocity = "zero" | torques | +0 | |
-puma560  | lock = { 5 = "pi/4" }; joints = [5, 2] | torques | +0 | |
-puma560  | velocity = "zero"; acceleration = "zero" | torques | +0 | |
 rubbed   | velocity = "zero"; acceleration = "zero" | torques | 4 | |
 rubbed   | velocity = "zero"; acceleration = "zero" | passivity | 7 | |
 rubbed   | joints = [2] | passivity | +1 | |
 payload_frame | | torques passivity | +0 | | in the axes of its own frame
-"#;
+"#,
+    r#"
+puma560  | | torques passivity | 36 | 599 653 |
+puma560  | | torques passivity; parameters: gravity | 38 | |
+ur10     | | torques | 36 | 496 |
+panda    | | torques | 43 | 977 |
+gantry   | | torques passivity | +0 | |
+rprpr    | | torques passivity | +0 | |
+puma560  | lock = { 5 = "pi/4" }; joints = [5, 2] | torques | +0 | |
+puma560  | velocity = "zero"; acceleration = "zero" | torques | +0 | |
+"#,
+];
+
+daily_and_campaign! {
+    columns_times_parameters_are_the_torques: (ROWS[0]), (ROWS[1]);
+    headers_have_the_same_parameters: ("planar2r"), ("stanford");
+}
 
 /// Returns a regressor's case of an arm: of the tables, or a planar one with rotors and friction, or
 /// with friction of its second joint.
@@ -100,20 +111,17 @@ fn printed((.., constant): Linear, text: &str) -> Vec<Vec<f64>> {
 }
 
 /// A header has the values that a module has, in both scalars, by a name that its text says.
-#[test]
-fn headers_have_the_same_parameters() {
+fn headers_have_the_same_parameters(name: &str) {
     for linear @ (.., constant) in [TORQUES, PASSIVITY] {
-        for name in ["planar2r", "stanford"] {
-            let mut case = case(linear, name, "", "");
-            let expected = printed(linear, &case.generated().text());
-            assert_eq!(expected.len(), 2);
-            for language in [Language::C, Language::Cuda] {
-                case.request.language = language;
-                let text = case.generated().text();
-                assert_eq!(printed(linear, &text), expected, "{name}");
-                let said = format!("and `{name}_{}` is", constant.to_lowercase());
-                assert!(text.contains(&said) && !text.contains(constant));
-            }
+        let mut case = case(linear, name, "", "");
+        let expected = printed(linear, &case.generated().text());
+        assert_eq!(expected.len(), 2);
+        for language in [Language::C, Language::Cuda] {
+            case.request.language = language;
+            let text = case.generated().text();
+            assert_eq!(printed(linear, &text), expected);
+            let said = format!("and `{name}_{}` is", constant.to_lowercase());
+            assert!(text.contains(&said) && !text.contains(constant));
         }
     }
 }
@@ -155,9 +163,8 @@ fn rank(runtime: &Runtime, setup: &Setup) -> usize {
 
 /// Compares the emitted Y times the printed π with the runtime's torques, relative to
 /// what the sums are made of.
-#[test]
-fn columns_times_parameters_are_the_torques() {
-    for [name, scene, regressors, base, most, words] in rows(ROWS) {
+fn columns_times_parameters_are_the_torques(table: &str) {
+    for [name, scene, regressors, base, most, words] in rows(table) {
         let mut most = most.split_whitespace().map(|most| most.parse().unwrap());
         let (regressors, options) = regressors.split_once("; ").unwrap_or((&regressors, ""));
         for regressor in regressors.split(' ') {

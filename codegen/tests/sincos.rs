@@ -2,6 +2,7 @@
 //! back, and as near to libm's as was proved. `text` has changed lines of them.
 
 use core::f64::consts::{FRAC_PI_2, PI};
+use core::ops::Range;
 
 use dalembert_codegen::workspace::{
     AngleKernel, Candidates, Code, Dag, Edge, ErrorByCause, Input, Interval, Library, Node,
@@ -10,7 +11,7 @@ use dalembert_codegen::workspace::{
 use dalembert_codegen::{Function, Program, ScalarType};
 
 use crate::certified::Certified;
-use crate::support::{Case, dose, in_scene, rounds_well};
+use crate::support::{Case, daily_and_campaign, in_scene, rounds_well};
 
 const ASKED: &str = "inverse_dynamics; sincos: polynomial; sincos_error: 1e-5";
 
@@ -66,26 +67,32 @@ fn of(wanted: &[Input]) -> Program {
 
 static PAIR: [Input; 2] = [Input::Sin(0), Input::Cos(0)];
 
+daily_and_campaign! {
+    kernels_of_narrow_ranges_are_read_back: (0..2), (2..16);
+    tolerances_over_narrow_ranges_are_met: ([(-1.571, 1e-5), (0.0, 1e-3)]), ([(-1.571, 1e-6), (3.1, 1e-6)]);
+}
+
 /// Over narrow ranges a sine or cosine may be a constant, of either sign, or the
 /// angle itself: every kernel there is prints as what is read back.
-#[test]
-fn kernels_of_narrow_ranges_are_read_back() {
+fn kernels_of_narrow_ranges_are_read_back(places: Range<usize>) {
+    const CENTRES: [f64; 4] = [0.0, -FRAC_PI_2, 1.57, PI];
+    const HALVES: [f64; 4] = [5e-4, 1e-9, 1e-5, 0.02];
     let mut choices = Vec::new();
-    for scalar in ScalarType::ALL {
-        for centre in [0.0, 1.57, PI, -FRAC_PI_2] {
-            for half in dose(&[5e-4, 1e-9, 1e-5, 0.02], 1) {
-                let range = Interval::new(centre - half, centre + half).unwrap();
-                for wanted in [&PAIR[..], &PAIR[..1], &PAIR[1..]] {
-                    let candidates = Candidates::new(of(wanted).trig()[0].need, scalar, range);
-                    for (most, enough) in [(f64::INFINITY, 0.0), (1.0, 1e-2)] {
-                        let all = candidates.front(most, enough).into_iter();
-                        choices.extend(all.map(|choice| (scalar, range, wanted, choice)));
-                    }
+    for place in places.clone() {
+        let (centre, half) = (CENTRES[place % 4], HALVES[place / 4]);
+        let range = Interval::new(centre - half, centre + half).unwrap();
+        for scalar in ScalarType::ALL {
+            for wanted in [&PAIR[..], &PAIR[..1], &PAIR[1..]] {
+                let candidates = Candidates::new(of(wanted).trig()[0].need, scalar, range);
+                for (most, enough) in [(f64::INFINITY, 0.0), (1.0, 1e-2)] {
+                    let all = candidates.front(most, enough).into_iter();
+                    choices.extend(all.map(|choice| (scalar, range, wanted, choice)));
                 }
             }
         }
     }
-    assert!(choices.len() > 100, "{}", choices.len());
+    // More than one for each limit.
+    assert!(choices.len() > 12 * places.len(), "{}", choices.len());
     for (scalar, range, wanted, choice) in choices {
         let program = of(wanted);
         let sines = [AngleKernel {
@@ -104,9 +111,8 @@ fn kernels_of_narrow_ranges_are_read_back() {
 
 /// Over such ranges inputs run alike, and sines are nearly constants: what is left out
 /// can be written down, and what is printed is read back.
-#[test]
-fn tolerances_over_narrow_ranges_are_met() {
-    for (centre, tolerance) in [(-1.571, 1e-5), (-1.571, 1e-6), (3.1, 1e-6), (0.0, 1e-3)] {
+fn tolerances_over_narrow_ranges_are_met(cases: [(f64, f64); 2]) {
+    for (centre, tolerance) in cases {
         let range = format!("[{:?}, {:?}]", centre - 5e-4, centre + 5e-4);
         let scene = format!(
             "box = {{ position = [{}] }}; \

@@ -12,54 +12,75 @@ use dalembert_codegen::{Function, ScalarType};
 use dalembert_model::outputs::Axis;
 use dalembert_model::scene::write;
 
-use crate::support::{self, BOUND, Case, is_close, largest, rows};
+use crate::support::{self, BOUND, Case, all_but_one_in, is_close, largest, one_in, rows};
+
+/// What stands for what in the tables.
+const NAMES: &str = "
+FRAMES := jacobian@camera:local, jacobian_rate@elbow:world, operational_inertia@camera:x_y_rz, operational_bias@elbow:linear, inverse_dynamics_with_wrench@camera:local, forward_dynamics_with_wrench@elbow, contact_wrench@camera:linear, momentum_observer, task=operational_inertia@camera:linear+consistent_inverse@camera:linear+null_space_projector@camera:linear
+SECOND := inverse_dynamics_second_derivatives, forward_dynamics_second_derivatives
+BUNDLES := servo=inverse_dynamics+jacobian+forward_kinematics, task=forward_dynamics+kinetic_energy+jacobian_rate, slopes=inverse_dynamics_derivatives+gravity, adapt=regressor+momentum
+RUBBED := inverse_dynamics, passivity, forward_dynamics, inverse_dynamics_derivatives, forward_dynamics_derivatives, SECOND
+LINKED := inverse_dynamics, manipulator_equation, forward_dynamics
+FIRST := inverse_dynamics, inertia, coriolis, gravity, manipulator_equation, dynamic_coefficients
+";
 
 /// Robot files, outputs with options, the lines of a scene, and the number of states: outputs at
 /// frames, with arguments and with a joint locked; joints that follow others, a leader of them locked,
 /// one asked for alone; second derivatives, and what divides; bundles, quantity by quantity, cut by a
 /// scene too; Coulomb friction from every formulation the same, whose arithmetic is not, in scenes
 /// that drop it, and beside arguments. Of D with a payload the range of polynomial sines was once
-/// looked for in a box without one. Last a base and a tool, and axes that are nearly parallel.
-const ROWS: &str = r#"
-FRAMES := jacobian@camera:local, jacobian_rate@elbow:world, operational_inertia@camera:x_y_rz, operational_bias@elbow:linear, inverse_dynamics_with_wrench@camera:local, forward_dynamics_with_wrench@elbow, contact_wrench@camera:linear, momentum_observer, task=operational_inertia@camera:linear+consistent_inverse@camera:linear+null_space_projector@camera:linear
-SECOND := inverse_dynamics_second_derivatives, forward_dynamics_second_derivatives
-BUNDLES := servo=inverse_dynamics+jacobian+forward_kinematics, task=forward_dynamics+kinetic_energy+jacobian_rate, slopes=inverse_dynamics_derivatives+gravity, adapt=regressor+momentum
-RUBBED := inverse_dynamics, passivity, forward_dynamics, inverse_dynamics_derivatives, forward_dynamics_derivatives, SECOND
-LINKED := inverse_dynamics, manipulator_equation, forward_dynamics
+/// looked for in a box without one. Last a base and a tool, and axes that are nearly parallel. The
+/// second table is a campaign's.
+const ROWS: [&str; 2] = [
+    r#"
 frames/planar3r | FRAMES | | 60
-frames/planar3r | FRAMES; parameters: payload, gravity | | 60
-frames/planar3r | FRAMES | lock = { 2 = 0.4 } | 60
 wafer    | LINKED, jacobian; scalar: f64 | lock = { shoulder = 0.5 } | 20
-wafer    | LINKED, jacobian; scalar: f64 | joints = ["shoulder"] | 20
-wafer    | LINKED; parameters: payload, gravity; scalar: f64 | | 20
-planar3r | SECOND | | 60
-planar3r | SECOND; parameters: payload, gravity | | 60
 planar3r | SECOND | lock = { 2 = 0.4 } | 60
 planar3r | forward_dynamics, inertia_inverse, forward_dynamics_derivatives, forward_dynamics_second_derivatives | joints = [3, 1]; lock = { 2 = 0.5 }; velocity = "zero" | 100
 planar2r | BUNDLES; batch: on | | 100
 planar3r | reach = gravity + jacobian, coriolis | lock = { 2 = "pi/2" }; velocity = "zero" | 50
-coulomb  | RUBBED; formulation: lagrange_euler | | 20
-coulomb  | RUBBED; formulation: newton_euler | | 20
-coulomb  | RUBBED | velocity = "zero" | 40
-coulomb  | RUBBED | lock = { waist = 0.4 }; joints = ["slide", "wrist"] | 40
+coulomb  | inverse_dynamics; formulation: lagrange_euler | | 20
 coulomb  | inverse_dynamics; parameters: payload, gravity | | 40
 planar2r | inertia, gravity; parameters: payload, gravity; sincos: polynomial | | 20
 base_and_tool   | inverse_dynamics, forward_kinematics, link_poses, jacobian, jacobian_rate, reaction_wrenches, potential_energy | | 50
 nearly_parallel | inverse_dynamics, coriolis, forward_kinematics, jacobian_rate | | 50
-"#;
-
-/// The six robots, with products rounded and fused; the last two where tests are optimised.
-const ROBOTS: [&str; 5] = [
-    "FIRST := inverse_dynamics, inertia, coriolis, gravity, manipulator_equation, dynamic_coefficients",
-    "planar2r stanford puma560 | FIRST | | 200",
-    "stanford planar3r | FIRST; fma: on | | 200",
-    "planar3r ur10 panda | FIRST | | 200",
-    "planar2r puma560 ur10 panda | FIRST; fma: on | | 200",
+"#,
+    r#"
+frames/planar3r | FRAMES; parameters: payload, gravity | | 60
+frames/planar3r | FRAMES | lock = { 2 = 0.4 } | 60
+wafer    | LINKED, jacobian; scalar: f64 | joints = ["shoulder"] | 20
+wafer    | LINKED; parameters: payload, gravity; scalar: f64 | | 20
+planar3r | SECOND | | 60
+planar3r | SECOND; parameters: payload, gravity | | 60
+coulomb  | passivity, forward_dynamics, inverse_dynamics_derivatives, forward_dynamics_derivatives, SECOND; formulation: lagrange_euler | | 20
+coulomb  | RUBBED; formulation: newton_euler | | 20
+coulomb  | RUBBED | velocity = "zero" | 40
+coulomb  | RUBBED | lock = { waist = 0.4 }; joints = ["slide", "wrist"] | 40
+"#,
 ];
+
+/// The six robots, with products rounded and fused; again the second table is a campaign's.
+const ROBOTS: [&str; 2] = [
+    "
+planar2r stanford | FIRST | | 200
+planar3r | FIRST; fma: on | | 200
+",
+    "
+puma560 planar3r ur10 panda | FIRST | | 200
+planar2r stanford puma560 ur10 panda | FIRST; fma: on | | 200
+",
+];
+
+support::daily_and_campaign! {
+    six_robots: (ROBOTS[0]), (ROBOTS[1]);
+    scenes_arguments_and_frames: (ROWS[0]), (ROWS[1]);
+    followers_beside_the_truth: (one_in::<8>), (all_but_one_in::<8>);
+    a_parallelogram_costs_less_than_free_joints: (TIED[0]), (TIED[1]);
+}
 
 #[track_caller]
 fn check(table: &str) {
-    for [files, asked, scene, states] in rows(table) {
+    for [files, asked, scene, states] in rows(&format!("{NAMES}{table}")) {
         for file in files.split(' ') {
             let case = Case::in_scene(file, &scene, &asked);
             let what = format!("{file} {asked} {scene}");
@@ -75,14 +96,12 @@ fn check(table: &str) {
     }
 }
 
-#[test]
-fn six_robots() {
-    check(&support::dose(&ROBOTS, 3).join("\n"));
+fn six_robots(table: &str) {
+    check(table);
 }
 
-#[test]
-fn scenes_arguments_and_frames() {
-    check(ROWS);
+fn scenes_arguments_and_frames(table: &str) {
+    check(table);
 }
 
 /// Compares the scene's text against the runtime of the whole robot, at states that have the
@@ -234,18 +253,16 @@ fn what_has_no_friction_is_as_ever() {
     assert!(admitted.is_some_and(|own| !own.certificates.is_empty()));
 }
 
-/// Every output of an arm of which three joints follow others, against 256 bits, since the
-/// runtime's recursion errs more here than the code does; half of them where tests are not optimised.
-#[test]
-fn followers_beside_the_truth() {
+/// Outputs of an arm of which three joints follow others, against 256 bits, since the runtime's
+/// recursion errs more here than the code does.
+fn followers_beside_the_truth(is_tried: fn(usize) -> bool) {
     let robot = support::robot("wafer");
     let (runtime, setup) = (Runtime::new(&robot), Setup::whole(&robot));
     let truth = Reference::new(&setup);
     // Of base parameters there are none: its axes are turned against each other anyhow.
     let is_own = |own: &Function| own.takes_followers() && own.columns() == Columns::None;
-    let functions = Function::ALL.into_iter().filter(is_own);
-    let every = if cfg!(debug_assertions) { 2 } else { 1 };
-    for function in functions.step_by(every) {
+    let functions = Function::ALL.into_iter().filter(is_own).enumerate();
+    for (_, function) in functions.filter(|(place, _)| is_tried(*place)) {
         let generated = Case::in_scene("wafer", "", function.name()).generated();
         assert_eq!(generated.functions[0].program.joints, 4);
         for emitted in generated.emitted {
@@ -261,15 +278,18 @@ fn followers_beside_the_truth() {
     }
 }
 
+/// Outputs of the arm below; the second are a campaign's.
+const TIED: [&str; 2] = [
+    "inverse_dynamics inertia regressor",
+    "forward_dynamics inverse_dynamics_derivatives operational_inertia passivity_regressor",
+];
+
 /// A PUMA whose forearm keeps its direction, as a parallelogram has it: base parameters, and
 /// less work than with one joint more.
-#[test]
-fn a_parallelogram_costs_less_than_free_joints() {
+fn a_parallelogram_costs_less_than_free_joints(outputs: &str) {
     let (free, elbow) = (support::source("puma560", ""), "name = \"elbow\"\n");
     let mimic = "mimic = { joint = 2, multiplier = -1 }\n";
     let tied = free.replace(elbow, &format!("{elbow}{mimic}"));
-    let outputs = "inverse_dynamics inertia forward_dynamics inverse_dynamics_derivatives \
-        operational_inertia regressor passivity_regressor";
     for function in outputs.split(' ') {
         let asked = format!("outputs: {function}");
         let [free, tied] = [&free, &tied].map(|source| Case::read(source, &asked));

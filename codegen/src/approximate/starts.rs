@@ -47,6 +47,9 @@ impl Starts<'_> {
             add(&mut found, prune::unedited(self.target, first));
         }
         for round in 1..=settings.rounds(least(&found)) {
+            if self.target.watch.is_over() {
+                break;
+            }
             let best = found.iter().take(AGAIN);
             let best: Vec<Program> = best.map(|found| found.program.clone()).collect();
             add(&mut found, self.edited(best.iter().map(Some), round));
@@ -70,6 +73,9 @@ impl Starts<'_> {
         }
         let settings = self.target.settings;
         for round in 1..=settings.again(self.target.steps(), least(&found)) {
+            if self.target.watch.is_over() {
+                break;
+            }
             let best = ranked.iter().take(AGAIN).map(|(_, start)| **start);
             add(&mut found, self.edited(best, round));
         }

@@ -8,14 +8,57 @@ pub mod compiled;
 pub mod draw;
 
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
-use dalembert_codegen::workspace::{Emitted, Granted, JointState, LEAST_PART, Runtime, parse};
+use dalembert_codegen::workspace::{
+    Emitted, Granted, JointState, LEAST_PART, Runtime, keep, parse,
+};
 use dalembert_codegen::{
     Function, Generated, GeneratedFunction, Language, Plan, Request, ScalarType, generate,
 };
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 use serde_json::Value;
+
+/// Makes two tests of a function: with the cases of every day, and with the others, which the step
+/// `campaigns` of `.ci/run` tries.
+macro_rules! daily_and_campaign {
+    ($($name:ident: ($($daily:tt)*), ($($others:tt)*);)*) => {
+        mod daily {
+            #[allow(unused_imports, reason = "numbers alone may stand for the cases")]
+            use super::*;
+            $(
+                #[test]
+                fn $name() {
+                    super::$name($($daily)*);
+                }
+            )*
+        }
+
+        mod campaign {
+            #[allow(unused_imports, reason = "numbers alone may stand for the cases")]
+            use super::*;
+            $(
+                #[test]
+                #[ignore = "minutes: the step `campaigns` of .ci/run"]
+                fn $name() {
+                    super::$name($($others)*);
+                }
+            )*
+        }
+    };
+}
+pub(crate) use daily_and_campaign;
+
+/// Returns true for the first of every `N` places.
+pub fn one_in<const N: usize>(place: usize) -> bool {
+    place.is_multiple_of(N)
+}
+
+/// Returns true for all places but the first of every `N`.
+pub fn all_but_one_in<const N: usize>(place: usize) -> bool {
+    !one_in::<N>(place)
+}
 
 /// The error that is granted to every quantity, in units of u.
 pub const BOUND: f64 = 100.0;
@@ -142,11 +185,11 @@ pub fn changes(table: &str) -> Vec<[String; 2]> {
 }
 
 /// Asserts that a text is refused with one of its lines changed: each into each of its others, of
-/// which one in so many is tried. Returns how many were.
+/// which those at some places are tried. Returns how many were.
 #[track_caller]
 pub fn every_line_counts(
     text: &str,
-    step: usize,
+    is_tried: impl Fn(usize) -> bool,
     mut others: impl FnMut(usize, &str) -> Vec<String>,
     is_refused: impl Fn(&str) -> bool,
 ) -> usize {
@@ -157,7 +200,7 @@ pub fn every_line_counts(
         others.map(move |other| (index, other))
     });
     let mut count = 0;
-    for (index, other) in all.step_by(step) {
+    for (_, (index, other)) in all.enumerate().filter(|(place, _)| is_tried(*place)) {
         count += 1;
         let mut changed = lines.clone();
         changed[index] = &other;
@@ -216,6 +259,18 @@ impl Case {
     pub fn in_scene(name: &str, lines: &str, asked: &str) -> Case {
         let (source, asked) = in_scene(name, lines, asked);
         Case::read(&source, &asked)
+    }
+
+    /// Reads outputs with options of the arm in the plane. The programs of its outputs are searched
+    /// for once for all tests.
+    pub fn planar2r(asked: &str) -> Case {
+        static PLAN: LazyLock<Plan> = LazyLock::new(|| {
+            let case = Case::in_scene("planar2r", "", &every_output());
+            keep(case.robot(), &case.request, &case.generated(), None).plan
+        });
+        let mut case = Case::in_scene("planar2r", "", asked);
+        case.request.plan = Some(PLAN.clone());
+        case
     }
 
     /// Returns the refusal of outputs with options in a scene.
@@ -367,13 +422,4 @@ pub fn hold(emitted: &Emitted, compared: &[Compared], what: &str) {
 pub fn is_close(found: &[f64], expected: &[f64], most: f64) -> bool {
     let mut pairs = found.iter().zip(expected);
     found.len() == expected.len() && pairs.all(|(a, b)| (a - b).abs() <= most)
-}
-
-/// Returns all of these where the tests are optimised, so many of the first where they are
-/// not: the whole takes minutes then.
-pub fn dose<T>(all: &[T], first: usize) -> &[T] {
-    match cfg!(debug_assertions) {
-        true => all.get(..first).unwrap_or(all),
-        false => all,
-    }
 }
