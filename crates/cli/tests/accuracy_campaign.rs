@@ -1,12 +1,13 @@
 //! The error of every output of random robots, f64 and f32, against 76 digits: below
 //! 100 u (unit roundoff), or 100 u times D's condition number if the output inverts D.
 //!
-//! The whole campaign runs before releases: `cargo
-//! test --release -p dalembert-cli --test all -- accuracy_campaign --include-ignored
-//! --nocapture` prints the worst of each quantity.
+//! The whole campaign runs by hand: `cargo test --release -p dalembert-cli --test all --
+//! by_hand_two_hundred --ignored --nocapture` prints the worst of each quantity.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
+use crate::robots::daily_and_campaign;
 use crate::robots::draw::robots;
 use dalembert_cli::measure::{Bench, Code, VECTOR};
 use dalembert_codegen::workspace::{Quantity, SEED, Setup, seeded};
@@ -18,16 +19,21 @@ const STATES: usize = 30;
 /// The worst error of a quantity in units of u, and how many robots had it.
 type Worst = BTreeMap<(Quantity, ScalarType), (f64, usize)>;
 
-/// Runs `each` outputs per robot, in turn, so that each output meets robots of every length.
-fn campaign(count: usize, each: usize, longest: usize) -> Worst {
+/// Runs `each` outputs per robot, in turn, so that each output meets robots of every length: of the
+/// robots at these places.
+fn campaign(places: Range<usize>, each: usize, longest: usize) -> Worst {
     let mut worst = Worst::new();
     // `Load` only serves functions that take a load.
     let all = Function::ALL.into_iter();
     let outputs: Vec<Function> = all.filter(|f| *f != Function::Load).collect();
     let mut next = 0;
-    for (seed, robot, _) in robots(count, 0xacc0) {
+    for (place, (seed, robot, _)) in robots(places.end, 0xacc0).enumerate() {
         let n = robot.joints.len();
         if n > longest {
+            continue;
+        }
+        if !places.contains(&place) {
+            next += each;
             continue;
         }
         let bench = Bench::new(Setup::whole(&robot));
@@ -62,17 +68,19 @@ fn campaign(count: usize, each: usize, longest: usize) -> Worst {
     worst
 }
 
-#[test]
-#[cfg_attr(debug_assertions, ignore = "a minute: in release mode")]
-fn short_arms_are_accurate() {
-    let worst = campaign(24, 6, 3);
-    assert!(worst.len() > 40, "{}", worst.len());
+daily_and_campaign! {
+    short_arms_are_accurate: (0..2, 12), (2..24, 40);
+}
+
+fn short_arms_are_accurate(places: Range<usize>, least: usize) {
+    let worst = campaign(places, 6, 3);
+    assert!(worst.len() > least, "{}", worst.len());
 }
 
 #[test]
-#[ignore = "a quarter of an hour in release mode"]
-fn two_hundred_robots_are_accurate() {
-    let worst = campaign(200, 4, 7);
+#[ignore = "a quarter of an hour with --release: by hand"]
+fn by_hand_two_hundred_robots_are_accurate() {
+    let worst = campaign(0..200, 4, 7);
     for ((quantity, scalar), (error, robots)) in &worst {
         println!("{quantity:?} {scalar}: {error:.1} u, {robots} robots");
     }

@@ -1,9 +1,7 @@
 //! The 114 extreme states, f64 and f32, for emitted code, each by its criterion; the model's tests
-//! have the generic runtime there. Without optimisation only the first case of each category, and
-//! no search for long arms; release mode takes minutes.
+//! have the generic runtime there.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 
 use dalembert_cli::extremes::Held;
 use dalembert_cli::measure::{Bench, Code, ENTRY, VECTOR};
@@ -15,8 +13,6 @@ use dalembert_model::robot::{Inertia, Joint, JointKind, Robot};
 use serde_json::Value;
 
 use crate::robots as support;
-
-const IS_SLOW: bool = cfg!(debug_assertions);
 
 fn held(category: &str) -> Held {
     let starts = |prefixes: &[&str]| prefixes.iter().any(|p| category.starts_with(p));
@@ -36,15 +32,16 @@ fn held(category: &str) -> Held {
 }
 
 /// Generates the torques, to which the criteria apply, and for short arms D, h and c, which come
-/// from the same recursion. Only short arms are searched; others use the recursion unchanged.
-fn emitted(robot: &Robot, scalar: ScalarType) -> Vec<Emitted> {
+/// from the same recursion. Only arms up to the longest are searched; others use the recursion
+/// unchanged.
+fn emitted(robot: &Robot, scalar: ScalarType, longest: usize) -> Vec<Emitted> {
     let n = robot.joints.len();
     let mut functions = vec![Function::InverseDynamics];
     let is_short = n <= if scalar == ScalarType::F64 { 7 } else { 4 };
     functions.extend(is_short.then_some(Function::ManipulatorEquation));
     let request = Request {
         scalars: vec![scalar],
-        start: match n <= if IS_SLOW { 3 } else { 7 } {
+        start: match n <= longest {
             true => Start::Auto,
             false => Start::Only(Formulation::NewtonEulerLink),
         },
@@ -54,35 +51,45 @@ fn emitted(robot: &Robot, scalar: ScalarType) -> Vec<Emitted> {
     generated.unwrap_or_else(|error| panic!("{error}")).emitted
 }
 
-// In two halves, to share the work between threads.
-#[test]
-fn the_first_categories_meet_their_criteria_in_f64() {
-    categories_meet_their_criteria(ScalarType::F64, 0..57);
+support::daily_and_campaign! {
+    categories_meet_their_criteria_in_f64: (SHORT), (LONG);
+    categories_meet_their_criteria_in_f32: (SHORT), (LONG);
 }
 
-#[test]
-fn the_last_categories_meet_their_criteria_in_f64() {
-    categories_meet_their_criteria(ScalarType::F64, 57..114);
+/// The longest arms that are searched, daily and in the campaign.
+const SHORT: usize = 3;
+const LONG: usize = 7;
+
+fn categories_meet_their_criteria_in_f64(longest: usize) {
+    categories_meet_their_criteria(ScalarType::F64, longest);
 }
 
-#[test]
-fn every_category_meets_its_criterion_in_f32() {
-    categories_meet_their_criteria(ScalarType::F32, 0..114);
+fn categories_meet_their_criteria_in_f32(longest: usize) {
+    categories_meet_their_criteria(ScalarType::F32, longest);
 }
 
-fn categories_meet_their_criteria(scalar: ScalarType, range: Range<usize>) {
+/// Daily, the first case of each category is tried; then all others, and those of arms that daily
+/// are not searched.
+fn categories_meet_their_criteria(scalar: ScalarType, longest: usize) {
     let mut robots: Vec<(Robot, Bench, Vec<Emitted>)> = Vec::new();
     let mut worst: BTreeMap<String, [f64; 2]> = BTreeMap::new();
     let mut failures = Vec::new();
     let cases = read(scalar);
     assert_eq!(cases.len(), 114);
-    let is_tried = |case: &&Extreme| !IS_SLOW || case.id.ends_with("_00");
-    for case in cases[range].iter().filter(is_tried) {
+    let is_tried = |case: &&Extreme| {
+        let is_first = case.id.ends_with("_00");
+        let is_searched = (SHORT + 1..=LONG).contains(&case.robot.joints.len());
+        match longest {
+            SHORT => is_first,
+            _ => !is_first || is_searched,
+        }
+    };
+    for case in cases.iter().filter(is_tried) {
         let (robot, state) = (&case.robot, &case.state);
         let known = robots.iter().position(|(known, ..)| known == robot);
         let known = known.unwrap_or_else(|| {
             let bench = Bench::new(Setup::whole(robot));
-            robots.push((robot.clone(), bench, emitted(robot, scalar)));
+            robots.push((robot.clone(), bench, emitted(robot, scalar, longest)));
             robots.len() - 1
         });
         let (_, bench, emitted) = &robots[known];

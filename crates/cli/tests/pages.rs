@@ -195,8 +195,9 @@ fn the_readme_shows_what_commands_print() {
 }
 
 macro_rules! pages {
-    ($($name:ident),* $(,)?) => { $(
+    ($($(#[$ignored:meta])? $name:ident),* $(,)?) => { $(
         #[test]
+        $(#[$ignored])?
         fn $name() {
             let inside = folder_with(concat!("page_", stringify!($name)), &[
                 "generated/robots/planar2r.toml",
@@ -214,6 +215,11 @@ macro_rules! pages {
 pages!(
     bad_input, certify, explain, files, forged, generate, import, new, outputs, renew, scenes,
     show, tradeoff, verify
+);
+#[cfg(unix)]
+pages!(
+    #[ignore = "minutes: the step `campaigns` of .ci/run"]
+    outputs_of_large_arms
 );
 #[cfg(target_os = "linux")]
 pages!(terminal);

@@ -127,7 +127,7 @@ fn quantised_encoders_leave_the_noise_of_the_torques() {
 
 /// What is left of the mean over many logs is bias.
 #[test]
-#[ignore = "100 logs, a minute or two: a step of `.ci/run`"]
+#[ignore = "minutes: the step `campaigns` of .ci/run"]
 fn quantised_encoders_bias_less_than_torques_do() {
     let [bias, largest] = encoder_bias(100);
     println!("bias: {bias:.2} standard errors, at most {largest:.2}");

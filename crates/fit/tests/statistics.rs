@@ -43,7 +43,7 @@ fn three_standard_errors_cover_the_parameters() {
 }
 
 #[test]
-#[ignore = "100 logs of each arm, a minute or two: a step of `.ci/run`"]
+#[ignore = "minutes: the step `campaigns` of .ci/run"]
 fn three_standard_errors_cover_the_parameters_of_100_logs() {
     covered(100, 2000, 0.05);
 }

@@ -129,7 +129,7 @@ fn collisions_are_found_and_nothing_else() {
 }
 
 #[test]
-#[ignore = "an hour of an arm's time, some minutes of ours: a step of `.ci/run`"]
+#[ignore = "minutes: the step `campaigns` of .ci/run"]
 fn an_hour_has_one_false_alarm_at_most() {
     assert!(false_alarms(60, 60.0) <= 1);
 }

@@ -12,17 +12,17 @@ fn below(points: &mut Points, n: usize) -> usize {
     (points.bits() % n.max(1) as u64) as usize
 }
 
-/// Returns a dose for every day; `FUZZ_TIMES` multiplies it.
-fn dose(runs: usize) -> usize {
+/// Returns the runs of every day times `FUZZ_TIMES`.
+fn multiplied(runs: usize) -> usize {
     let times = std::env::var("FUZZ_TIMES").ok();
     let times: Option<usize> = times.and_then(|times| times.parse().ok());
     runs * times.unwrap_or(1)
 }
 
-/// Checks a dose of texts as they are drawn.
+/// Checks texts as they are drawn.
 fn fuzz(seed: u64, runs: usize, draw: impl Fn(&mut Points) -> Vec<u8>) {
     let mut random = Points::new(seed);
-    (0..dose(runs)).for_each(|_| check(&draw(&mut random)));
+    (0..multiplied(runs)).for_each(|_| check(&draw(&mut random)));
 }
 
 /// Pieces that mean something to a TOML parser or to the reader, bars between them.
@@ -168,7 +168,7 @@ fn mutate(bytes: &mut Vec<u8>, random: &mut Points) {
 fn numbers_and_angles() {
     const LETTERS: &[u8] = b"0123456789.+-_eEpi*/deg nxab ";
     let mut random = Points::new(4);
-    for _ in 0..dose(20_000) {
+    for _ in 0..multiplied(20_000) {
         let letters = 0..below(&mut random, 12);
         let letter = |_| LETTERS[below(&mut random, LETTERS.len())] as char;
         let text: String = letters.map(letter).collect();

@@ -1,7 +1,7 @@
 //! The error in ulps: of f64 against pairs of doubles, of f32 against libm's
 //! f64, whose error is 2⁻²⁸ ulp of f32.
 //!
-//! Some points always; a hundred million, and every f32, with
+//! Some points always; a hundred million, and every f32, by hand:
 //! `cargo test --release -p dalembert-sines -- --ignored --nocapture`.
 
 mod reference;
@@ -130,14 +130,14 @@ fn some_singles() {
 }
 
 #[test]
-#[ignore = "a hundred million points: with --release, a minute"]
-fn a_hundred_million_doubles() {
+#[ignore = "a minute with --release: by hand"]
+fn by_hand_a_hundred_million_doubles() {
     measure_doubles(60_000_000, 100);
 }
 
 #[test]
-#[ignore = "a thousand million points: with --release, a minute"]
-fn every_single_in_range() {
+#[ignore = "a minute with --release: by hand"]
+fn by_hand_every_single_in_range() {
     singles(0..=LARGEST_F32.to_bits());
 }
 

@@ -4,7 +4,7 @@ use dalembert_codegen::workspace::Operation;
 use dalembert_jit::{Arm, Output, Scalar};
 
 use crate::support::{
-    ROBOTS, STATES, all_outputs_in_both, asking, compare, compare_all, drawn, is_same, path, robot,
+    OTHERS, STATES, all_outputs_in_both, asking, compare, compare_all, drawn, is_same, path, robot,
 };
 
 /// Compares all outputs of a robot, at so many states each.
@@ -14,19 +14,17 @@ fn all_outputs(name: &str, states: usize) {
     compare_all(name, &arm, states);
 }
 
-/// Without optimisation, of a small arm, and at some states.
+/// Every output of an arm in both scalars: one state, columns and rows.
 #[test]
 fn all_outputs_of_a_small_arm() {
-    all_outputs("planar2r", STATES / 10);
+    all_outputs("planar2r", STATES);
 }
 
-/// Every output of six robots in both scalars at 100 000 states: one state, columns and
-/// rows.
 #[test]
-#[ignore = "takes minutes: run it optimised"]
-fn all_outputs_of_six_robots() {
-    for name in ROBOTS {
-        all_outputs(name, STATES);
+#[ignore = "minutes: the step `campaigns` of .ci/run"]
+fn all_outputs_of_five_robots() {
+    for name in OTHERS {
+        all_outputs(name, 10 * STATES);
     }
 }
 
@@ -35,7 +33,7 @@ fn all_outputs_of_six_robots() {
 fn outputs_by_default() {
     for name in ["puma560", "stanford"] {
         let load = asking("scalar: f64, f32");
-        compare_all(name, &robot(name, &load), STATES / 10);
+        compare_all(name, &robot(name, &load), STATES);
     }
 }
 
@@ -47,7 +45,7 @@ fn parameters_are_arguments() {
     );
     let arm = robot("planar3r", &load);
     assert!(arm.function("load", Scalar::F64).is_some());
-    compare_all("planar3r with parameters", &arm, STATES / 10);
+    compare_all("planar3r with parameters", &arm, STATES);
 }
 
 /// Polynomials of a program's own, libm's sines, and fused products.
@@ -67,7 +65,7 @@ fn other_sines_and_fused_products() {
             operations.any(|(_, operation, _)| operation == Operation::Fused)
         });
         assert_eq!(fuses, fuses_products);
-        compare_all("planar3r", &arm, STATES / 10);
+        compare_all("planar3r", &arm, STATES);
     }
 }
 
@@ -77,7 +75,7 @@ fn friction_takes_roots() {
     let load = asking("outputs: inverse_dynamics; scalar: f64, f32");
     let arm = Arm::load(path("crates/model/tests/data/coulomb.toml"), &load).unwrap();
     assert!(arm.functions()[0].counts().sqrt > 0);
-    compare_all("coulomb", &arm, STATES / 10);
+    compare_all("coulomb", &arm, STATES);
 }
 
 /// A scene with a tolerance: what was left out is left out of the code.
@@ -86,7 +84,7 @@ fn a_tolerance_is_compiled() {
     let load = asking("scene: swing");
     let arm = robot("stanford", &load);
     assert!(arm.claim().contains("\"tolerated\""));
-    compare_all("with a tolerance", &arm, STATES / 10);
+    compare_all("with a tolerance", &arm, STATES);
 }
 
 /// The same states on several threads.
