@@ -115,6 +115,8 @@ pub struct Table {
     rows: Vec<Vec<Cell>>,
     /// Programs get an object by the first column's values instead of a list.
     is_keyed: bool,
+    /// The columns that it may take on paper or a terminal.
+    width: usize,
 }
 
 /// A column: what programs and people call it.
@@ -197,6 +199,7 @@ impl Table {
             columns: heads.split('|').map(column).collect(),
             rows: Vec::new(),
             is_keyed: false,
+            width: WIDTH,
         }
     }
 
@@ -205,6 +208,14 @@ impl Table {
         Table {
             is_keyed: true,
             ..Table::new(heads)
+        }
+    }
+
+    /// Returns a table for paper, where no text is broken.
+    pub fn unbroken(self) -> Table {
+        Table {
+            width: usize::MAX,
+            ..self
         }
     }
 
@@ -285,7 +296,7 @@ impl Display for Table {
             let wide = texts().map(width).max().unwrap_or(0);
             let is_left = place == 0 || !cells().any(|cell| cell.1.is_number());
             let before = width(&lines[0]) + 2;
-            let room = WIDTH.saturating_sub(before).max(LEAST);
+            let room = self.width.saturating_sub(before).max(LEAST);
             let is_last = self.columns[place + 1..].iter().all(|own| own.is_hidden);
             if is_last && is_left && wide > room {
                 let next = format!("\n{}", " ".repeat(before));

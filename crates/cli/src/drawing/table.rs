@@ -25,7 +25,7 @@ pub(super) fn lines(robot: &Robot, q: &[f64]) -> Vec<String> {
     let heads = "joint|theta|d|a|alpha|mass|centre of mass";
     let joints = robot.joints.iter().enumerate();
     let rows = joints.map(|(i, joint)| row(i, joint).map(Cell::from).to_vec());
-    let table = Table::new(heads).with(rows).to_string();
+    let table = Table::new(heads).with(rows).unbroken().to_string();
     lines.extend(table.lines().map(|line| line.trim_start().to_owned()));
     // Below the table, because such a sentence does not fit beside it.
     lines.extend(robot.joints.iter().enumerate().filter_map(|(i, joint)| {
