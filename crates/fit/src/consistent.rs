@@ -37,9 +37,9 @@ use barrier::Barrier;
 /// What is left of the barrier at the end: what it adds to the squared distance is below
 /// 2 μ times four a link and one a drive's parameter.
 const LAST: f64 = 5e-9;
-/// The least part of the squared distance that is left of the barrier: rounding hides what less of
-/// it does.
-const HIDDEN: f64 = 1e-12;
+/// The least part of the squared distance that is left of the barrier: it then adds a thousand
+/// millionth at most, and steps for less are those of rounding.
+const HIDDEN: f64 = 1e-11;
 /// The factor by which the barrier weakens at first. The objective is self-concordant: steps at
 /// one strength are bounded by (1/f − 1 + log f) times the barrier's parameter, some 50, over
 /// what a step gains, 0.1 or more (Boyd and Vandenberghe 2004, 11.5). Where the free parameters
@@ -48,8 +48,8 @@ const WEAKEN: f64 = 0.5;
 /// Newton steps at one strength of the barrier that are few, and that are as many as should be.
 const FEW: usize = 4;
 const ENOUGH: usize = 8;
-/// Newton steps of a search; 3426 are the most that were seen, at 6000 standard errors.
-const STEPS: usize = 20_000;
+/// Newton steps of a search; 18 350 are the most that were seen, at 7900 standard errors.
+const STEPS: usize = 100_000;
 /// The part of a drive's usual parameter that is nothing. The barrier keeps less than it where
 /// the data ask for less than zero, and the noise hides a million times as much.
 const NOTHING: f64 = 1e-6;

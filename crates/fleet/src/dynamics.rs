@@ -138,7 +138,9 @@ impl Loaded {
             let name = path.display().to_string();
             arm = Arm::parse(&write(&robot), &name, None, &load).map_err(Error::new)?;
         }
-        let model = fit.then(|| Model::without_rotors(arm.robot())).transpose()?;
+        let model = fit
+            .then(|| Model::without_rotors(arm.robot()))
+            .transpose()?;
         Loaded::with(arm, model)
     }
 

@@ -118,7 +118,11 @@ fn solve(
             "of each log, with parameters from the others"
         }
     };
-    let last = if written.is_some() { "written file" } else { "" };
+    let last = if written.is_some() {
+        "written file"
+    } else {
+        ""
+    };
     let head = ["residuals, rms", "joint", "before", "after", last];
     text += &format!("\n{}{what}\n", table(head, rows));
     let robot = bodies.map(|bodies| -> Result<String, Error> {
@@ -130,12 +134,7 @@ fn solve(
 }
 
 /// Says which joints the written file explains badly, and what stopped at zero.
-fn judged(
-    model: &Model,
-    all: &Accumulator,
-    fit: &Fit,
-    bodies: &Bodies,
-) -> Result<String, Error> {
+fn judged(model: &Model, all: &Accumulator, fit: &Fit, bodies: &Bodies) -> Result<String, Error> {
     let mut text = String::new();
     let written = all.residual(model, &bodies.file_parameters(model))?;
     let with_offsets = all.residual(model, &bodies.parameters)?;

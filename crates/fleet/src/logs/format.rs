@@ -22,11 +22,7 @@ const FORMATS: [(&[u8], &str, &str); 11] = [
     ),
     (b"ARROW1", "Arrow", "`pandas.read_feather(…).to_parquet(…)`"),
     (b"\x89HDF", "HDF5", "`pandas.read_hdf(…).to_parquet(…)`"),
-    (
-        b"\x93NUMPY",
-        "NumPy",
-        "`pandas.DataFrame(…).to_parquet(…)`",
-    ),
+    (b"\x93NUMPY", "NumPy", "`pandas.DataFrame(…).to_parquet(…)`"),
     (b"MATLAB", "MATLAB", "`scipy.io.loadmat` reads it"),
     (b"PK\x03\x04", "ZIP", "unpack it"),
     (b"\x1f\x8b", "gzip", "unpack it"),

@@ -85,14 +85,21 @@ fn other_formats_are_named() {
         ("a.npz", b"PK\x03\x04\0\0", "this is ZIP, not Parquet"),
         ("a.h5", b"\x89HDF\r\n\x1a\n", "this is HDF5, not Parquet"),
         ("a.bag", b"\x89MCAP0\r\n", "this is MCAP, not Parquet"),
-        ("a.dat", b"\x00\x01\x02", "this is an unknown format, not Parquet"),
+        (
+            "a.dat",
+            b"\x00\x01\x02",
+            "this is an unknown format, not Parquet",
+        ),
         ("a.parquet", b"", "this is an empty file, not Parquet"),
         ("a.mcap", b"PAR1", "this is Parquet, not MCAP"),
     ] {
         let path = folder.file(name);
         fs::write(&path, bytes).unwrap();
         let why = fails(&over("residual", &path, &arm, &[]));
-        assert!(why.contains(said) && why.contains("Parquet and MCAP are read"), "{name}: {why}");
+        assert!(
+            why.contains(said) && why.contains("Parquet and MCAP are read"),
+            "{name}: {why}"
+        );
         assert!(why.contains(name), "{name}: {why}");
     }
 }

@@ -146,6 +146,7 @@ fn a_cluster_returns_what_one_process_returns() {
     let name = RobotArgs {
         robot: arm.clone(),
         chain: Default::default(),
+        without_rotors: false,
     }
     .function_name(&loaded);
     let own: Arc<dyn Dynamics> = loaded.clone();

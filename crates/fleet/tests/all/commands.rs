@@ -89,7 +89,10 @@ fn the_written_file_leaves_what_the_table_says() {
     assert!(loaded.robot().joints[1].armature == parse_decimal("0").unwrap());
     // Without a file there is no such column, and without rotors none of theirs.
     let said = succeeds(&over("identify", &logs, &old, &["--without-rotors"]));
-    assert!(!said.contains("written file") && !said.contains("armature"), "{said}");
+    assert!(
+        !said.contains("written file") && !said.contains("armature"),
+        "{said}"
+    );
 }
 
 /// The table is that of the states themselves, in one file and in all.

@@ -16,6 +16,9 @@ use crate::support::{
     Folder, Sample, fails, over, robot, robot_file, rows, simulated, succeeds, text,
 };
 
+/// A row of a list column, with nulls.
+type Row = Vec<Option<f64>>;
+
 /// Writes a log of any columns.
 fn write(path: &Path, batch: &RecordBatch) {
     let file = std::fs::File::create(path).unwrap();
@@ -156,7 +159,8 @@ fn lists_of_floats_in_degrees_are_read() {
     let three = robot_file("planar3r");
     let wide = over("residual", &path, &three, &named[4..]);
     let why = fails(&[&wide[..], &["1,1,1"]].concat());
-    let wanted = "column `observation.state` is FixedSizeList(2 x Float32); expected a list of 3 numbers";
+    let wanted =
+        "column `observation.state` is FixedSizeList(2 x Float32); expected a list of 3 numbers";
     assert!(why.contains(wanted), "{why}");
 }
 
@@ -166,11 +170,11 @@ fn lists_of_any_length_are_read() {
     let (folder, count) = (Folder::new(), 600);
     let sample = Sample::new(robot("planar2r", false).as_ref(), count, 14);
     sample.write(&folder.file("plain.parquet"));
-    let row = |quantity: usize, s: usize| -> Vec<Option<f64>> {
+    let row = |quantity: usize, s: usize| -> Row {
         let each = (0..2).map(|i| Some(sample.column(quantity, i)[s]));
         each.collect()
     };
-    let written = |name: &str, change: &dyn Fn(usize, &mut Option<Vec<Option<f64>>>)| {
+    let written = |name: &str, change: &dyn Fn(usize, &mut Option<Row>)| {
         let time: ArrayRef = Arc::new(Float64Array::from(sample.time.clone()));
         let columns = ["q", "qd", "qdd", "tau"].into_iter().enumerate();
         let columns = columns.map(|(quantity, name)| {
@@ -184,7 +188,9 @@ fn lists_of_any_length_are_read() {
             let rows: Vec<_> = rows.collect();
             let lists: ArrayRef = match quantity % 2 {
                 0 => Arc::new(ListArray::from_iter_primitive::<Float64Type, _, _>(rows)),
-                _ => Arc::new(LargeListArray::from_iter_primitive::<Float64Type, _, _>(rows)),
+                _ => Arc::new(LargeListArray::from_iter_primitive::<Float64Type, _, _>(
+                    rows,
+                )),
             };
             (name, lists)
         });
@@ -219,10 +225,16 @@ fn lists_of_any_length_are_read() {
     });
     let said = succeeds(&over("residual", &gaps, &arm, &[]));
     assert!(said.contains("588 states in 1 files"), "{said}");
-    assert!(said.contains("gaps.parquet: 12 rows left out: a value is null"), "{said}");
+    assert!(
+        said.contains("gaps.parquet: 12 rows left out: a value is null"),
+        "{said}"
+    );
     let three = robot_file("planar3r");
     let why = fails(&over("residual", &lists, &three, &[]));
-    assert!(why.contains("row 1: column `q` has 2 numbers; expected 3"), "{why}");
+    assert!(
+        why.contains("row 1: column `q` has 2 numbers; expected 3"),
+        "{why}"
+    );
 }
 
 /// Writes a log again without accelerations, its velocities times a factor or left out.
@@ -248,7 +260,10 @@ fn without_accelerations(log: &Path, to: &Path, factor: Option<f64>) {
 #[test]
 fn measured_velocities_are_used() {
     let folder = Folder::new();
-    simulated(&folder, "--files 1 --seconds 10 --noise 0.002 --encoder 2000");
+    simulated(
+        &folder,
+        "--files 1 --seconds 10 --noise 0.002 --encoder 2000",
+    );
     let (log, arm) = (folder.file("logs/log0000.parquet"), robot_file("planar2r"));
     let [once, twice, wrong] = [Some(1.0), None, Some(0.0)].map(|factor| {
         let path = folder.file("log.parquet");
@@ -257,7 +272,10 @@ fn measured_velocities_are_used() {
     });
     let said = "log.parquet: accelerations are differentiated from measured velocities\n";
     assert!(once.contains(said), "{once}");
-    assert!(once.contains("rows left out: at the ends there are no derivatives"), "{once}");
+    assert!(
+        once.contains("rows left out: at the ends there are no derivatives"),
+        "{once}"
+    );
     let said = "log.parquet: velocities and accelerations are differentiated from positions";
     assert!(twice.contains(&format!("{said}\n")), "{twice}");
     let why = ", since the measured velocities of joint 1 are not their rates\n";
@@ -267,7 +285,12 @@ fn measured_velocities_are_used() {
     for (once, twice) in once.iter().zip(&twice) {
         assert!(once[1] < 0.5 * twice[1], "{once:?} {twice:?}");
     }
-    let slow = over("residual", &log, &arm, &["--motion-frequency", "100", "--acceleration", "none{}"]);
+    let slow = over(
+        "residual",
+        &log,
+        &arm,
+        &["--motion-frequency", "100", "--acceleration", "none{}"],
+    );
     let why = fails(&slow);
     let wanted = "1000 states a second carry motion up to 42.13 Hz, and --motion-frequency is 100";
     assert!(why.contains(wanted), "{why}");
