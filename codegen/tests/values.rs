@@ -14,7 +14,7 @@ use dalembert_model::scene::write;
 
 use crate::support::{self, BOUND, Case, all_but_one_in, is_close, largest, one_in, rows};
 
-/// What stands for what in the tables.
+/// Names in the tables, and the texts that they stand for.
 const NAMES: &str = "
 FRAMES := jacobian@camera:local, jacobian_rate@elbow:world, operational_inertia@camera:x_y_rz, operational_bias@elbow:linear, inverse_dynamics_with_wrench@camera:local, forward_dynamics_with_wrench@elbow, contact_wrench@camera:linear, momentum_observer, task=operational_inertia@camera:linear+consistent_inverse@camera:linear+null_space_projector@camera:linear
 SECOND := inverse_dynamics_second_derivatives, forward_dynamics_second_derivatives

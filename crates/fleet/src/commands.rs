@@ -40,9 +40,9 @@ enum Command {
 /// The result of a command.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// What goes to standard output.
+    /// The text for standard output.
     pub text: String,
-    /// What went wrong after this was computed.
+    /// The error that came after this was computed.
     pub failed: Option<Error>,
 }
 

@@ -67,7 +67,7 @@ pub fn hash(text: &str) -> String {
     digits
 }
 
-/// What a seal has before the hash.
+/// The words of a seal before the hash.
 const SEAL: &str = ", text = ";
 
 /// Writes a line before a text that names its writer and has the hash of the text: of files without a

@@ -5,7 +5,7 @@
 const LIGHT: &str = "\
 svg{font:12px sans-serif;color:#222}\
 .p{fill:#fff}.i{fill:currentColor;stroke:#fff;stroke-width:3;paint-order:stroke}.c{font:12px monospace}";
-/// What differs on a dark screen.
+/// The colours that differ on a dark screen.
 const DARK: &str = "svg{color:#ddd}.p{fill:#111}.i{stroke:#111}";
 
 /// An SVG drawing that is being written. Lengths are in pixels, y points down.

@@ -27,7 +27,7 @@ pub struct Log {
     pub columns: Columns,
     /// Bytes of the largest row group: what a reader holds of it.
     pub group: u64,
-    /// How it was converted, if it was.
+    /// The conversion, if there was one.
     pub origin: Origin,
 }
 

@@ -8,7 +8,7 @@ use dalembert_jit::{Arm, Cache, Load, Native, Output, Place, Real};
 /// The robots of `generated/` but the arm in the plane, of which all outputs are compared daily.
 pub const OTHERS: [&str; 5] = ["puma560", "stanford", "ur10", "panda", "planar3r"];
 
-/// How many states a function is compared at daily.
+/// The number of states that a function is compared at daily.
 pub const STATES: usize = 1_000;
 
 /// Returns a file of the project.
