@@ -38,13 +38,10 @@ dalembert::dynamics! {
     fma: on;
 }
 
-/// States a batch.
 const STATES: usize = 1024;
 
-/// States a batch on several cores.
 const MANY: usize = 16_384;
 
-/// Rounds in which each variant runs once.
 const ROUNDS: usize = 401;
 
 /// Seeded numbers inside ±π in columns, for each argument.
@@ -64,7 +61,6 @@ fn aligned<T>(column: &mut [T], states: usize) -> &mut [T] {
     &mut column[start..start + states]
 }
 
-/// The programs that gcc made, for AVX-512 and for AVX2.
 struct Compiled {
     wide: Option<Gcc>,
     narrow: Option<Gcc>,
@@ -131,7 +127,6 @@ macro_rules! bench {
                 if let Some(time) = time.and_then(|program| program.run($place)) {
                     rounds.note(gcc, time);
                 }
-                // The same bits in all vectors.
                 let own = slices.each_ref().map(|column| column.to_vec());
                 let expected = expected.get_or_insert_with(|| own.clone());
                 assert!(own == *expected);

@@ -20,13 +20,10 @@ use rounds::Rounds;
 #[path = "generated/recursion.rs"]
 mod symbolic;
 
-/// Calls a run.
 const CALLS: usize = 200;
 
-/// Rounds in which each variant runs once.
 const ROUNDS: usize = 1001;
 
-/// Returns the generic runtime of a checked-in robot.
 fn reference(name: &str) -> Reference<f64> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let file = RobotFile::read(&root.join(format!("generated/robots/{name}.toml")));
@@ -73,7 +70,6 @@ macro_rules! inverse_dynamics {
     }};
 }
 
-/// Compares D, h and c together with D, h and c apart, and f32 with f64.
 fn variants() {
     let [q, qd, qdd] = [1, 2, 3].map(states::<6>);
     let single = [&q, &qd, &qdd].map(|states| {

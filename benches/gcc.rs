@@ -7,7 +7,6 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 
 use dalembert_codegen::{Function, Language, Request, RobotFile, SinCos, generate};
 
-/// A running program.
 pub struct Gcc {
     child: Child,
     answers: BufReader<ChildStdout>,
@@ -39,7 +38,6 @@ impl Gcc {
             } else {
                 "double"
             };
-            // The arrays of the results, which no `const` is before.
             let results = head.split(", ").filter(|part| !part.starts_with("const "));
             let length = |part: &str| {
                 part.split(['[', ' ', ']'])

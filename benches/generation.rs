@@ -1,5 +1,4 @@
-//! What generation takes: by a quick search without a plan, and by a plan. Read the
-//! ratios, the times are this machine's.
+//! The time of generation: by a quick search without a plan, and by a plan.
 //!
 //! `cargo bench --bench generation`
 
@@ -11,7 +10,6 @@ use std::path::Path;
 use dalembert_codegen::{Function, Request, RobotFile, generate};
 use rounds::Rounds;
 
-/// Rounds in which each variant runs once.
 const ROUNDS: usize = 7;
 
 fn searches(name: &str) {

@@ -16,11 +16,8 @@ use dalembert_sines::text::{Angle, Fused, Number, Products, Rounded, together};
 /// comparisons; quotients; roots.
 const KINDS: usize = 9;
 
-/// A processor's ports for vectors of one width.
 struct Row {
-    /// Vendor, family and models as `/proc/cpuinfo` has them.
     cores: (&'static str, u32, &'static [(u32, u32)]),
-    /// The bits of its vectors.
     width: u32,
     /// For each kind but the last two the ports, a bit each, of which one is taken for `cycles`.
     ports: [u8; KINDS - 2],
@@ -69,18 +66,15 @@ const ROWS: &[Row] = &[
           width: 512, ports: INTEL_512, cycles: 1.0, divider: [[16.0, 10.0], [18.0, 12.0]] },
 ];
 
-/// The operations of one vector, by their kinds.
 pub type Operations = [usize; KINDS];
 
 thread_local! {
     static COUNTED: Cell<Operations> = const { Cell::new([0; KINDS]) };
 }
 
-/// A number that counts what is done with it.
 #[derive(Clone, Copy)]
 pub struct Counted;
 
-/// Its bits.
 #[derive(Clone, Copy)]
 pub struct CountedBits;
 
@@ -181,7 +175,6 @@ macro_rules! number {
 }
 number!(f64, f32);
 
-/// Counts what the printed function does, its sines with it.
 pub fn operations<F, const A: usize, const N: usize, const M: usize, const K: usize>() -> Operations
 where
     F: Function<A, N, M, K>,
@@ -198,8 +191,7 @@ where
     COUNTED.get()
 }
 
-/// Returns the limit in ns a state; `None` where the table has no row for this processor, or nobody
-/// says which it is.
+/// In ns a state; `None` where the table has no row for this processor, or it is not known.
 pub fn limit<T: Angle>(operations: &Operations, width: u32, clock: f64) -> Option<f64> {
     let about = fs::read_to_string("/proc/cpuinfo").ok()?;
     let field = |name: &str| {
@@ -230,8 +222,7 @@ pub fn limit<T: Angle>(operations: &Operations, width: u32, clock: f64) -> Optio
     Some(cycles / lanes as f64 / clock)
 }
 
-/// Returns the cycles a nanosecond: of a chain of products and exclusive ors, of 3 cycles and one
-/// on all of these processors.
+/// Cycles a nanosecond, by a chain of products and exclusive ors, of 3 cycles and one.
 pub fn clock() -> f64 {
     let run = || {
         let start = Instant::now();

@@ -3,16 +3,13 @@
 
 use std::time::Instant;
 
-/// The times of one variant after the other, round by round.
 pub struct Rounds {
-    /// Calls, states or whatever a run does so many of.
     units: usize,
     names: Vec<&'static str>,
     times: Vec<Vec<f64>>,
 }
 
 impl Rounds {
-    /// Creates rounds whose runs do so many units of work each.
     pub fn of(units: usize) -> Rounds {
         Rounds {
             units,
@@ -21,7 +18,6 @@ impl Rounds {
         }
     }
 
-    /// Times one run of a variant, once a round.
     pub fn time(&mut self, name: &'static str, run: impl FnOnce()) {
         let start = Instant::now();
         run();
@@ -39,8 +35,8 @@ impl Rounds {
         self.times[place].push(time / self.units as f64);
     }
 
-    /// Prints medians: of the times, and of how many times as fast as the first variant in the
-    /// same round each was.
+    /// Prints medians: of the times, and of the speed relative to the first variant in the same
+    /// round.
     #[allow(dead_code)] // Every bench compiles this file for itself.
     pub fn print(&self, what: &str) {
         println!("\n{what}: ns each, times as fast as the first");
@@ -55,8 +51,7 @@ impl Rounds {
         }
     }
 
-    /// Medians and least times, and these as multiples of the least that is possible, where
-    /// somebody knows it. Short runs are least where nobody disturbed them.
+    /// The least times are also multiples of the least that is possible, where that is known.
     #[allow(dead_code)]
     pub fn print_limits(&self, what: &str, limit: impl Fn(&str) -> Option<f64>) {
         println!("\n{what}: ns each, median and least; port limit, times that");

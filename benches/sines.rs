@@ -16,32 +16,26 @@ use rounds::Rounds;
 #[path = "generated/puma560_sines.rs"]
 mod variants;
 
-/// std's sine and cosine by libm's names.
 pub mod std_math {
-    /// Returns both.
     #[inline]
     pub fn sincos(x: f64) -> (f64, f64) {
         x.sin_cos()
     }
-    /// Returns the sine.
     #[inline]
     pub fn sin(x: f64) -> f64 {
         x.sin()
     }
-    /// Returns the cosine.
     #[inline]
     pub fn cos(x: f64) -> f64 {
         x.cos()
     }
 }
 
-/// The number of states: so many that no branch of a sine is learnt by heart; of a thousand, a
-/// processor remembers them all.
+/// So many that no branch of a sine is learnt by heart: a processor remembers a thousand states.
 const STATES: usize = 1 << 15;
 
 type State = [[f64; 6]; 3];
 
-/// States all over the robot's limits.
 fn states() -> Vec<State> {
     let mut points = Points::new(1);
     let reach = [
@@ -54,10 +48,8 @@ fn states() -> Vec<State> {
         .collect()
 }
 
-/// Rounds in which each variant runs once.
 const ROUNDS: usize = 301;
 
-/// Times the program with each of its sines.
 fn torques(states: &[State]) {
     let mut rounds = Rounds::of(STATES);
     for _ in 0..ROUNDS {
@@ -75,7 +67,6 @@ fn torques(states: &[State]) {
     rounds.print("puma560 inverse_dynamics f64, by its sines");
 }
 
-/// Times six sines and cosines together and one by one: f64 and f32.
 fn six_angles(states: &[State]) {
     let single: Vec<[f32; 6]> = states.iter().map(|[q, ..]| q.map(|x| x as f32)).collect();
     let [mut double_rounds, mut single_rounds] = [(); 2].map(|()| Rounds::of(STATES));

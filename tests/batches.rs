@@ -72,15 +72,13 @@ arm!(
     sincos: together;
 );
 
-/// Equal bits, or no number in both: which NaN it is, is the processor's choice. Doubles have
-/// every single number.
+/// Equal bits, or NaN in both, whichever NaN it is. Doubles have every single number.
 fn same<T: Copy + Into<f64>>(one: &T, other: &T) -> bool {
     let (one, other): (f64, f64) = ((*one).into(), (*other).into());
     one.to_bits() == other.to_bits() || (one.is_nan() && other.is_nan())
 }
 
-/// Returns seeded numbers; every ninth is unusual: angles beyond what polynomials are for,
-/// zeros, infinities, NaN.
+/// Every ninth is unusual: an angle beyond the polynomials, a zero, an infinity or NaN.
 fn numbers(count: usize, seed: u64) -> Vec<f64> {
     let (no, most) = (f64::NAN, f64::INFINITY);
     let odd = [1e5, -0.0, most, no, 1e300, -most, 5e-324, 1e-40];
@@ -92,18 +90,15 @@ fn numbers(count: usize, seed: u64) -> Vec<f64> {
     (0..count).map(&mut next).collect()
 }
 
-/// Columns of equal states, as slices.
 fn columns<T: Copy, const N: usize>(states: &[[T; N]]) -> [Vec<T>; N] {
     from_fn(|i| states.iter().map(|state| state[i]).collect())
 }
 
-/// Returns as many numbers as there must be.
 fn array<T: std::fmt::Debug, const M: usize>(numbers: Vec<T>) -> [T; M] {
     numbers.try_into().unwrap()
 }
 
-/// Compares functions of columns with the functions of one state, in both scalars; each line ends in
-/// the numbers of a result in the order of its text.
+/// Each line ends in the numbers of a result in the order of its text.
 macro_rules! check {
     ($module:ident, $single:ident; $($function:ident $columns:ident $kind:ident
       $arguments:tt $result:ident => $numbers:expr;)*) => {$(
@@ -193,7 +188,6 @@ macro_rules! check_arm {
     };
 }
 
-/// A bundle of many states returns what its function returns for each.
 #[test]
 fn bundles_of_many_states() {
     check! { bundled, bundled_f32;
@@ -226,7 +220,6 @@ fn sines_by_polynomials() {
     check_arm!(polynomial, polynomial_f32);
 }
 
-/// The arm that is measured: hundreds of operations.
 #[test]
 fn a_whole_arm() {
     check_dynamics!(puma560, puma560_f32);
@@ -248,7 +241,6 @@ fn slices_of_different_lengths_are_refused() {
     let error = together::inverse_dynamics_columns(&q, &q, &q, &mut slices).unwrap_err();
     let text = "column 2 of the results has 0 states, the first has 5";
     assert_eq!(error.to_string(), text);
-    // Nothing was computed.
     assert_eq!(results, [[7.0; 5]; 3]);
 }
 

@@ -89,7 +89,6 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Writes the file anew if it is another, and says so.
 fn keep(file: &str, text: &str) {
     let kept = root().join(file);
     if fs::read_to_string(&kept).is_ok_and(|old| old == text) {

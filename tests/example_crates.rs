@@ -1,7 +1,5 @@
 //! The example crate that is a workspace of its own: built as a user would build it, outside
 //! this workspace's target directory, and run.
-//!
-//! The others are members, and have tests themselves.
 
 use std::path::Path;
 use std::process::Command;

@@ -6,12 +6,10 @@ use std::path::Path;
 
 use serde_json::Value;
 
-/// The bounds of a result's error, relative to the largest entry: in f32 it is what rounding the
-/// state to f32 costs.
+/// Relative to the largest entry; in f32 it is what rounding the state to f32 costs.
 const DOUBLE: f64 = 1e-12;
 const SINGLE: f64 = 1e-5;
 
-/// q, q̇ and q̈.
 type Motion = [Vec<f64>; 3];
 
 /// The results of a module at a state, matrices row by row, by the keys of the known ones.
@@ -70,7 +68,6 @@ const ROBOTS: [Compiled; 6] = compiled![
     ur10 ur10_f32
 ];
 
-/// Returns the numbers of lists in lists.
 fn numbers(json: &Value) -> Vec<f64> {
     match json {
         Value::Array(list) => list.iter().flat_map(numbers).collect(),

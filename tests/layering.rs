@@ -10,7 +10,6 @@ use std::path::Path;
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const STAGES: &str = "codegen/src/";
 
-/// Returns the rows of the table: folders, and types that leave them.
 fn table() -> Vec<[Vec<String>; 2]> {
     let text = fs::read_to_string(format!("{ROOT}/CONTRIBUTING.md")).unwrap();
     let (_, table) = text.split_once("| folder | phase |").unwrap();
@@ -26,7 +25,6 @@ fn table() -> Vec<[Vec<String>; 2]> {
     rows.map(row).collect()
 }
 
-/// Returns the stages in the order of the table.
 fn stages() -> Vec<String> {
     let folders = table().into_iter().map(|[folders, _]| folders);
     let stages = folders.filter(|folders| folders[0].starts_with(STAGES));
@@ -55,7 +53,6 @@ fn read(path: &Path, text: &mut String) {
     }
 }
 
-/// Returns the code of a module: of its file and of all files in its folder.
 fn code(module: &str) -> String {
     let mut text = String::new();
     for path in [".rs", ""].map(|ending| format!("{ROOT}/{module}{ending}")) {
@@ -66,7 +63,6 @@ fn code(module: &str) -> String {
     text
 }
 
-/// Returns the modules that a stage's files name behind `crate::`.
 fn used(stage: &str) -> BTreeSet<String> {
     let text = code(&format!("{STAGES}{stage}"));
     // A list would hide what it names.

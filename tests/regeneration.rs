@@ -2,9 +2,7 @@
 //! Every program of these plans is proved, whether or not a checked-in file has it. Checked-in files
 //! are compared by `dalembert renew --check`.
 //!
-//! What differs is written anew before the test fails, so that running it once
-//! more is all that a change of the generator takes; the difference is then in
-//! the commit.
+//! A page that differs is written anew before the test fails.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -27,7 +25,6 @@ fn robots() -> BTreeMap<String, PathBuf> {
         .collect()
 }
 
-/// Returns whether a file has this text, and writes it if not.
 fn keep(path: &Path, text: &str) -> bool {
     let same = fs::read_to_string(path).is_ok_and(|old| old == text);
     if !same {
@@ -63,7 +60,6 @@ fn pages_have_the_counts_of_the_plans() {
     assert!(stale.is_empty(), "{what}: {stale:#?}");
 }
 
-/// The functions of each robot.
 type Table = BTreeMap<String, Vec<GeneratedFunction>>;
 
 /// Generates what the plan has besides the functions of the file, and what takes parameters of
@@ -103,7 +99,6 @@ fn others(robot: &Robot, request: &Request) -> Vec<GeneratedFunction> {
     own
 }
 
-/// Updates the rows of counts of a page.
 fn updated(page: &str, all: &Table) -> String {
     let mut text = String::new();
     let mut columns: Vec<&str> = Vec::new();
@@ -125,7 +120,6 @@ fn updated(page: &str, all: &Table) -> String {
     text
 }
 
-/// Returns a row of the table: multiplications/additions, and divisions where there are any.
 fn counts(first: &str, named: &[Function], robots: &[&str], all: &Table) -> String {
     let mut row = format!("| {first} |");
     for robot in robots {

@@ -61,7 +61,6 @@ pub fn ask(
 }
 
 impl Problem {
-    /// Says why nothing was generated, of the option and the item that it is about.
     fn from_error(error: &GenerateError, request: &Request) -> Problem {
         let (option, item) = match (error, error.function()) {
             (GenerateError::Parameter(..), _) => {

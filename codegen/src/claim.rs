@@ -10,7 +10,6 @@ use crate::function::{Function, Quantity};
 use crate::program::{Operand, Program, Steps};
 use crate::setup::Setup;
 
-/// The constants of all programs, each once.
 #[derive(Default)]
 pub(crate) struct Written {
     texts: Vec<String>,
@@ -26,7 +25,6 @@ impl Written {
         })
     }
 
-    /// Returns the document of functions with these constants.
     pub(crate) fn document(self, functions: Vec<Claimed>) -> Claim {
         Claim {
             claim: VERSION,
@@ -45,7 +43,6 @@ impl Written {
     }
 }
 
-/// Returns the operations and the results of a program.
 pub(crate) fn code(program: &Program, constants: &mut Written) -> [String; 2] {
     let Steps { steps, outputs } = program.dag.steps();
     let steps = steps.iter().map(|step| {
@@ -61,7 +58,6 @@ pub(crate) fn code(program: &Program, constants: &mut Written) -> [String; 2] {
     [steps, returns].map(|words| words.join(" "))
 }
 
-/// Returns the claim of a program of a robot in a scene.
 pub(crate) fn of_setup(own: &Program, setup: &Setup, constants: &mut Written) -> Claimed {
     let scene = setup.scene().map(|scene| &*scene.name);
     let claimed = claimed(own, scene, constants);
@@ -87,7 +83,6 @@ pub(crate) fn of_setup(own: &Program, setup: &Setup, constants: &mut Written) ->
     }
 }
 
-/// Returns the claim of a program.
 pub(crate) fn claimed(own: &Program, scene: Option<&str>, constants: &mut Written) -> Claimed {
     let [steps, returns] = code(own, constants);
     let arguments = own.arguments.iter().map(|own| own.name().to_owned());
@@ -103,7 +98,6 @@ pub(crate) fn claimed(own: &Program, scene: Option<&str>, constants: &mut Writte
     }
 }
 
-/// Returns a result by the function that is first to have it, and its name there.
 fn result(quantity: Quantity) -> String {
     let (of, view) = match quantity {
         Quantity::At(at) => (at.quantity(), format!("@{}", at.words())),
@@ -111,7 +105,6 @@ fn result(quantity: Quantity) -> String {
     };
     let mut all = Function::ALL.iter();
     let first = all.find(|function| function.quantities().contains(&of));
-    // The load of a payload is a result of its own.
     let first = first.map_or_else(String::new, |function| format!("{function}."));
     format!("{first}{}{view}", of.field())
 }

@@ -1,9 +1,8 @@
 //! An attempt to refute a certificate: the emitted text is run at corners and
 //! random states of the box, and climbs to where it errs most.
 //!
-//! The reference is the certificate's exact program in double precision; what
-//! that costs by rounding is bounded as well and granted, so a violation
-//! found here is one.
+//! The reference is the certificate's exact program in double precision; what that costs by
+//! rounding is bounded as well and granted, so a violation found here is one.
 
 use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::relative;
@@ -88,7 +87,6 @@ pub fn falsify(
 /// States that are run at once: their columns stay in a processor's cache.
 const BLOCK: usize = 128;
 
-/// Moves of a climb.
 const MOVES: usize = 600;
 
 /// Of the climbs, those where rounding may cost most go on in the last bits.
@@ -99,7 +97,6 @@ const LAST_MOVES: usize = 1024;
 const NEIGHBOURS: usize = 16;
 const LAST: [f64; 4] = [1e-3, 1e-4, 1e-5, 3e-6];
 
-/// Both texts, and what was seen of them.
 struct Falsifier<'c> {
     certificate: &'c Certificate,
     emitted: Code,
@@ -142,7 +139,6 @@ impl<'c> Falsifier<'c> {
         }
     }
 
-    /// Returns the errors relative to T, a column an output; the largest are noted.
     fn errors(&mut self, states: &[JointState]) -> Vec<Vec<f64>> {
         let Certificate { scalar, limits, .. } = self.certificate;
         let states: Vec<JointState> = states.iter().map(|s| held(s, *scalar, limits)).collect();
@@ -177,8 +173,7 @@ impl<'c> Falsifier<'c> {
     }
 }
 
-/// Computes the first-order rounding error that an output may have at a state, in units of u: the
-/// sum of |value·adjoint| over all operations.
+/// First order, in units of u: the sum of |value·adjoint| over all operations.
 fn rounded(code: &Code, output: usize, state: &JointState) -> f64 {
     let (values, mut adjoints) = (code.values_at(state), Vec::new());
     let top = code.dag.outputs[output].node;
@@ -188,7 +183,6 @@ fn rounded(code: &Code, output: usize, state: &JointState) -> f64 {
     errors.map(|id| (values[id] * adjoints[id]).abs()).sum()
 }
 
-/// Moves so many coordinates, by no more than a part of their ranges.
 fn nudged(
     limits: &InputBox,
     state: &JointState,
@@ -208,7 +202,6 @@ fn nudged(
     next
 }
 
-/// Returns the nearest state of the scalar's numbers inside the box.
 pub(crate) fn held(state: &JointState, scalar: ScalarType, limits: &InputBox) -> JointState {
     if scalar == ScalarType::F64 {
         return state.clone();

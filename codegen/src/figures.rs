@@ -5,7 +5,6 @@
 const ABOVE: i64 = 1;
 const BELOW: i64 = -1;
 
-/// Returns a number of so many digits, on one side of another and next to it.
 fn rounded(x: f64, digits: usize, side: i64) -> f64 {
     let near = format!("{x:.*e}", digits.saturating_sub(1));
     let read = near.parse().unwrap_or(x);
@@ -15,19 +14,16 @@ fn rounded(x: f64, digits: usize, side: i64) -> f64 {
     let (false, Some((mantissa, Ok(power)))) = (good, parts) else {
         return read;
     };
-    // In units of the last digit, one further.
     let last = power - digits.saturating_sub(1) as i32;
     let mantissa = mantissa.parse::<i64>().map(|units| units + side);
     let moved = mantissa.map(|units| format!("{units}e{last}").parse());
     moved.ok().and_then(Result::ok).unwrap_or(x)
 }
 
-/// Returns the least number of so many digits that is not below another one.
 pub(crate) fn above(x: f64, digits: usize) -> f64 {
     rounded(x, digits, ABOVE)
 }
 
-/// Returns a number as people write it.
 fn plain(x: f64) -> String {
     if x == 0.0 || (1e-3..1e5).contains(&x.abs()) {
         format!("{x}")
@@ -41,19 +37,16 @@ pub(crate) fn at_least(x: f64) -> String {
     plain(above(x, 5))
 }
 
-/// Returns a decimal as the robot file would have it; a fraction if it is none.
 pub(crate) fn decimal(value: &dalembert_model::number::Rational) -> String {
     dalembert_model::number::parse::write_decimal(value).unwrap_or_else(|| value.to_string())
 }
 
-/// Returns where a frame is in another.
 pub(crate) fn placed(placement: &dalembert_model::robot::Placement) -> String {
     let xyz = placement.xyz.each_ref().map(decimal).join(", ");
     let rpy = placement.rpy.each_ref().map(ToString::to_string).join(", ");
     format!("xyz ({xyz}) m, rpy ({rpy})")
 }
 
-/// Returns three digits, not below: what is read off is a bound too.
 pub(crate) fn bound(x: f64) -> String {
     bound_of(x, 3)
 }
@@ -66,8 +59,7 @@ pub fn bound_of(x: f64, digits: usize) -> String {
     format!("{:.*e}", digits.saturating_sub(1), above(x, digits))
 }
 
-/// Returns a range of seven digits inside a range, or all its digits if it is that
-/// narrow.
+/// Returns a range of seven digits inside a range, or all its digits if it is that narrow.
 pub(crate) fn inside(low: f64, high: f64) -> String {
     let ends = (above(low, 7), rounded(high, 7, BELOW));
     let (low, high) = if ends.0 < ends.1 { ends } else { (low, high) };
@@ -80,7 +72,6 @@ mod tests {
     use crate::random::Random;
     use std::f64::consts::{FRAC_PI_2, PI};
 
-    /// What is printed, read again, is where it must be, and near.
     #[test]
     fn figures_are_on_their_side() {
         let mut random = Random::new(0xf16);

@@ -6,13 +6,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
-/// The stack of a thread: as much as a program's first thread has, since the others run the
-/// same code.
+/// As much as a program's first thread has, since the others run the same code.
 const STACK: usize = 8 << 20;
 
-/// Returns what a function makes of each, in their order, by as many threads as the
-/// machine runs at once. A thread that the system refuses is done without. Work begins
-/// with the last: the long outputs come last, and none should be left alone at the end.
+/// Applies a function to each item in threads and keeps the order. Work begins with the last item:
+/// the long outputs come last, and none should be left alone at the end.
 pub fn each<'t, T: Sync, R: Send>(items: &'t [T], function: impl Fn(&'t T) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
     let (sender, results) = mpsc::channel();
@@ -22,7 +20,6 @@ pub fn each<'t, T: Sync, R: Send>(items: &'t [T], function: impl Fn(&'t T) -> R 
             let Some(item) = items.iter().nth_back(index) else {
                 break;
             };
-            // The receiver is below.
             let _ = sender.send((index, function(item)));
         }
     };
@@ -48,7 +45,6 @@ mod tests {
     #[test]
     fn results_are_in_the_order_of_their_items() {
         let items: Vec<u64> = (0..100).collect();
-        // The last ones, with which work begins, take longest.
         let slow = |&k: &u64| {
             std::hint::black_box((0..k * 1000).sum::<u64>());
             k

@@ -90,8 +90,7 @@ pub struct RobotFileError {
 }
 
 impl RobotFileError {
-    /// Returns what the system says of a path, in the words that every way in has for it;
-    /// messages call it by a shorter name.
+    /// Returns the system's error about a path; messages call the file by a shorter name.
     pub fn of_system(path: &Path, shown: &str, error: &std::io::Error) -> RobotFileError {
         RobotFileError::new(match error.kind() {
             ErrorKind::NotFound => {
@@ -128,7 +127,6 @@ impl fmt::Display for RobotFileError {
 
 impl std::error::Error for RobotFileError {}
 
-/// Returns the file that was probably meant.
 fn meant(path: &Path, shown: &str) -> Option<String> {
     let parent = path.parent().filter(|p| !p.as_os_str().is_empty());
     let folder = parent.unwrap_or(Path::new("."));

@@ -81,8 +81,7 @@ impl JointState {
         entries.all(|x| x.is_finite())
     }
 
-    /// Returns an entry of an argument; NaN where the state has none, which
-    /// reaches whatever reads it.
+    /// Returns an entry of an argument; NaN if the state has none, which reaches all that reads it.
     pub fn entry(&self, argument: Argument, index: usize) -> f64 {
         let entry = self.entries(argument).get(index);
         entry.copied().unwrap_or(f64::NAN)
@@ -107,8 +106,7 @@ impl JointState {
     }
 }
 
-/// Entries of each argument, in the order of [`Argument::ALL`]; those that nothing reads may be
-/// missing.
+/// Entries of each argument, in the order of [`Argument::ALL`]; unread ones may be missing.
 pub type State<T> = [Vec<T>; Argument::COUNT];
 
 /// The number of states of a measurement unless another is given.
@@ -120,9 +118,8 @@ pub const SEED: u64 = 0xa1e3;
 /// Distinguishes the seed of the arguments that are no part of a state.
 const OTHERS: u64 = 0x6172_6773;
 
-/// States drawn evenly from the robot's limits; where it has none: ±π, or
-/// ±1 m, ±3 per second, ±10 per second squared, ±100 N·m or N. The same on
-/// every machine.
+/// States drawn evenly from the robot's limits; where it has none: ±π, or ±1 m, ±3 per second, ±10
+/// per second squared, ±100 N·m or N. The same on every machine.
 pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
     // Once, not state by state: a multiple of π is rounded from 120 digits.
     let range = |joint: &Joint| Argument::JOINTS.map(|argument| range(joint, argument));
@@ -155,8 +152,7 @@ pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
 }
 
 impl JointState {
-    /// Returns the nearest state of finite f32 numbers: what is beyond the largest of them is
-    /// that, and what is no number is zero.
+    /// Returns the nearest state of finite f32 numbers, with zero in place of NaN.
     pub fn in_finite_single(&self) -> JointState {
         let most = f64::from(f32::MAX);
         self.each(|x| match x.is_nan() {
@@ -184,7 +180,6 @@ pub fn positions(robot: &Robot) -> Vec<[f64; 2]> {
     robot.joints.iter().map(position).collect()
 }
 
-/// Returns between which ends a joint's entry of an argument is drawn.
 fn range(joint: &Joint, argument: Argument) -> [f64; 2] {
     let most = match argument.limit() {
         None | Some(Limit::Position) => return position(joint),

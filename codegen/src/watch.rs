@@ -1,9 +1,8 @@
 //! Watching a long search, and ending it early.
 //!
-//! The library reads no clock and no signal: whoever waits brings an
-//! [`Observer`]. It is told what was reached, and it may ask for an end; the
-//! search then finishes its round and the best program so far, if the quick
-//! search has none cheaper, goes on to be proved like any other. As long as
+//! The library reads no clock and no signal: whoever waits brings an [`Observer`]. It is told what
+//! was reached, and it may ask for an end; the search then finishes its round and the best program
+//! so far, if the quick search has none cheaper, goes on to be proved like any other. As long as
 //! nobody asks, watching changes nothing.
 
 use std::fmt;
@@ -39,8 +38,7 @@ pub struct Progress {
     pub part: Part,
     /// Rounds of the part that are done.
     pub round: usize,
-    /// Its rounds at most, zero if that is not known: it ends earlier where
-    /// nothing more is gained.
+    /// Its rounds at most, zero if that is not known: it ends earlier where nothing more is gained.
     pub rounds: usize,
     /// The best program so far, once there is one.
     pub best: Option<Counts>,
@@ -56,10 +54,8 @@ pub trait Observer: Send + Sync {
     fn stop(&self) -> bool;
 }
 
-/// An observer, or none.
-///
-/// It prints the same with and without one: what is generated does not depend
-/// on who watches, and neither may a hash of the request.
+/// An observer, or none. It prints the same with and without one: generated code does not depend on
+/// who watches, and neither may a hash of the request.
 #[derive(Clone, Default)]
 pub struct Watch(Option<Arc<dyn Observer>>);
 

@@ -12,8 +12,7 @@ pub trait Word: Copy {
     /// The name in messages.
     const WHAT: &'static str;
 
-    /// Returns every value with its word, in the order that messages list them: the
-    /// default first.
+    /// Returns every value with its word, in the order that messages list them: the default first.
     fn all() -> Vec<(&'static str, Self)>;
 
     /// Returns every word.
@@ -95,13 +94,11 @@ pub struct Complaint {
 }
 
 impl Complaint {
-    /// Complains of a text.
     pub(crate) fn new(message: impl Into<String>, help: impl Into<String>) -> Complaint {
         let (message, help) = (message.into(), help.into());
         Complaint { message, help }
     }
 
-    /// Complains of a word that is none of these: of the nearest, or all of them.
     pub(crate) fn unknown(message: String, word: &str, known: &[&str], none: &str) -> Complaint {
         let help = match (closest(word, known), known) {
             (Some(meant), _) => format!("did you mean `{meant}`?"),
@@ -123,7 +120,6 @@ impl fmt::Display for Complaint {
 
 impl std::error::Error for Complaint {}
 
-/// Makes a complaint without a fix of its own.
 pub(crate) fn complaint(message: impl Into<String>) -> Complaint {
     Complaint::new(message, "")
 }

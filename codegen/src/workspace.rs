@@ -1,6 +1,5 @@
 //! What the workspace's other crates and the tests use of the generator besides what it
-//! shows to everyone, in one list, so that the compiler finds what nobody uses. It changes as they
-//! need.
+//! shows to everyone, in one list, so that the compiler finds what nobody uses.
 
 pub use crate::approximate::{
     admitted::Admitted,

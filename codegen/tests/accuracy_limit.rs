@@ -10,7 +10,6 @@ use crate::support::{Case, daily_and_campaign, largest, source};
 
 const TORQUES: &str = "inverse_dynamics";
 
-/// Returns a function by a quick search.
 fn found(source: &str, output: &str, prefer: &str) -> GeneratedFunction {
     let asked = format!("outputs: {output}; scalar: f64; prefer: {prefer}");
     Case::read(source, &asked).generated().functions.remove(0)
@@ -20,7 +19,6 @@ fn operations(own: &GeneratedFunction) -> usize {
     own.counts().operations()
 }
 
-/// Returns the file with every mass multiplied.
 fn heavier(source: &str, factor: f64) -> String {
     let line = |line: &str| match line.strip_prefix("mass = ") {
         Some(mass) => format!("mass = {:.6}\n", mass.parse::<f64>().unwrap() * factor),
@@ -33,7 +31,6 @@ daily_and_campaign! {
     neighbours_cost_about_the_same: (0..2), (2..6);
 }
 
-/// An arm whose cheapest program is just about as inaccurate as is allowed.
 fn neighbours_cost_about_the_same(places: Range<usize>) {
     let file = source("gen3", "");
     let own = operations(&found(&file, TORQUES, "accuracy"));
@@ -52,8 +49,6 @@ fn neighbours_cost_about_the_same(places: Range<usize>) {
     }
 }
 
-/// The axis offsets of the real arm are smaller still: the limit refuses more,
-/// and what it costs is said.
 #[test]
 fn what_the_limit_costs_is_little_and_said() {
     let file = source("gen3", "").replace("d = -0.0016", "d = -0.0003501");
@@ -67,9 +62,8 @@ fn what_the_limit_costs_is_little_and_said() {
     assert!(few < more && (more - few) * 50 <= few, "{few} and {more}");
 }
 
-/// The cheapest D of this arm breaks the limit in one entry, and what keeps it in all of them
-/// costs an operation more and has a larger largest error: the cheapest is taken, and nothing
-/// is said of it.
+/// The cheapest D of this arm breaks the limit in one entry, and the program that keeps it in all
+/// of them has a larger largest error.
 #[test]
 fn what_is_cheaper_and_more_exact_is_taken() {
     let file = source("j2s7s300", "");
@@ -79,7 +73,6 @@ fn what_is_cheaper_and_more_exact_is_taken() {
     assert_eq!(taken.refused, None);
 }
 
-/// The estimate is of the size of the worst error that f32 code shows.
 #[test]
 fn the_estimate_is_what_is_observed() {
     for name in ["gen3", "scara", "gantry", "rprpr", "general6r"] {

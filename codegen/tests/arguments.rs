@@ -9,8 +9,6 @@ use dalembert_model::scene::{Payload, Scene};
 
 use crate::support::{self, Case, hold, is_close, largest};
 
-/// Returns the robot of a file in which the last link carries the payload, merged exactly,
-/// and gravity is as the state says where it says anything.
 fn in_the_file(robot: &Robot, state: &JointState) -> Robot {
     let number = |x: &f64| Rational::from_float(*x).unwrap();
     let payload = state.payload.as_chunks::<10>().0.first().map(|all| {
@@ -31,7 +29,6 @@ fn in_the_file(robot: &Robot, state: &JointState) -> Robot {
     scene.apply(robot)
 }
 
-/// Returns the emitted code at a state, the load as the emitted `load` gives it.
 fn run(generated: &Generated, emitted: &Emitted, state: &JointState) -> Vec<f64> {
     let mut state = state.clone();
     let mut all = generated.emitted.iter();
@@ -42,9 +39,7 @@ fn run(generated: &Generated, emitted: &Emitted, state: &JointState) -> Vec<f64>
     emitted.run(&state)
 }
 
-/// Compares emitted code with the runtime of the robot in its scene, and with that of the robot
-/// whose file has the payload, one of nothing too, and the gravity. The rule is that of every
-/// function: 100 u of a vector's largest entry, or of a sixteenth of the largest met.
+/// 100 u of a vector's largest entry, or of a sixteenth of the largest met.
 #[track_caller]
 fn check(case: &Case, count: usize) {
     let generated = case.rounds_well(count, &case.robot().name);
@@ -69,8 +64,6 @@ fn check(case: &Case, count: usize) {
     }
 }
 
-/// Of every function that takes a load, and with gravity of both arguments; a locked wrist carries
-/// the payload too, and rates that are zero take nothing from what D needs.
 #[test]
 fn a_load_is_the_payload_in_the_robot_file() {
     let all = "inverse_dynamics, gravity, inertia, coriolis, manipulator_equation, \
@@ -90,8 +83,7 @@ fn a_load_is_the_payload_in_the_robot_file() {
     }
 }
 
-/// A payload is given in the last link's own frame, at run time as in a scene: the
-/// same arm by its table takes the same body with its numbers turned by hand.
+/// A payload is given in the last link's own frame, at run time as in a scene.
 #[test]
 fn a_payload_is_in_the_links_own_frame() {
     let asked = "outputs: inverse_dynamics; parameters: payload";
@@ -126,8 +118,6 @@ fn a_payload_is_in_the_links_own_frame() {
     }
 }
 
-/// Gravity is in base axes, wherever frame 0 stands; and the robot file's own
-/// gravity is as good as any.
 #[test]
 fn gravity_is_that_of_the_robot_file() {
     let asked = "inverse_dynamics, gravity, potential_energy, forward_dynamics";

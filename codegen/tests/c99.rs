@@ -10,8 +10,6 @@ use dalembert_codegen::RobotFile;
 use crate::support::compiled::{folder, run, same_bits, there};
 use crate::support::{Case, every_output, path, rows};
 
-/// Compares outputs of an arm as its plan has them, from every source of sines that is the same
-/// everywhere.
 fn compare(name: &str, outputs: &str, states: usize) {
     let file = RobotFile::read(&path(&format!("../generated/robots/{name}.toml"))).unwrap();
     for options in [
@@ -43,9 +41,7 @@ fn by_hand_every_output_of_five_robots_has_the_bits_of_the_program() {
     }
 }
 
-/// Whatever else changes what is printed: every output, frames, scenes with a tolerance, friction,
-/// arguments for payload and gravity, bundles and products that are fused. A name, a robot file, the
-/// lines of a scene, and what is asked in both scalars.
+/// A name, a robot file, the lines of a scene, and what is asked in both scalars.
 const CHANGES: &str = r#"
 outputs | planar2r | | EVERY; sincos: together
 frames  | planar2r | [[frame]]; name = "eye"; link = 2; xyz = [0.1, 0.2, 0]; rpy = [0, 0, 0.5] | jacobian@eye:local, contact_wrench@eye:linear, operational_inertia@eye:linear, forward_dynamics_with_wrench, task=operational_inertia@eye:linear+null_space_projector@eye:linear; name: p; sincos: together
@@ -56,7 +52,6 @@ bundle  | planar2r | | servo=inverse_dynamics+jacobian, kinetic_energy; sincos: 
 fused   | planar2r | | inverse_dynamics, servo=inverse_dynamics+jacobian; fma: on; sincos: together
 "#;
 
-/// Lists these of one state and of many.
 fn changes(language: &str, batch: &str) -> Vec<(String, Case)> {
     let case = |[what, file, scene, asked]: [String; 4]| {
         let asked = asked.replace("EVERY", &every_output());
@@ -70,7 +65,6 @@ fn changes(language: &str, batch: &str) -> Vec<(String, Case)> {
     rows(CHANGES).into_iter().map(case).collect()
 }
 
-/// Where products and sums may be fused: by the standard, and in GNU C.
 #[test]
 fn whatever_is_printed_has_the_bits_of_the_program() {
     for (batch, standard) in [("off", "c99"), ("on", "gnu99")] {
@@ -81,7 +75,6 @@ fn whatever_is_printed_has_the_bits_of_the_program() {
     }
 }
 
-/// Without qualifiers, threads in turns: functions and kernels of CUDA.
 #[test]
 fn functions_and_kernels_have_the_bits_of_the_program() {
     for batch in ["off", "on"] {
@@ -91,7 +84,6 @@ fn functions_and_kernels_have_the_bits_of_the_program() {
     }
 }
 
-/// Headers of all that changes what is printed, of every source of sines.
 fn headers() -> Vec<String> {
     let sines = ["libm", "together", "polynomial"].map(|sincos| {
         let asked = format!("sincos: {sincos}; batch: on; language: c");
@@ -101,7 +93,6 @@ fn headers() -> Vec<String> {
     all.map(|(_, case)| case.generated().text()).collect()
 }
 
-/// Writes a header and a program that includes it; returns their folder.
 fn with_main(name: &str, text: &str, rest: &str) -> PathBuf {
     let folder = folder(name);
     fs::write(folder.join("arm.h"), text).unwrap();
@@ -113,7 +104,6 @@ fn with_main(name: &str, text: &str, rest: &str) -> PathBuf {
 const STRICT: &str = "-Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Werror -O2 \
     -fsyntax-only -x";
 
-/// No compiler has a word to say of any header, in C or C++.
 #[test]
 fn headers_are_compiled_without_a_warning() {
     for text in headers() {
@@ -127,8 +117,6 @@ fn headers_are_compiled_without_a_warning() {
     }
 }
 
-/// No payload is passed for a load, and none is made of numbers that no body has: which one has them
-/// stands behind them.
 #[test]
 fn a_payload_is_a_body_and_no_load() {
     let asked = "outputs: gravity; parameters: payload; scalar: f64, f32; sincos: polynomial; \
@@ -180,8 +168,6 @@ fn a_payload_is_a_body_and_no_load() {
     }
 }
 
-/// Compilers make vectors of the loops over states, and have no word to say of those that call
-/// the C library, of which they make none.
 #[cfg(target_arch = "x86_64")]
 #[test]
 fn batches_are_vectors() {
@@ -205,7 +191,6 @@ fn batches_are_vectors() {
     }
 }
 
-/// The one rule of MISRA C:2012 that a checker finds broken is the guide's.
 #[test]
 fn misra_is_kept_but_for_what_the_guide_says() {
     for cppcheck in there(&["cppcheck"]) {
@@ -224,7 +209,6 @@ fn misra_is_kept_but_for_what_the_guide_says() {
     }
 }
 
-/// The compiler for the device has no warning, and makes one operation of no product and sum.
 #[test]
 fn the_device_rounds_every_operation() {
     for nvcc in there(&["nvcc"]) {

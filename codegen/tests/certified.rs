@@ -10,7 +10,6 @@ use crate::support::{
     rows, source,
 };
 
-/// A file, its claim and its robot.
 #[derive(Clone)]
 pub struct Certified {
     pub text: String,
@@ -20,20 +19,16 @@ pub struct Certified {
 }
 
 impl Certified {
-    /// Generates what is asked of a robot, in the scene of these lines if there are any; a file
-    /// each scalar in Rust.
     pub fn all(name: &str, lines: &str, asked: &str) -> Vec<Certified> {
         let (robot, asked) = in_scene(name, lines, asked);
         let scene = asked.starts_with("scene: ").then_some("test");
         Certified::of(&robot, scene, &asked)
     }
 
-    /// Generates what is asked of a robot file.
     pub fn of(robot: &str, scene: Option<&str>, asked: &str) -> Vec<Certified> {
         Certified::from(&Case::read(robot, asked), robot, scene)
     }
 
-    /// Generates what is asked of the arm in the plane; its first file.
     pub fn planar2r(asked: &str) -> Certified {
         let robot = source("planar2r", "");
         Certified::from(&Case::planar2r(asked), &robot, None).remove(0)
@@ -60,7 +55,6 @@ impl Certified {
         files.collect()
     }
 
-    /// Returns the text that a tolerance admitted, by its certificate.
     pub fn variant(robot: &str, own: &Certificate) -> Certified {
         let reading = support::read(robot);
         let scene = own.scene.as_ref().map(|scene| scene.name.clone());
@@ -75,7 +69,6 @@ impl Certified {
         }
     }
 
-    /// Returns another text with the same claim.
     pub fn with(&self, text: &str) -> Certified {
         Certified {
             text: text.to_owned(),
@@ -83,13 +76,11 @@ impl Certified {
         }
     }
 
-    /// Has the checker look at it.
     pub fn report(&self) -> Result<Report, Fault> {
         let scene = self.scene.as_deref();
         certify(&self.text, &self.claim, &self.robot, scene, None)
     }
 
-    /// Returns why something of it is not shown; none if all is.
     pub fn refusal(&self) -> Option<String> {
         let lines = match self.report() {
             Err(fault) => return Some(fault.to_string()),
@@ -102,7 +93,6 @@ impl Certified {
         fault.map(|fault| fault.to_string())
     }
 
-    /// Returns the findings about its functions: all of them are shown.
     #[track_caller]
     fn shown(&self, what: &str) -> Vec<Shown> {
         let report = self.report();
@@ -114,14 +104,11 @@ impl Certified {
         shown.collect()
     }
 
-    /// Asserts that all of so many functions are shown.
     #[track_caller]
     pub fn is_shown(&self, count: usize, what: &str) {
         assert_eq!(self.shown(what).len(), count, "{what}");
     }
 
-    /// Asserts that all functions are shown to be within their tolerance, with so many results, and
-    /// of how many at least E is.
     #[track_caller]
     fn holds(&self, count: usize, held: usize, what: &str) {
         let results = self.shown(what).into_iter().flat_map(|own| own.results);
@@ -131,7 +118,6 @@ impl Certified {
         assert!(found >= held, "{what}: {results:?}");
     }
 
-    /// Asserts that the text is not shown with any one of these changes.
     #[track_caller]
     pub fn refuses(&self, table: &str) {
         for [from, to] in changes(table) {
@@ -141,8 +127,6 @@ impl Certified {
         }
     }
 
-    /// Asserts that nothing is shown with a line of code taken away or with one of these changes in
-    /// it, of which those at some places are tried; returns how many were.
     #[track_caller]
     pub fn every_line_counts(
         &self,
@@ -163,8 +147,7 @@ impl Certified {
     }
 }
 
-/// Generates what is asked of a robot file in Rust and in C: the files, and the number of scalars in
-/// each. The programs of Rust are not searched for again.
+/// The programs of Rust are not searched for again.
 fn in_both(robot: &str, scene: Option<&str>, asked: &str) -> Vec<(Certified, usize)> {
     let (mut plan, mut files) = (None, Vec::new());
     for (language, scalars) in [("rust", 1), ("c", 2)] {
@@ -185,9 +168,7 @@ fn in_both(robot: &str, scene: Option<&str>, asked: &str) -> Vec<(Certified, usi
     files
 }
 
-/// Arms of two and three joints, one of them with a base and a tool at odd angles, then those of a
-/// campaign: one of placed joints, and larger ones: of ten joints, with joints that follow, of
-/// general angles.
+/// The second table is a campaign's.
 const ROBOTS: [&str; 2] = [
     "planar2r base_and_tool",
     "scara_placed planar3r scara stanford puma560 open_manipulator panda general6r",
@@ -211,9 +192,7 @@ fn every_function_is_shown_in_both_scalars_and_languages(robots: &str) {
     }
 }
 
-/// What scenes fix and carry, frames, friction, joints that follow, arguments, sources of sines and
-/// ways of printing: a robot, the lines of a scene or of a frame, what is asked, and how many
-/// functions there are. The second table is a campaign's.
+/// A robot, the lines of a scene or of a frame, what is asked, and how many functions there are.
 const CASES: [&str; 2] = [
     r#"
 planar3r | lock = { 2 = 0.3 }; payload = { mass = 1.5, com = [0.1, 0.2, 0], inertia = [0.1, 0.2, 0.25, 0, 0, 0] }; gravity = [1, 2, -3] | TORQUES | 6
@@ -255,9 +234,7 @@ EYE := [[frame]]; name = "eye"; link = 2; xyz = [0.1, 0.2, 0]; rpy = [0, 0.3, 0.
     }
 }
 
-/// Scenes with a tolerance: of a SCARA with results relative to either scale, at rest, of several
-/// functions, in a narrow box, with locks and a payload; how many results there are, and of how many
-/// E is shown. Of those that nothing was left out of, E is a bound of rounding that is tighter.
+/// A scene, how many results there are, and of how many E is shown.
 const TOLERATED: [(&str, usize, usize); 8] = [
     ("a1", 4, 3),
     ("lockp", 2, 2),
@@ -279,11 +256,8 @@ fn variants_that_a_tolerance_admits_are_shown(scenes: &[(&str, usize, usize)]) {
     }
 }
 
-/// Robots with plans, and the number of results: a joint that slides, seven joints of modified rows,
-/// three parallel axes and sines by polynomials.
 const PLANNED: [(&str, usize); 3] = [("stanford", 6), ("panda", 7), ("ur10", 6)];
 
-/// Variants of the plans beside these robots.
 fn variants_of_plans_are_shown(robots: &[(&str, usize)]) {
     for &(name, count) in robots {
         let robot = source(name, "");
@@ -296,10 +270,8 @@ fn variants_of_plans_are_shown(robots: &[(&str, usize)]) {
     }
 }
 
-/// Outputs that are looked at daily.
 const FEW: &str = "inverse_dynamics, gravity, inertia, forward_kinematics, link_poses";
 
-/// Returns the names of all others.
 fn others_than_few() -> String {
     let all = every_output();
     let is_few = |name: &str| FEW.split(", ").any(|few| few == name);
@@ -307,8 +279,6 @@ fn others_than_few() -> String {
     others.join(", ")
 }
 
-/// Another robot, scene or frame is seen in what it changes, and in nothing else: words of a robot
-/// file, those in their place, and a function that is the same, one daily and one of the others.
 fn robots_that_are_others(outputs: &str) {
     let robot = std::fs::read_to_string(path("../crates/checker/tests/data/hand.toml")).unwrap();
     let own = &Certified::of(&robot, None, &format!("outputs: {outputs}; scalar: f64"))[0];
@@ -333,7 +303,6 @@ viscous = 0.4  | viscous = 0.4000000000000000001 | gravity kinetic_energy
     }
 }
 
-/// Rows that stand for placed joints, of which one is another.
 #[test]
 fn rows_that_are_not_those_of_the_robot_file() {
     let own = &Certified::all("open_manipulator", "", "gravity; scalar: f64")[0];
@@ -353,8 +322,7 @@ name = \"joint2\" | name = \"joint3\" | other joints
     }
 }
 
-/// The payload of a scene is rounded where its frame is tilted: the claim has it in the last row's
-/// frame, to sixteen digits the scene's.
+/// The claim has the payload in the last row's frame, to sixteen digits the scene's.
 #[test]
 fn payloads_in_tilted_frames() {
     let frame = "payload_frame = { xyz = [0.1, 0, 0.2], rpy = [0, 0.3, \"-pi/4\"] }";
@@ -377,8 +345,6 @@ payload = { mass = 1.5 | payload = { mass = 1.4 | mass of the payload: [1.5] in 
     }
 }
 
-/// Words of a line of a function, and others in their place: what is computed is then another, or
-/// a compiler sees the same as before.
 const CHANGES: &str = "
 ·+· → ·-· … ·-· → ·+· … ·*· → ·+· … ·*· → ·/· … ·/· → ·*· … ; → ·+ 0.0; … ; → ·* 1.0;
 t1· → t2· … t1; → t2; … s1 → s2 … c1 → s1 … q[0] → q[1] … qd[0] → qd[1] … qd → q
@@ -388,7 +354,6 @@ sincos → cossin … libm → evil … libm::sincos → dalembert_sines::sincos
 const· → const volatile· … { → { let x = 0.0;
 ";
 
-/// Each line changed in each way, or taken away: nothing is shown then.
 fn no_line_of_a_function_can_say_something_else(is_tried: fn(usize) -> bool) {
     let mut count = 0;
     for name in every_output().split(", ") {
@@ -403,7 +368,6 @@ fn no_line_of_a_function_can_say_something_else(is_tried: fn(usize) -> bool) {
     assert!(count > least, "{count}");
 }
 
-/// Returns whether a line is neither a comment nor a brace.
 fn is_code(line: &str) -> bool {
     let words = line.trim();
     let others = ["//", "/*", "*", "#", "pub const N"];

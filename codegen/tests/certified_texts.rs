@@ -8,7 +8,6 @@ use serde_json::{Value, json};
 use crate::certified::Certified;
 use crate::support::{all_but_one_in, changes, daily_and_campaign, one_in, path, rows};
 
-/// Returns a file of the attacks on the checker.
 fn attack(name: &str) -> String {
     fs::read_to_string(path(&format!(
         "../crates/checker/tests/data/attacks/{name}"
@@ -16,14 +15,12 @@ fn attack(name: &str) -> String {
     .unwrap()
 }
 
-/// Returns a file of what is asked of the arm in the plane, of which so many functions are shown.
 fn planar2r(asked: &str, count: usize) -> Certified {
     let own = Certified::planar2r(asked);
     own.is_shown(count, asked);
     own
 }
 
-/// Text that a C compiler reads otherwise than it looks: words of a header, and others.
 const HEADERS: &str = r#"
 #ifndef P_H → #define sin cos↵#ifndef P_H
 #include <math.h> → #include <math.h>↵#define t1 0.0
@@ -41,7 +38,6 @@ HEAD → #undef P_UNFUSED↵HEAD
 ·*/↵HEAD → ·*??/↵/↵HEAD
 "#;
 
-/// The same in a function.
 const FUNCTIONS: &str = "
 ····P_UNFUSED↵ → ∅ … ····c[0] =· → ····return;↵····c[0] =· … const double t1 =· → double t1 =·
 const double t1 =· → const double t1 = 0.0;↵    const double t1 =·
@@ -59,7 +55,6 @@ fn headers_that_are_not_generated() {
     own.refuses(FUNCTIONS);
 }
 
-/// Changes of lines that give sines, or that call a function at many states.
 const AROUND: &str = "
 ; → ·+ 0.0; … n + s → s … [s] → [n + s] … [s] → [0] … (2U * n) → (3U * n) … * n → * s
 {q[s] → {q[0] … [0] → [1] … [1] → [0] … q_s → qd_s … (0,· → (1,· … (1,· → (0,· … far → 0
@@ -75,8 +70,6 @@ daily_and_campaign! {
     lines_around_functions_that_are_something_else: (one_in::<5>), (all_but_one_in::<5>);
 }
 
-/// No line of the functions that give sines, or of those that call a function at many states, can
-/// go or say something else.
 fn lines_around_functions_that_are_something_else(is_tried: fn(usize) -> bool) {
     const OTHERS: [&str; 9] = [
         "const double t",
@@ -102,7 +95,6 @@ fn lines_around_functions_that_are_something_else(is_tried: fn(usize) -> bool) {
     }
 }
 
-/// What rustc would read otherwise, and constants that do not follow.
 #[test]
 fn items_that_are_not_generated() {
     let own = planar2r("gravity, regressor, model=inertia+gravity; scalar: f64", 3);
@@ -128,15 +120,12 @@ BASE_PARAMETERS: [f64;· → BASE_PARAMETERS: [f32;·
 ·BASE_PARAMETERS → ·PASSIVITY_PARAMETERS
 ",
     );
-    // The first value has a digit more.
     let values = own.text.find("BASE_PARAMETERS: [").unwrap();
     let (before, values) = own.text.split_at(values);
     let changed = values.replacen("\n    ", "\n    1", 1);
     assert!(own.with(&format!("{before}{changed}")).refusal().is_some());
 }
 
-/// The types of arguments that are no lists of joints, and the function that writes base
-/// parameters in C, in which something else hides.
 #[test]
 fn what_stands_beside_functions_has_no_room() {
     let own = planar2r("gravity; scalar: f64; parameters: payload, gravity", 2);
@@ -179,7 +168,6 @@ const p_load_t load[ → const double load[ … load->load[ → load->payload[
     }
 }
 
-/// The function that says where a box is hides no other: none stands before it or inside it.
 #[test]
 fn a_box_hides_nothing() {
     let own = planar2r(
@@ -208,8 +196,6 @@ fn a_box_hides_nothing() {
     }
 }
 
-/// A name that is known means what the table says, at its frame, with its arguments in their order:
-/// who passes q̇ for q does so because a text has them in another one.
 #[test]
 fn names_mean_what_they_say() {
     let table = "
@@ -264,7 +250,6 @@ NONE := nothing is claimed of `gravity`
 /functions/0/returns | "t1" | operations and
 "#;
 
-/// Claims with keys that are not known, of another version, cut, too long, and of other programs.
 #[test]
 fn claims_that_are_not_written_by_a_generator() {
     let own = planar2r("gravity, regressor; scalar: f64", 2);
@@ -295,7 +280,6 @@ fn claims_that_are_not_written_by_a_generator() {
     let gravity = &honest["functions"][0];
     let twice = json!([gravity, gravity]);
     refused("/functions", twice, "is defined twice");
-    // Another name, and results that nothing is said of.
     let mut other = own.with(&own.text.replace("pub fn gravity(", "pub fn pull("));
     let mut claim = honest.clone();
     claim["functions"][0]["function"] = json!("pull");
@@ -316,7 +300,6 @@ fn claims_that_are_not_written_by_a_generator() {
     assert!(long.contains("more than"), "{long}");
 }
 
-/// A constant that is off by a prime, or by a digit that no float has, in claim and text alike.
 #[test]
 fn constants_that_are_aimed_at_primes() {
     let own = planar2r("gravity; scalar: f64", 1);
@@ -334,7 +317,6 @@ fn constants_that_are_aimed_at_primes() {
     }
 }
 
-/// Returns why a file with these changes of its text and its claim is not shown.
 #[track_caller]
 fn refusal(own: &Certified, texts: &[[&str; 2]], claims: &[[&str; 2]]) -> String {
     let changed = |text: &str, all: &[[&str; 2]]| {
@@ -348,7 +330,6 @@ fn refusal(own: &Certified, texts: &[[&str; 2]], claims: &[[&str; 2]]) -> String
     other.refusal().expect("shown")
 }
 
-/// Returns a file whose first result goes through more operations, each with a literal.
 fn through(own: &Certified, more: &[(char, &str)]) -> Certified {
     let mut claim: Value = serde_json::from_str(&own.claim).unwrap();
     let constants = claim["constants"].as_array_mut().unwrap();
@@ -378,8 +359,6 @@ fn through(own: &Certified, more: &[(char, &str)]) -> Certified {
     other
 }
 
-/// Numbers beside which those of the robot vanish, in what divides, beside polynomials, in a load;
-/// and numbers that overflow a little outside of a range.
 #[test]
 fn programs_that_lose_what_they_compute() {
     let cancelled = [('+', "1e40"), ('-', "1e40")];
@@ -440,7 +419,6 @@ fn programs_that_lose_what_they_compute() {
     );
 }
 
-/// A slide, which has one number of a payload.
 const SLIDE: &str = "name = \"slide\"
 convention = \"standard\"
 gravity = [0, 0, 0]
@@ -451,8 +429,7 @@ com = [0, 0, 0]
 inertia = [0.1, 0.1, 0.1, 0, 0, 0]
 ";
 
-/// Programs that are right in real numbers at almost all states, sines of what is no argument, and
-/// values that are claimed of a function that is not there: each was shown once.
+/// Each of these was shown once.
 #[test]
 fn programs_that_go_wrong_somewhere() {
     let own = planar2r("gravity, regressor; scalar: f64", 2);
@@ -488,7 +465,6 @@ fn programs_that_go_wrong_somewhere() {
     assert!(why.contains("it does not follow"), "{why}");
 }
 
-/// A box says where the functions hold, in Rust and in C, and no module has two meanings.
 #[test]
 fn boxes_and_modules() {
     let asked = "gravity; scalar: f64; sincos: polynomial";
@@ -528,8 +504,6 @@ int p_in_box( → int P_in_box(
     assert!(why.contains("nothing that is generated"), "{why}");
 }
 
-/// Files that another checker took for right: sines of constants and of what is far, an item that
-/// hides, another number of joints.
 #[test]
 fn files_of_attacks() {
     let pend = attack("pend.toml");
@@ -570,8 +544,7 @@ fn joints_without_limits_have_no_tolerance() {
     assert!(why.contains("a tolerance needs the range of `qd`"), "{why}");
 }
 
-/// Whoever calls a function in a scene may give any number for a joint that is locked: one that is
-/// added to a result, in text and claim, is refused, with a tolerance and without.
+/// Callers may give any number for a joint that is locked.
 #[test]
 fn joints_that_are_locked_are_not_read() {
     let tolerance = "; box = { velocity = [1, 1, 1], acceleration = [1, 1, 1] }; \

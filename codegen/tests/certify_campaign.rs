@@ -18,14 +18,12 @@ use crate::certify_certificate::{Exact, certified, tried};
 use crate::support::draw::{Draw, robots};
 use crate::support::{self, daily_and_campaign, largest};
 
-/// Between a glance and a certificate.
 const FINENESS: BoundEffort = BoundEffort {
     budget: BoxEffort::QUICK,
     boxes: 512,
     ..BoundEffort::QUICK
 };
 
-/// Returns the largest E, and how many times the largest error it is that is seen.
 #[track_caller]
 fn looseness(certificate: &Certificate, samples: usize, climbs: usize, seed: u64) -> [f64; 2] {
     let most = certified(certificate);
@@ -33,8 +31,7 @@ fn looseness(certificate: &Certificate, samples: usize, climbs: usize, seed: u64
     [most, most / seen]
 }
 
-/// Certifies a robot in the scene of its file, at another tolerance; without guesses nothing is
-/// left out.
+/// Without guesses nothing is left out.
 fn campaign(name: &str, tolerance: f64, scalars: &[ScalarType], guesses: usize) {
     let reading = support::reading_with(name, "");
     let bare = reading.scenes.first().map(Scene::without_tolerance);
@@ -96,7 +93,6 @@ fn panda_at_a_billionth() {
     campaign("panda", 1e-9, &[ScalarType::F64], 0);
 }
 
-/// Returns a robot with limits: the whole circle or a part of it, and rates.
 fn limited(mut robot: Robot, draw: &mut Draw) -> Robot {
     for joint in &mut robot.joints {
         joint.limits.position = Some(match joint.kind {
@@ -122,9 +118,6 @@ daily_and_campaign! {
     bounds_of_robots_that_nobody_chose: (0xb0..0xb4), (0xb4..0xbc);
 }
 
-/// Robots of 1 to 4 joints, sliding ones and parts of the circle among them, those of some seeds: in
-/// single precision as they are, and with what a tolerance leaves out, where that takes no longer
-/// than a test may.
 fn bounds_of_robots_that_nobody_chose(seeds: Range<u64>) {
     let small = robots(12, 0xb0).filter(|(_, robot, _)| robot.joints.len() <= 4);
     for (seed, robot, mut draw) in small.filter(|(seed, ..)| seeds.contains(seed)) {
@@ -157,8 +150,6 @@ fn bounds_of_robots_that_nobody_chose(seeds: Range<u64>) {
     }
 }
 
-/// Asserts that what a part of the actuators' limits leaves of the PUMA's torques has so many
-/// operations at most, is within it, and is certified closely.
 fn bar(tolerance: f64, operations: usize) {
     let exact = Exact::new(
         support::robot("puma560"),

@@ -12,7 +12,6 @@ use dalembert_model::robot::Robot;
 
 use crate::support::{self, Case, largest};
 
-/// A function in f64, the box of its robot's limits, and T of each result.
 pub struct Exact {
     pub robot: Robot,
     pub limits: InputBox,
@@ -21,7 +20,6 @@ pub struct Exact {
 }
 
 impl Exact {
-    /// Generates it.
     pub fn new(
         robot: Robot,
         function: Function,
@@ -36,19 +34,16 @@ impl Exact {
         }
     }
 
-    /// Returns the certificate of a program in its place.
     pub fn certificate(&self, emitted: &Program, scalar: ScalarType) -> Certificate {
         let (exact, limits) = (&self.program, &self.limits);
         Certificate::make(exact, emitted, scalar, limits, &self.scales)
     }
 
-    /// Returns the program that remains within so much of each T.
     pub fn pruned(&self, tolerance: f64, settings: &PruneSettings) -> Pruned {
         let allowances: Vec<f64> = self.scales.iter().map(|t| t * tolerance).collect();
         prune(&self.program, &self.limits, &allowances, settings)
     }
 
-    /// Returns polynomials for its sines that so much of each T allows.
     fn sines(&self, scalar: ScalarType, tolerance: f64) -> Sines {
         let allowances: Vec<f64> = self.scales.iter().map(|t| t * tolerance).collect();
         let (program, limits) = (&self.program, &self.limits);
@@ -57,7 +52,6 @@ impl Exact {
         sines.unwrap()
     }
 
-    /// Returns the certificate with polynomials.
     fn with_sines(&self, scalar: ScalarType, sines: &Sines) -> Certificate {
         let sensitivity = Sensitivity::new(&self.program, &self.limits, BoundEffort::CERTIFY);
         let libm = self.certificate(&self.program, scalar);
@@ -65,7 +59,6 @@ impl Exact {
     }
 }
 
-/// Returns the largest errors that are seen of a certificate, which none of them refutes.
 #[track_caller]
 pub fn tried(certificate: &Certificate, samples: usize, climbs: usize, seed: u64) -> Vec<f64> {
     let found = falsify(certificate, samples, climbs, seed).unwrap();
@@ -73,13 +66,11 @@ pub fn tried(certificate: &Certificate, samples: usize, climbs: usize, seed: u64
     found.observed
 }
 
-/// Returns the largest E of a certificate.
 pub fn certified(own: &Certificate) -> f64 {
     let bounds: Vec<f64> = own.bounds.iter().map(|bound| bound.total()).collect();
     largest(&bounds)
 }
 
-/// Returns the torques of a light arm, whose angles add up.
 fn torques(scales: impl Fn(&Robot, &Program) -> Vec<f64>) -> Exact {
     let mut robot = support::robot("planar3r");
     for joint in &mut robot.joints {
@@ -90,7 +81,6 @@ fn torques(scales: impl Fn(&Robot, &Program) -> Vec<f64>) -> Exact {
     Exact::new(robot, Function::InverseDynamics, scales)
 }
 
-/// Returns its torques relative to their ranges.
 fn ranged() -> Exact {
     torques(|robot, program| {
         let graph = Stage::unedited(program.clone()).edited(Folding::Syntactic);
@@ -99,7 +89,6 @@ fn ranged() -> Exact {
     })
 }
 
-/// Returns them with what a tenth of their ranges leaves.
 fn edited() -> (Exact, Pruned) {
     let exact = ranged();
     let settings = PruneSettings {
@@ -116,12 +105,10 @@ fn edited() -> (Exact, Pruned) {
     (exact, pruned)
 }
 
-/// Returns its torques relative to plain numbers.
 fn planar() -> Exact {
     torques(|_, _| vec![20.0, 10.0, 5.0])
 }
 
-/// A result of no joint is held to the tolerance too: of an energy not everything goes.
 #[test]
 fn an_energy_is_within_the_tolerance() {
     let near = "tolerance = { value = [1e-2, 5e-2], relative_to = \"range\" }; \
@@ -135,7 +122,6 @@ fn an_energy_is_within_the_tolerance() {
     }
 }
 
-/// A pruned program is cheaper, certified closely and not refuted; a bound made too small is.
 #[test]
 fn a_bound_made_too_small_is_caught_by_the_sampler() {
     let (exact, pruned) = edited();
@@ -158,8 +144,6 @@ fn a_bound_made_too_small_is_caught_by_the_sampler() {
     assert_eq!(found.violation.map(|own| own.0), Some(worst));
 }
 
-/// A program that no edits lead to, of an arm with a lighter hand: it is bounded against the
-/// exact one, closely.
 #[test]
 fn a_program_that_is_no_edit_is_bounded_against_the_exact_one() {
     let exact = ranged();
@@ -174,8 +158,6 @@ fn a_program_that_is_no_edit_is_bounded_against_the_exact_one() {
     }
 }
 
-/// Putting any single omission back into the same program raises its cost,
-/// by what the list says.
 #[test]
 fn every_omission_saves_something() {
     let (_, pruned) = edited();
@@ -198,13 +180,11 @@ fn every_omission_saves_something() {
         assert_eq!(more.operations(), paid.operations() + omission.operations);
         assert_eq!(more.sincos, paid.sincos + omission.sincos);
     }
-    // It names what is replaced and by what.
     let words = &omissions[0].words;
     assert_eq!(words.split(" -> ").count(), 2, "{words}");
 }
 
-/// Two methods that share nothing but the intervals: both are bounds, and the
-/// grid's is close to the truth.
+/// The two methods share nothing but the intervals; the grid's bound is close to the truth.
 #[test]
 fn branch_and_bound_and_the_grid_bound_the_same() {
     let (exact, pruned) = edited();
@@ -218,7 +198,6 @@ fn branch_and_bound_and_the_grid_bound_the_same() {
     };
     let honest = exact.certificate(&pruned.program, ScalarType::F64);
     let seen = tried(&honest, 2000, 3, 5);
-    // The whole circle, and a part of it.
     let mut part = exact.limits.clone();
     part.position.fill(Interval::new(-0.5, 0.25).unwrap());
     let [whole, boxes] = [1 << 16, 0].map(|points| bound(points, &exact.limits));
@@ -250,7 +229,6 @@ fn a_certificate_with_polynomials_holds_and_is_not_refuted() {
     }
 }
 
-/// The sines of the PUMA at 1e-6 keep the bar of the bench.
 #[test]
 fn operations_follow_from_the_tolerance() {
     let puma = support::robot("puma560");
@@ -266,7 +244,6 @@ fn operations_follow_from_the_tolerance() {
     assert!(all[2] <= 88, "{all:?}");
 }
 
-/// A changed coefficient with the same claims, and claims made too small.
 #[test]
 fn polynomials_that_are_not_as_exact_as_claimed_are_caught() {
     let exact = planar();
@@ -292,8 +269,7 @@ fn polynomials_that_are_not_as_exact_as_claimed_are_caught() {
     assert!(falsify(&lie, 4000, 3, 5).unwrap().violation.is_some());
 }
 
-/// A joint without limits may turn on: its sines are good far beyond the turn
-/// that the bounds are over.
+/// The sines are good far beyond the turn that the bounds are over.
 #[test]
 fn a_joint_without_limits_turns_on() {
     let turning = "outputs = [\"gravity\"]; tolerance = { value = 1e-5, relative_to = \"range\" }";

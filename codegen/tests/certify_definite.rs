@@ -21,17 +21,14 @@ fn inertia(mut robot: Robot) -> Exact {
     Exact::new(robot, Function::Inertia, ones)
 }
 
-/// Returns the bound of the least eigenvalue that a program's certificate has.
 fn certified(exact: &Exact, emitted: &Program) -> Option<f64> {
     exact.certificate(emitted, ScalarType::F64).lambda_min
 }
 
-/// Returns the bound that is found, or why there is none.
 fn least(exact: &Exact, emitted: &Program) -> Result<f64, Complaint> {
     least_eigenvalue(emitted, ScalarType::F64, &[], &exact.limits)
 }
 
-/// Prunes at 15 % of each entry's range.
 fn pruned(exact: &Exact, stages: usize, alike: usize) -> Pruned {
     let ranges = scale::range(&exact.program, &exact.limits);
     let allowances: Vec<f64> = ranges.iter().map(|(t, _)| 0.15 * t).collect();
@@ -44,7 +41,6 @@ fn pruned(exact: &Exact, stages: usize, alike: usize) -> Pruned {
     prune(&exact.program, &exact.limits, &allowances, &settings)
 }
 
-/// Terms go, and D stays symmetric and positive.
 #[test]
 fn a_pruned_inertia_is_certified_to_be_positive_definite() {
     let mut robot = support::robot("planar3r");
@@ -52,7 +48,6 @@ fn a_pruned_inertia_is_certified_to_be_positive_definite() {
     let kept = pruned(&exact, 1, 0);
     // What the tolerance would let go makes this D indefinite.
     assert!(kept.stages.is_empty(), "{:?}", kept.stages[0].edits);
-    // Who looks harder finds something that may go.
     let found = pruned(&exact, 3, 4);
     assert!(certified(&exact, &found.program).is_some_and(|least| least > 0.0));
 
@@ -105,7 +100,6 @@ fn a_singular_d_gets_no_certificate() {
     assert!(found > 0, "some term is indispensable");
 }
 
-/// What the message says is wrong with a robot is wrong with it.
 #[test]
 fn a_link_without_inertia_is_named() {
     let zero = Rational::default;
@@ -138,9 +132,8 @@ fn a_link_without_inertia_is_named() {
     assert!(why.contains("a motion of joint 2"), "{why}");
 }
 
-/// An attack: a tolerance that admits polynomials with which D of the emitted
-/// code has an eigenvalue of −0.044 where the model's least is 0.014. They are
-/// made exacter until D is shown to be positive definite, and it is claimed.
+/// An attack: with these polynomials D of the emitted code has an eigenvalue of −0.044 where the
+/// model's least is 0.014.
 #[test]
 fn sines_that_are_off_leave_d_positive() {
     let source = include_str!("../../crates/cli/tests/data/attacks/indefinite.toml");
@@ -160,8 +153,6 @@ fn sines_that_are_off_leave_d_positive() {
     }
 }
 
-/// A link with products of inertia that no body has: D is negative for some motion,
-/// which is said before any search, and torques are certified all the same.
 #[test]
 fn an_inertia_that_no_body_has_is_named() {
     let source = include_str!("../../crates/cli/tests/data/negative_energy.toml");

@@ -21,7 +21,6 @@ use serde_json::Value;
 use crate::certified::Certified;
 use crate::support::{Case, daily_and_campaign, largest, read};
 
-/// The mutations of each kind that are tried daily, and the others.
 const DAILY: Range<usize> = 0..25;
 const OTHERS: Range<usize> = 25..100;
 
@@ -67,8 +66,6 @@ fn certificate(generated: &Generated) -> &Certificate {
     &admitted.certificates[0]
 }
 
-/// Variants to change: libm's sines with edits, those of all angles
-/// together, and polynomials.
 static HONEST: LazyLock<[Certificate; 3]> = LazyLock::new(|| {
     let [libm, polynomial] = ["libm", "polynomial"].map(|sincos| {
         let case = Case::read(ROBOT, &format!("scene: pick; sincos: {sincos}"));
@@ -78,14 +75,12 @@ static HONEST: LazyLock<[Certificate; 3]> = LazyLock::new(|| {
     [libm, polynomial, together]
 });
 
-/// Returns them as text and claim.
 fn variants() -> Vec<Certified> {
     let all = HONEST.iter().map(|own| Certified::variant(ROBOT, own));
     all.collect()
 }
 
-/// Runs a printed function line by line: names are looked up in a map, blocks
-/// are entered as they come. It knows no program.
+/// Names are looked up in a map, blocks are entered as they come: it knows no program.
 fn execute(text: &str, state: &JointState) -> Option<Vec<f64>> {
     let mut names: HashMap<String, f64> = HashMap::new();
     for (name, values) in [("q", &state.q), ("qd", &state.qd), ("qdd", &state.qdd)] {
@@ -155,14 +150,11 @@ fn execute(text: &str, state: &JointState) -> Option<Vec<f64>> {
     None
 }
 
-/// Returns the bounds of the results of a variant, if the tolerance is shown.
 fn shown(own: &Certified) -> Option<Vec<Bounded>> {
     let [line]: [_; 1] = own.report().ok()?.lines.try_into().ok()?;
     Some(line.result.ok()?.results)
 }
 
-/// Returns true if what was shown is true at corners and random states, as far as doubles can
-/// tell: E, or the scene's tolerance.
 fn is_true(own: &Certified, results: &[Bounded]) -> bool {
     let claim = Claim::read(&own.claim).unwrap();
     let ranges = claim.functions[0].tolerated.clone().unwrap().ranges;
@@ -216,13 +208,10 @@ fn is_refused(own: &Certified) -> bool {
     false
 }
 
-/// Returns one of these.
 fn one_of<'a, T>(all: &'a [T], random: &mut Random) -> &'a T {
     &all[random.below(all.len())]
 }
 
-/// Changes programs of honest variants at random, text and claim alike; returns how many of these
-/// mutations were refused.
 fn programs(mutations: &Range<usize>, change: impl Fn(&mut [Node], &mut Random)) -> usize {
     let mut random = Random::new(0xbad);
     let refused = (0..mutations.end).filter(|index| {
@@ -233,8 +222,6 @@ fn programs(mutations: &Range<usize>, change: impl Fn(&mut [Node], &mut Random))
     refused.count()
 }
 
-/// Changes one place of the claim of honest variants, picked from all its places; returns how many
-/// of these mutations were refused.
 fn claims(
     mutations: &Range<usize>,
     pick: impl Fn(&str, &Value) -> bool,
@@ -254,7 +241,6 @@ fn claims(
     refused.count()
 }
 
-/// Lists the places of a document that are picked.
 fn places(value: &Value, path: &str, pick: &impl Fn(&str, &Value) -> bool) -> Vec<String> {
     let parts: Vec<(String, &Value)> = match value {
         Value::Array(all) => (0..)
@@ -276,7 +262,6 @@ fn honest_variants_are_shown_and_the_judge_can_tell() {
         let results = shown(&own).unwrap();
         assert!(results.iter().all(Bounded::holds), "{results:?}");
         assert!(is_true(&own, &results));
-        // The judge is no rubber stamp.
         let mut lie = results.clone();
         for own in &mut lie {
             own.claimed *= 1e-3;
@@ -346,7 +331,6 @@ fn constants(mutations: &Range<usize>) {
     assert!(some.contains(&refused), "{refused}");
 }
 
-/// Words that say what the claim is about, and words of its programs.
 fn words(mutations: &Range<usize>) {
     const ABOUT: [&str; 9] = [
         "", "gravity", "coriolis", "f16", "range", "1", "r2", "q", "trust me",
@@ -382,7 +366,6 @@ fn numbers(mutations: &Range<usize>) {
     assert!(refused >= mutations.len() / 2, "{refused}");
 }
 
-/// The robot file is changed and the claim is not.
 fn scenes(mutations: &Range<usize>) {
     let honest = variants();
     let mut random = Random::new(0x5ce2e);
@@ -407,26 +390,22 @@ fn scenes(mutations: &Range<usize>) {
     assert!(refused >= mutations.len() / 3, "{refused}");
 }
 
-/// Returns a document with one of its words changed into one of `words`, which blanks part.
 fn other_word(text: &str, random: &mut Random, words: &str) -> String {
     let is_word = |c: char| !c.is_whitespace() && !"\"{}:,".contains(c);
     let found = text.split(|c| !is_word(c)).filter(|own| !own.is_empty());
     let found: Vec<&str> = found.collect();
     let old = *one_of(&found, random);
-    // A part of the text, so that it has a place there.
     let place = old.as_ptr() as usize - text.as_ptr() as usize;
     let words: Vec<&str> = words.split(' ').collect();
     let new = one_of(&words, random);
     format!("{}{new}{}", &text[..place], &text[place + old.len()..])
 }
 
-/// What the command does with a plan: it generates from it, and what it certifies is true.
 fn plans(mutations: &Range<usize>) {
     let words = "t1+t2 t2*#1 t7-t1 qd[1]*qd[1] s1*#0 c2-#2 s3*c2 #0 1/2 2 -t1 t2 t9 -7 [] 0 f32 \
         gravity q load planned returns";
     let mut case = Case::read(ROBOT, "scene: pick; sincos: libm");
     let mut plan = keep(case.robot(), &case.request, &case.generated(), None).plan;
-    // Of a search nothing is left but the programs.
     for entry in &mut plan.entries {
         entry.passes.clear();
         entry.edited.as_mut().unwrap().left_out.clear();

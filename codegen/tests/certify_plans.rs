@@ -9,7 +9,6 @@ use dalembert_model::number::{Exact, Rational};
 
 use crate::support::Case;
 
-/// Two joints that need little, so that a search is quick; and D.
 const SCENES: &str = r#"
 [scene.pick]
 outputs = ["inverse_dynamics"]
@@ -24,8 +23,6 @@ tolerance = { value = 0.15, relative_to = "range" }
 scalar = "f64"
 "#;
 
-/// Returns the arm in a scene, what is generated, and the text of the plan that `--save-plan` would
-/// write.
 fn planned(scene: &str) -> (Case, Generated, String) {
     let mut case = Case::new("planar3r", SCENES, &format!("scene: {scene}"));
     if scene == "push" {
@@ -47,8 +44,6 @@ fn by(case: &Case, plan: &str) -> Result<Generated, GenerateError> {
     generate(case.robot(), &request)
 }
 
-/// A variant of a plan is the one that was found, in every byte, with the same claim, and D positive
-/// definite; one that is not within the tolerance is searched for anew.
 #[test]
 fn bounds_are_found_anew() {
     for scene in ["pick", "push"] {
@@ -69,7 +64,6 @@ fn bounds_are_found_anew() {
     }
 }
 
-/// Returns the plan with another program, or with other words about it.
 fn changed(plan: &str, change: impl FnOnce(&mut Claimed)) -> String {
     let mut claim = Claim::read(plan).unwrap();
     assert!(claim.functions[0].tolerated.is_some());
@@ -77,8 +71,7 @@ fn changed(plan: &str, change: impl FnOnce(&mut Claimed)) -> String {
     claim.write()
 }
 
-/// Returns the plan with other operations in front of the variant's: `$0` is the first of these
-/// constants.
+/// `$0` is the first of these constants.
 fn with_steps(plan: &str, constants: &[String], steps: &[String]) -> String {
     let mut claim = Claim::read(plan).unwrap();
     let first = claim.constants.len();
@@ -92,7 +85,6 @@ fn with_steps(plan: &str, constants: &[String], steps: &[String]) -> String {
     claim.write()
 }
 
-/// What would take long is refused before anything is computed.
 #[test]
 fn variants_that_grow_without_end() {
     let (case, _, plan) = planned("pick");
@@ -135,7 +127,6 @@ fn variants_that_grow_without_end() {
     assert!(format!("1{squares}").parse::<Exact>().is_err());
 }
 
-/// Inputs that a variant may not read, and words that would end a comment.
 #[test]
 fn variants_that_are_other_functions() {
     let (case, _, plan) = planned("pick");

@@ -27,8 +27,7 @@ fn check(table: &str) {
     }
 }
 
-/// Torques of checked-in arms and of other kinds, with the load and the torques of any payload,
-/// and with any gravity. The second table is a campaign's.
+/// The second table is a campaign's.
 const TORQUES: [&str; 2] = [
     "
 planar2r  | | inverse_dynamics | 23
@@ -57,9 +56,6 @@ puma560   | | inverse_dynamics, dynamic_coefficients; formulation: lagrange_eule
 ",
 ];
 
-/// Forward dynamics and derivatives; poses, from forms that turn two axes of the hand as well as
-/// from those that turn three; C, from composite momenta, and from the symbols where these are about
-/// as cheap. The second table is a campaign's.
 const OTHERS: [&str; 2] = [
     "
 planar2r | | forward_dynamics, inverse_dynamics_derivatives, inertia_inverse | 25 27 10
@@ -81,8 +77,6 @@ ur10     | | coriolis_matrix | 267
 ",
 ];
 
-/// Less than the parts by themselves, where they have more in common than sines: of one arm, and of
-/// frames that have the way there in common. The second table is a campaign's.
 const BUNDLES: [&str; 2] = [
     "
 planar3r       | motion=forward_kinematics+jacobian | 16
@@ -97,9 +91,8 @@ frames/panda   | a=forward_kinematics@camera+forward_kinematics@elbow+forward_ki
 ",
 ];
 
-/// Second derivatives. CasADi's Hessians of λᵀτ and λᵀq̈ after common subexpressions, at the best of
-/// its ways, have 5309 and 6833 operations of the PUMA, 15464 and 19401 of the Panda
-/// (`benches/peers/peers.py counts`): at most half. The second is a campaign's.
+/// CasADi's Hessians of λᵀτ and λᵀq̈ have 5309 and 6833 operations of the PUMA, 15464 and 19401 of
+/// the Panda after common subexpressions (`benches/peers/peers.py counts`): at most half.
 const SECOND: [&str; 2] = [
     "puma560 | | inverse_dynamics_second_derivatives, forward_dynamics_second_derivatives | 2654 3416",
     "panda | | inverse_dynamics_second_derivatives, forward_dynamics_second_derivatives | 7732 9700",
@@ -124,7 +117,6 @@ fn second_derivatives_cost_half_of_casadi_s(table: &str) {
     check(table);
 }
 
-/// Everything that a scene does not need is gone from the code, sines too.
 #[test]
 fn scenes() {
     check(
@@ -153,7 +145,6 @@ fn operations(file: &str, outputs: &str) -> usize {
     case.generated().functions[0].counts().operations()
 }
 
-/// A Jacobian of some rows, or of a frame before the hand, costs less than all of it.
 #[test]
 fn what_is_not_asked_for_is_not_computed() {
     let outputs = "jacobian@camera jacobian@camera:angular jacobian@elbow".split(' ');

@@ -13,7 +13,6 @@ use dalembert_model::scalar::field::Field;
 
 use crate::support::{Case, in_scene, rows};
 
-/// Returns cases of whole robots, and what is generated for them.
 fn cases(robots: &str, outputs: &str) -> Vec<(Case, Program)> {
     let mut cases = Vec::new();
     for robot in robots.split(' ') {
@@ -36,8 +35,7 @@ fn proof(case: &Case, program: &Program) -> Result<(), Disproof> {
     prove(&setup, program).map(|_| ())
 }
 
-/// Lists steps in place of one: with the other sign, without a term, with a constant that is off by
-/// an ulp of a double, or by the prime of the search, which cannot tell that one.
+/// The search cannot tell a constant that is off by its prime.
 fn faults(step: &Step) -> Vec<(&'static str, Step)> {
     let mut all = Vec::new();
     let with = |operation| Step {
@@ -109,7 +107,6 @@ fn every_fault_of_a_result() {
     }
 }
 
-/// Another divisor, a quotient upside down, a product in its place; 0/0 is nothing.
 #[test]
 fn every_fault_of_a_quotient() {
     let outputs = "forward_dynamics inertia_inverse forward_dynamics_derivatives \
@@ -142,8 +139,6 @@ fn every_fault_of_a_quotient() {
     }
 }
 
-/// A program that reads another number of the load, or of gravity, is refused; so
-/// is a load that is another.
 #[test]
 fn every_fault_of_an_argument() {
     let asked = "inverse_dynamics; parameters: payload, gravity";
@@ -173,7 +168,6 @@ fn every_fault_of_an_argument() {
     assert!(planted > 10, "{planted}");
 }
 
-/// Returns a program with another step in one's place.
 fn with_step(program: &Program, steps: &Steps, index: usize, step: Step) -> Program {
     let mut steps = steps.clone();
     steps.steps[index] = step;
@@ -186,8 +180,7 @@ fn with_code(program: &Program, dag: Dag) -> Program {
     program
 }
 
-/// A robot file, the lines of a scene, what is asked, and words of the file with what they are
-/// changed to.
+/// A robot file, the lines of a scene, what is asked, and words of the file with their changes.
 const CHANGED: &str = r#"
 LEADERS := multiplier = 0.75 → multiplier = 1.75 … multiplier = -2 → multiplier = -1 … multiplier = 1 → multiplier = 2 … joint = 4, multiplier = 1 → joint = 1, multiplier = 1
 wafer | | inverse_dynamics | LEADERS
@@ -196,8 +189,6 @@ coulomb | | inverse_dynamics | coulomb_width = 0.01 → coulomb_width = 0.02 …
 puma560 | joints = [1, 2]; lock = { 3 = "pi/2" }; payload = { mass = 2, com = [0, 0, 0.05] } | gravity | 3 = "pi/2" } → 3 = "pi/3" } … mass = 2, → mass = 3, … joints = [1, 2] → joints = [2, 1]
 "#;
 
-/// A program is of its arm and its scene: of another multiplier or leader, another width or force
-/// of friction, another lock, payload or order of rows it is disproved.
 #[test]
 fn another_arm_or_scene() {
     for [file, scene, asked, changes] in rows(CHANGED) {

@@ -10,9 +10,6 @@ use dalembert_codegen::{Function, Generated, ScalarType};
 use crate::certified::Certified;
 use crate::support::{self, Case};
 
-/// Every sum with a product that nobody else reads takes one: so many operations
-/// less, and the estimate of their roundings is no larger. Without the option
-/// there are none, and what is fused is the same program.
 #[test]
 fn a_fused_product_saves_an_operation_and_a_rounding() {
     for name in ["stanford", "puma560", "panda"] {
@@ -34,8 +31,6 @@ fn a_fused_product_saves_an_operation_and_a_rounding() {
     }
 }
 
-/// The option gives the fused program, and keeps what it was fused from; the text without it is
-/// another.
 #[test]
 fn the_option_gives_the_fused_program() {
     let case = |fma: &str| Case::in_scene("stanford", "", &format!("inverse_dynamics; fma: {fma}"));
@@ -46,8 +41,6 @@ fn the_option_gives_the_fused_program() {
     assert!(!plain.text().contains("mul_add") && fused.text().contains("mul_add"));
 }
 
-/// A line is one rounding, that of `mul_add`; many states at once have the bits of
-/// each; both scalars.
 #[test]
 fn a_line_is_rounded_once() {
     const TEXT: &str = "\
@@ -72,7 +65,6 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
     };
     let (text, single) = (read(TEXT, ScalarType::F64), read(&single, ScalarType::F32));
     assert_eq!(text.counts().to_string(), "1 mul, 0 add, 3 fma, 1 sincos");
-    /// Rounds the same lines.
     macro_rules! once {
         ($sines:expr) => {{
             let (s1, c1) = $sines;
@@ -99,18 +91,14 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
         let (s1, c1) = libm::sincos(q);
         twice += usize::from(s1.mul_add(0.1, c1) != s1 * 0.1 + c1);
     }
-    // Two roundings would be seen.
     assert!(twice > 5, "{twice}");
 }
 
-/// Returns the certificates of the first function.
 fn certificates(generated: &Generated) -> &[Certificate] {
     let admitted = generated.functions[0].admitted.as_ref();
     &admitted.unwrap().certificates
 }
 
-/// A certificate's bounds of rounding are those of one rounding: no larger, and smaller somewhere. A
-/// plan keeps the program with every product rounded.
 #[test]
 fn certificates_bound_one_rounding() {
     let scene = "\n[scene.hold]\ntolerance = { value = 1e-2, relative_to = \"range\" }\n";
@@ -134,8 +122,6 @@ fn certificates_bound_one_rounding() {
     assert_eq!(kept(&on, &found).write(), kept(&off, &plain).write());
 }
 
-/// Functions that call for all their angles at once have the same bounds; a certificate says whose
-/// sines it is about, and the file of one is not that of the other.
 #[test]
 fn certificates_name_the_library() {
     let scene = "\n[scene.slow]\noutputs = [\"gravity\"]\n\

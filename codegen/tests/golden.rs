@@ -14,13 +14,11 @@ const ROBOTS: [&str; 6] = [
     "planar2r", "planar3r", "stanford", "puma560", "ur10", "panda",
 ];
 
-/// The bound against the files, normwise.
 const FILES: f64 = 1e-12;
 
 /// Values below this in SI units are what rounding leaves of zero.
 const LEAST: f64 = 1e-3;
 
-/// Returns the states of a file, which has so many.
 fn states(file: &str, count: usize) -> Vec<Value> {
     let states = support::json(file)["states"].take();
     let states: Vec<Value> = serde_json::from_value(states).unwrap();
@@ -28,7 +26,6 @@ fn states(file: &str, count: usize) -> Vec<Value> {
     states
 }
 
-/// Returns the function and the quantity of a key of a file.
 fn asked(key: &str) -> Option<(Function, Quantity)> {
     let (name, view) = key.split_once('@').unwrap_or((key, ""));
     let mut known = Quantity::ALL.iter();
@@ -45,7 +42,6 @@ fn asked(key: &str) -> Option<(Function, Quantity)> {
     Some((function, *quantity))
 }
 
-/// Returns the largest difference as a part of the largest number of the file.
 fn off(found: &[f64], known: &[f64]) -> f64 {
     assert_eq!(found.len(), known.len());
     let differences = found.iter().zip(known).map(|(a, b)| (a - b).abs());
@@ -53,8 +49,6 @@ fn off(found: &[f64], known: &[f64]) -> f64 {
     worst / largest(known).max(LEAST)
 }
 
-/// Compares values of states, those at some places among them, with code by these options, or with
-/// the runtime if there are none; returns how many there are, and how many were compared.
 fn compare(
     name: &str,
     states: &[Value],
@@ -95,19 +89,16 @@ fn compare(
     compared
 }
 
-/// Returns the states of a robot in the file of values at frames.
 fn at_frames(name: &str) -> Vec<Value> {
     states(&format!("tests/data/frames/{name}.json"), 5)
 }
 
-/// Folders of files for whole robots, the number of states in a file and of values in a state, and
-/// the options of code: second derivatives; torques, D, h and c with fused products.
+/// Folders, the number of states in a file and of values in a state, and the options of code.
 const WHOLE: [(&str, usize, usize, &str); 2] = [
     ("tests/data/second_derivatives", 5, 8, ""),
     ("../crates/model/tests/data/golden", 60, 4, "fma: on"),
 ];
 
-/// Returns the states of an arm of which three joints follow others.
 fn of_followers() -> Vec<Value> {
     states("../crates/import/tests/data/wafer.golden.json", 5)
 }
@@ -131,7 +122,6 @@ support::daily_and_campaign! {
     code_of_followers: (one_in::<8>, 3), (all_but_one_in::<8>, 20);
 }
 
-/// Half of the values at frames, other ones of each robot: a third of them daily, of small robots.
 fn code_at_frames(is_daily: bool, count: usize) {
     let mut compared = 0;
     for (number, name) in ROBOTS.into_iter().enumerate() {

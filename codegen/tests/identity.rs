@@ -9,7 +9,6 @@ use dalembert_checker::program::{Operand as Checked, Program as Straight};
 use crate::certified::Certified;
 use crate::support::{all_but_one_in, daily_and_campaign, every_output, one_in};
 
-/// A function's program as it is claimed, and the parameters that its columns add up.
 struct Shown {
     source: String,
     function: Function,
@@ -18,7 +17,6 @@ struct Shown {
 }
 
 impl Shown {
-    /// Has the checker show a program of the function.
     fn check(&self, program: &Straight<Exact>) -> Result<(), String> {
         let file = robot::read(&self.source)?;
         let statement = Statement {
@@ -32,7 +30,6 @@ impl Shown {
     }
 }
 
-/// Generates all functions of the arm in the plane.
 fn all() -> Vec<Shown> {
     let file = Certified::planar2r(&format!("{}; scalar: f64", every_output()));
     let claim = Claim::read(&file.claim).unwrap();
@@ -50,8 +47,6 @@ daily_and_campaign! {
     every_mutant_of_a_program_is_refused: (one_in::<4>), (all_but_one_in::<4>);
 }
 
-/// Another sign, operand or order, and a constant that is off by 1e-17; at some of forty places of a
-/// program.
 fn every_mutant_of_a_program_is_refused(is_tried: fn(usize) -> bool) {
     let mut count = 0;
     for own in all() {

@@ -6,8 +6,6 @@ use dalembert_codegen::{Generated, Plan};
 
 use crate::support::{self, Case, rows};
 
-/// Generates a request, and returns the text of its plan, which is read again and gives the same
-/// code.
 #[track_caller]
 fn kept(case: &Case) -> String {
     let first = case.generated();
@@ -21,13 +19,11 @@ fn kept(case: &Case) -> String {
     text
 }
 
-/// Returns which functions of a request are of a plan.
 fn planned(case: &Case, plan: &Plan) -> Vec<bool> {
     let functions = case.by(plan).functions;
     functions.iter().map(|own| own.planned).collect()
 }
 
-/// Refuses the text of a plan with these words.
 #[track_caller]
 fn refused(text: &str, said: &str) {
     let error = Plan::parse(text).unwrap_err().to_string();
@@ -54,8 +50,6 @@ fn programs_by_their_request() {
     }
 }
 
-/// Programs of constants and of arguments stand side by side: neither is taken for the other, nor
-/// for one with other parameters or another load.
 #[test]
 fn arguments_are_told_apart() {
     let case = |asked: &str| Case::in_scene("planar2r", "", asked);
@@ -108,8 +102,6 @@ fn arguments_are_told_apart() {
     }
 }
 
-/// Another bundle by the same name is another function; what the text says is proved, and names
-/// are looked at.
 #[test]
 fn bundles_are_what_is_in_them() {
     let asked = "outputs: servo=inverse_dynamics+jacobian; scalar: f64";
@@ -133,14 +125,11 @@ fn bundles_are_what_is_in_them() {
     }
 }
 
-/// Returns the plan beside a robot file.
 fn beside(name: &str) -> Plan {
     let file = support::path(&format!("../generated/robots/{name}.toml"));
     plan_file::beside(&file).unwrap().unwrap()
 }
 
-/// A bundle's plan is found by its parts, whatever its name and their order, and is not kept twice;
-/// of two plans the first is taken.
 #[test]
 fn bundles_are_found_by_their_parts() {
     let plan = beside("puma560");
@@ -162,8 +151,7 @@ fn bundles_are_found_by_their_parts() {
     }
 }
 
-/// A scene's program is not the whole robot's, nor that of the scene as it is now. A box changes no
-/// equation: the plan of the whole robot serves; standing still does.
+/// A box changes no equation: the plan of the whole robot serves; standing still does.
 #[test]
 fn scenes_are_told_apart() {
     let asked = "inverse_dynamics; scalar: f64";
@@ -185,8 +173,6 @@ fn scenes_are_told_apart() {
     }
 }
 
-/// Who renews a plan goes on from its programs, and never comes out dearer; from what is not the
-/// function's nobody goes on.
 #[test]
 fn renewed_programs_are_no_dearer() {
     let plan = beside("stanford");

@@ -18,18 +18,15 @@ fn the_locked_version_is_the_tested_one() {
     assert!(locked.starts_with(&format!("{TESTED}\"")));
 }
 
-/// Returns the distance between neighbours where the true value is.
 fn ulp(x: f64) -> f64 {
     x.abs().next_up() - x.abs()
 }
 
-/// Returns the error of a result in ulps of the true value.
 fn ulps(found: f64, exact: &Wide) -> f64 {
     let error = Wide::from_f64(found).unwrap().sub(exact);
     error.magnitude() / ulp(exact.to_f64())
 }
 
-/// Returns the worst of sine, cosine and both at once.
 fn worst(x: f64) -> f64 {
     let SinCosPair { sin, cos } = Wide::sincos_of(x).unwrap();
     let both = libm::sincos(x);
@@ -60,8 +57,7 @@ fn doubles_anywhere() {
     is_within_an_ulp("any size", (0..3000).map(any));
 }
 
-/// Multiples of π/4 and their neighbours: where the reduced argument is
-/// small, or changes its interval; and the double nearest to one of all.
+/// The reduced argument is small near multiples of π/4, or changes its interval.
 #[test]
 fn doubles_where_it_is_hard() {
     let quarters = (1..2000).flat_map(|k| {
@@ -75,8 +71,7 @@ fn doubles_where_it_is_hard() {
     is_within_an_ulp("hard cases", hard);
 }
 
-/// Every so many floats of single precision, against double precision, which
-/// is exact enough for that.
+/// Double precision is exact enough to compare with.
 #[test]
 fn singles_everywhere() {
     let mut most = 0f64;

@@ -41,7 +41,6 @@ frames/planar2r | | FRAMES; scalar: f64; name: d; language: c | d_jacobian_camer
 frames/planar2r | | FRAMES; scalar: f64; name: d; language: cuda | d_jacobian_camera_local(
 "#;
 
-/// Returns a text without marks of comments, with one space for any other.
 fn flat(text: &str) -> String {
     let marks = ["///", "//!", "/*", "*"];
     let lines = text.lines().map(|line| {
@@ -53,7 +52,6 @@ fn flat(text: &str) -> String {
     words.join(" ")
 }
 
-/// Every function is there by its name, too.
 #[test]
 fn texts_say_what_was_asked() {
     let mut plan: Option<Plan> = None;
@@ -92,8 +90,6 @@ fn a_robot_is_generated_alike_every_time(name: &str) {
     assert!(text() == text());
 }
 
-/// Longer functions are printed in blocks, none of which ends between a product and the sum that it
-/// is fused with, and read back: `generate` does.
 #[test]
 fn long_functions_are_in_blocks() {
     let case = Case::in_scene("panda", "", "dynamic_coefficients; fma: on");
@@ -104,12 +100,10 @@ fn long_functions_are_in_blocks() {
     assert!(text.contains("let (t") && text.contains(",) = {\n") && text.contains(".mul_add("));
 }
 
-/// Words that begin a branch or a loop in some language.
 const BRANCHES: [&str; 10] = [
     "if", "else", "match", "switch", "while", "for", "loop", "do", "goto", "break",
 ];
 
-/// Returns the functions of a text: the line that each begins with, and those behind it.
 fn functions(text: &str) -> Vec<(&str, Vec<&str>)> {
     let lines: Vec<&str> = text.lines().collect();
     let heads = lines.iter().enumerate();
@@ -130,9 +124,7 @@ fn calls(line: &str) -> bool {
     before.any(|text| text.ends_with(is_letter))
 }
 
-/// Functions have no branch and no loop, and with polynomials for sines they call nothing: of every
-/// output in every language. What gives sines by the crate's algorithm in C is a loop, and says so
-/// by its name.
+/// Code that gives sines by the crate's algorithm in C is a loop, and says so by its name.
 #[test]
 fn functions_are_straight_lines() {
     for options in [
@@ -163,8 +155,6 @@ fn functions_are_straight_lines() {
     assert!(calls("let t1 = f(x) + (y);") && !calls("let t1 = x + (y);"));
 }
 
-/// Modules with arrays, structs and blocks of polynomials, of an arm whose joints are named as
-/// nobody should, and of which one turns without end. No dynamics are called.
 #[test]
 fn nobody_has_anything_to_say() {
     let asked = "inverse_dynamics, dynamic_coefficients; sincos: polynomial; sincos_error: 1e-4";
@@ -202,8 +192,6 @@ fn nobody_has_anything_to_say() {
     }
 }
 
-/// Names of every output, of many states too, are distinct and no longer than every compiler tells
-/// apart, where the robot has a name of some length.
 #[test]
 fn names_are_short_and_distinct() {
     for options in ["sincos: together", "sincos: libm; name: stanford"] {
@@ -223,8 +211,6 @@ fn names_are_short_and_distinct() {
     }
 }
 
-/// A robot's name that makes others too long is cut, and told apart by its hash; one that somebody
-/// chose is not changed.
 #[test]
 fn long_names_are_cut() {
     let mut heads = BTreeSet::new();
@@ -241,7 +227,6 @@ fn long_names_are_cut() {
             let asked = format!("{asked}; sincos: together; {options}");
             let mut case = Case::planar2r(&asked);
             case.reading.robot.name = name.to_owned();
-            // The plan is that of the arm by its other name.
             let input = input_hash(case.robot());
             case.request.plan = case.request.plan.map(|plan| Plan { input, ..plan });
             let generated = case.generated();
@@ -253,7 +238,6 @@ fn long_names_are_cut() {
                 assert!(generated.text().contains(&words), "{words}");
             }
             heads.insert(short.to_owned());
-            // Chosen, the name is the module's, and nothing is said.
             case.request.module = Some(short.to_owned());
             let chosen = case.generated();
             assert_eq!(chosen.texts, generated.texts);

@@ -1,10 +1,9 @@
 //! Robots and robot files that nobody chose: any number of joints, both kinds, both conventions,
 //! full inertias, tilted gravity, odd angles, friction, and numbers of any size.
 //!
-//! The code for them is proved (or `generate` fails), and the emitted text stays within
-//! the floating bound; a file gives an error or proved code, never a panic; and what was proved is
-//! never said to be contradicted. The reader's own fuzzing, of arbitrary bytes, is in the model's
-//! tests.
+//! The code for them is proved (or `generate` fails), and the emitted text stays within the
+//! floating bound; a file gives an error or proved code, never a panic; and what was proved is
+//! never said to be contradicted.
 
 use std::ops::Range;
 
@@ -17,7 +16,6 @@ use crate::support::draw::{Draw, robots};
 use crate::support::{self, Case, daily_and_campaign};
 use crate::values::is_whole_robots;
 
-/// Returns a function whose code stays small enough for a test.
 fn function(n: usize, draw: &mut Draw) -> Function {
     let few = match n {
         0..=3 => 6,
@@ -45,7 +43,6 @@ fn proved_and_accurate(places: Range<usize>) {
     }
 }
 
-/// With Coulomb friction, what reads it is proved of each, and h, which must not.
 fn friction_is_proved_and_accurate(places: Range<usize>) {
     let asked = "outputs: inverse_dynamics, passivity, forward_dynamics, coriolis";
     let mut draw = Draw(Random::new(0x636f_756c));
@@ -64,7 +61,6 @@ fn friction_is_proved_and_accurate(places: Range<usize>) {
     }
 }
 
-/// Each formulation alone leads to a program that is proved.
 #[test]
 fn every_start_leads_to_the_same_function() {
     let small = robots(16, 0xa9ee).filter(|(_, robot, _)| robot.joints.len() <= 3);
@@ -79,7 +75,6 @@ fn every_start_leads_to_the_same_function() {
     }
 }
 
-/// Without velocities the scene's code is the whole robot's.
 #[test]
 fn a_scene_at_rest_is_the_full_model() {
     let still = "\n[scene.test]\nvelocity = \"zero\"\n";
@@ -95,7 +90,6 @@ const NUMBERS: &str = "0 1 -1 0.5 0.1 2.25 1e-3 1e3 1e-9 1e9 1e300 1e-300 1e38 \
     0.30000000000000004 123456789.123456789 -0.0 1e40 4.9e-324 \"2305843009213693951/2\" \
     \"1/2305843009213693951\"";
 
-/// Angles in a robot file, the usual ones first.
 const ANGLES: &str = "0 \"pi/2\" \"-pi/2\" \"pi\" \"pi/3\" \"2*pi/5\" \"90deg\" \"30deg\" \
     1.5707963267948966 1.5708 0.3 6283185.307179586 -1e-9 \"1e6*pi\"";
 
@@ -106,7 +100,6 @@ fn pick<'a>(random: &mut Random, words: &'a str, usual: usize) -> &'a str {
     all[random.below(if is_usual { usual } else { all.len() })]
 }
 
-/// Returns a file that is close enough to right that many are accepted.
 fn file(random: &mut Random) -> String {
     let convention = ["standard", "modified"][random.below(2)];
     let mut text = format!("name = \"fuzzed\"\nconvention = \"{convention}\"\n");
@@ -163,8 +156,6 @@ fn accepted_files_give_proved_code(places: Range<usize>) {
         accepted += 1;
         let robot = reading.robot;
         assert_eq!(support::read_robot(&write(&robot)), robot, "{source}");
-        // Generated means proved and read back; all else is an error that
-        // says why, such as a constant beyond f32.
         match generate(&robot, &request) {
             Ok(generated) => {
                 proved += 1;
@@ -180,7 +171,6 @@ fn accepted_files_give_proved_code(places: Range<usize>) {
     assert!(2 * proved > runs / 2, "{accepted}, {proved}");
 }
 
-/// Warnings that extreme numbers deserve, and that are no news here.
 const ALLOW: &str = "allow = [\"impossible_inertia\", \"unusual_gravity\", \"large_length\", \
                      \"large_mass\", \"large_angle\", \"large_limit\", \"large_velocity\"]\n";
 
@@ -192,8 +182,7 @@ fn number(random: &mut Random, span: f64) -> f64 {
     format!("{digits:.3}e{}", power.round()).parse().unwrap()
 }
 
-/// Returns an arm whose lengths, masses, rates and gravity each are ordinary or extreme: errors and
-/// bounds that are measured where its code is run overflow and underflow as the code does.
+/// Errors and bounds measured where its code is run overflow and underflow as the code does.
 fn arm(seed: usize) -> String {
     let mut random = Random::new(seed as u64);
     let sizes = [3.0, 9.0, 30.0, 60.0, 100.0, 140.0];
@@ -229,8 +218,6 @@ fn arm(seed: usize) -> String {
     text
 }
 
-/// Asserts of arms, by their seeds, that no defect is reported that there is not, refused or not; of
-/// these outputs in turn. Returns how many were generated.
 fn never_contradicted(seeds: Range<usize>, scene: &str, outputs: &str, options: &str) -> usize {
     let names: Vec<&str> = outputs.split(' ').collect();
     let mut done = 0;
@@ -258,7 +245,6 @@ fn exact_programs_are_not_contradicted(seeds: Range<usize>) {
     assert!(done.iter().sum::<usize>() > seeds.len() / 2, "{done:?}");
 }
 
-/// Certificates, too: E is a bound wherever there is one.
 fn certificates_are_not_contradicted(seeds: Range<usize>) {
     let scene = "[scene.t]\ntolerance = { value = 1e-2, relative_to = \"range\" }\n";
     let outputs = "inverse_dynamics gravity inertia coriolis";
@@ -266,8 +252,7 @@ fn certificates_are_not_contradicted(seeds: Range<usize>) {
     assert!(done > seeds.len() / 4, "{done}");
 }
 
-/// A rate beyond f32: the state that is tried has the largest number in its place,
-/// so an entry that hands it on is one.
+/// The state that is tried has the largest f32 in place of a rate beyond it.
 #[test]
 fn limits_beyond_f32_leave_states_finite() {
     let arm = "name = \"fast\"\nconvention = \"standard\"\ngravity = [0, -9.81, 0]\n\

@@ -54,11 +54,9 @@ planar2r | | gravity; name: an_arm_with_a_very_long_name; language: c | is not a
 planar2r | | gravity; name: an_arm_with_a_very_long_name; language: cuda | is not a valid C identifier … at most 31
 "#;
 
-/// One joint more, of a link that weighs nothing.
 const WEIGHTLESS: &str = "[[joint]]; kind = \"revolute\"; name = \"tip\"; a = 0.3; mass = 0; \
     com = [0, 0, 0]; inertia = [0, 0, 0, 0, 0, 0]; [scene.held]; lock = { 3 = 0 }";
 
-/// All that is wrong is said at once.
 #[test]
 fn by_name() {
     for [file, scene, asked, words] in rows(ROWS) {
@@ -69,8 +67,6 @@ fn by_name() {
     }
 }
 
-/// Requests that no option and no file can make: a name that is none, one for two
-/// functions, and a scene of another robot.
 #[test]
 fn requests_that_nobody_read() {
     let robot = support::robot("planar2r");
@@ -100,8 +96,6 @@ fn requests_that_nobody_read() {
     assert!(said.contains("there is no joint 5"), "{said}");
 }
 
-/// An arm whose last joint moves no inertia has no inverse of D, as the table says; held, it needs
-/// none. Torques that it takes are another matter.
 #[test]
 fn an_arm_that_moves_no_inertia_by_its_joint() {
     for asked in [
@@ -115,7 +109,6 @@ fn an_arm_that_moves_no_inertia_by_its_joint() {
     }
 }
 
-/// A constant that f32 cannot hold takes f32 out of a header, with a note, unless it was asked for.
 #[test]
 fn a_header_may_be_without_f32() {
     let source = support::source("planar2r", "").replace("mass = 1\n", "mass = 1e200\n");
@@ -133,7 +126,6 @@ fn a_header_may_be_without_f32() {
     assert!(said.contains("which f32 cannot hold"), "{said}");
 }
 
-/// Dynamics of an arm that weighs nothing are refused; kinematics and regressors need no mass.
 #[test]
 fn an_arm_without_mass_has_kinematics_alone() {
     let source = support::source("planar2r", "").replace("mass = 1\n", "mass = 0\n");
@@ -153,7 +145,6 @@ fn an_arm_without_mass_has_kinematics_alone() {
     let _ = Case::read(&rotor, "outputs: inertia").generated();
 }
 
-/// What a scalar cannot hold inside the robot's limits is said.
 #[test]
 fn overflow_is_flagged_for_the_scalar_that_it_threatens() {
     let source = support::source("puma560", "");

@@ -27,18 +27,11 @@ const PASSIVITY: Linear = (
 
 /// A robot, the lines of a scene, the regressors, how many columns there are, or by how many there
 /// are more than the rank of Y over all links' parameters, and the most operations of a quick
-/// search, whose sum only ever goes down; words of the text.
+/// search, whose sum only ever goes down; words of the text. The second table is a campaign's.
 ///
 /// Known numbers of base parameters are 36 of the PUMA (Gautier, Khalil 1990), 43 of the Panda (Gaz
-/// et al. 2019), and 3 a link in the plane. What one velocity more costs has no more columns. Other
-/// arms have slides before, between and after what turns, and odd angles. Rotors and friction have
-/// columns of their own, but for the first rotor, which is felt as the first link's inertia is. What
-/// a scene holds still or does not ask for needs fewer parameters; but rates that are zero are those
-/// of the arm, not those wished for: at rest friction and inertias have columns, which torques at
-/// rest have not. Parameters are more where gravity may have any direction than where it has one.
-/// Those of joints that are placed are in the frames of the file.
-///
-/// The second table is a campaign's.
+/// et al. 2019), and 3 a link in the plane. At rest friction and inertias have columns, which
+/// torques at rest have not: rates that are zero are those of the arm, not those wished for.
 const ROWS: [&str; 2] = [
     r#"
 planar2r | | torques passivity | 6 | 22 23 |
@@ -70,8 +63,6 @@ daily_and_campaign! {
     headers_have_the_same_parameters: ("planar2r"), ("stanford");
 }
 
-/// Returns a regressor's case of an arm: of the tables, or a planar one with rotors and friction, or
-/// with friction of its second joint.
 fn case((regressor, ..): Linear, robot: &str, scene: &str, options: &str) -> Case {
     let asked = format!("{}; {options}", regressor.name());
     let drives = match robot {
@@ -91,8 +82,6 @@ fn case((regressor, ..): Linear, robot: &str, scene: &str, options: &str) -> Cas
     Case::read(&source, &asked)
 }
 
-/// Returns the values of π in a text, a scalar each: of a constant in Rust, or those that functions
-/// of a header write.
 fn printed((.., constant): Linear, text: &str) -> Vec<Vec<f64>> {
     let declared = format!("pub const {constant}: [");
     let (start, end) = match text.contains(&declared) {
@@ -110,7 +99,6 @@ fn printed((.., constant): Linear, text: &str) -> Vec<Vec<f64>> {
     all.collect()
 }
 
-/// A header has the values that a module has, in both scalars, by a name that its text says.
 fn headers_have_the_same_parameters(name: &str) {
     for linear @ (.., constant) in [TORQUES, PASSIVITY] {
         let mut case = case(linear, name, "", "");
@@ -126,8 +114,7 @@ fn headers_have_the_same_parameters(name: &str) {
     }
 }
 
-/// Returns the rank of Y over all links' parameters, in f64 from the runtime: elimination
-/// with the largest pivot there is, columns brought to one length first.
+/// Elimination in f64 with the largest pivot there is, columns brought to one length first.
 fn rank(runtime: &Runtime, setup: &Setup) -> usize {
     let columns = 10 * setup.joints();
     let states = setup.states(columns / setup.rows().len() + 10, 0x72616e6b);
@@ -138,7 +125,6 @@ fn rank(runtime: &Runtime, setup: &Setup) -> usize {
     let scaled = |column: usize| {
         let entries = values.iter().skip(column).step_by(columns).copied();
         let entries: Vec<f64> = entries.collect();
-        // What is dust stays dust.
         let length = length(&entries).max(1e-3);
         entries.iter().map(|x| x / length).collect()
     };
@@ -161,8 +147,7 @@ fn rank(runtime: &Runtime, setup: &Setup) -> usize {
     }
 }
 
-/// Compares the emitted Y times the printed π with the runtime's torques, relative to
-/// what the sums are made of.
+/// Relative to the terms that the sums are made of.
 fn columns_times_parameters_are_the_torques(table: &str) {
     for [name, scene, regressors, base, most, words] in rows(table) {
         let mut most = most.split_whitespace().map(|most| most.parse().unwrap());
@@ -210,8 +195,6 @@ fn columns_times_parameters_are_the_torques(table: &str) {
     }
 }
 
-/// π from the combinations is the torques' π exactly, and a combination that is
-/// off in one coefficient, or that lacks a column, is refused by the parameter.
 #[test]
 fn wrong_combinations_are_refused() {
     let robot = support::robot("puma560");

@@ -22,7 +22,6 @@ fn polynomials_are_printed_counted_read_back_and_near() {
         let case = Case::in_scene(name, "", ASKED);
         let (generated, (runtime, states)) = (case.generated(), case.runtime(200, 3));
         assert!(!generated.text().contains("libm"), "{name}");
-        // The rest is as exact as with libm's sines.
         rounds_well(&generated, &runtime, &states, name);
         let function = &generated.functions[0];
         let plain = function.counts();
@@ -33,7 +32,6 @@ fn polynomials_are_printed_counted_read_back_and_near() {
             assert_eq!((counts.mul, counts.add), (plain.mul, plain.add));
             let line = format!("{counts}.");
             assert!(line.contains("trig_mul") && generated.text().contains(&line));
-            // It is not taken for the function with libm's sines.
             let called = function.program.code(emitted.scalar, Library::Libm, &[]);
             assert!(emitted.text.difference(&called).is_some());
             assert_eq!(emitted.with_libm().text.difference(&called), None);
@@ -49,7 +47,6 @@ fn polynomials_are_printed_counted_read_back_and_near() {
     }
 }
 
-/// Returns a function of two results, sines and cosines of one angle.
 fn of(wanted: &[Input]) -> Program {
     let edge = |node| Edge {
         node,
@@ -72,8 +69,7 @@ daily_and_campaign! {
     tolerances_over_narrow_ranges_are_met: ([(-1.571, 1e-5), (0.0, 1e-3)]), ([(-1.571, 1e-6), (3.1, 1e-6)]);
 }
 
-/// Over narrow ranges a sine or cosine may be a constant, of either sign, or the
-/// angle itself: every kernel there is prints as what is read back.
+/// Over narrow ranges a sine or cosine may be a constant, of either sign, or the angle itself.
 fn kernels_of_narrow_ranges_are_read_back(places: Range<usize>) {
     const CENTRES: [f64; 4] = [0.0, -FRAC_PI_2, 1.57, PI];
     const HALVES: [f64; 4] = [5e-4, 1e-9, 1e-5, 0.02];
@@ -91,7 +87,6 @@ fn kernels_of_narrow_ranges_are_read_back(places: Range<usize>) {
             }
         }
     }
-    // More than one for each limit.
     assert!(choices.len() > 12 * places.len(), "{}", choices.len());
     for (scalar, range, wanted, choice) in choices {
         let program = of(wanted);
@@ -109,8 +104,6 @@ fn kernels_of_narrow_ranges_are_read_back(places: Range<usize>) {
     }
 }
 
-/// Over such ranges inputs run alike, and sines are nearly constants: what is left out
-/// can be written down, and what is printed is read back.
 fn tolerances_over_narrow_ranges_are_met(cases: [(f64, f64); 2]) {
     for (centre, tolerance) in cases {
         let range = format!("[{:?}, {:?}]", centre - 5e-4, centre + 5e-4);
@@ -126,8 +119,6 @@ fn tolerances_over_narrow_ranges_are_met(cases: [(f64, f64); 2]) {
     }
 }
 
-/// Where two turns are too much for f32 and 1e-6, the default is the least error that it has, and f64
-/// keeps 1e-6. Who asks for 1e-6 is told that number, which gives the same code.
 #[test]
 fn the_default_can_be_had() {
     let case = |options: &str| {
@@ -150,7 +141,6 @@ fn the_default_can_be_had() {
     assert_eq!(again.texts[0], generated.texts[1]);
 }
 
-/// A joint without limits of position may have turned often.
 #[test]
 fn whole_turns_are_taken_off_where_limits_are_missing() {
     let asked = "inverse_dynamics; scalar: f64; sincos: polynomial; sincos_error: 1e-9";
@@ -168,8 +158,7 @@ fn whole_turns_are_taken_off_where_limits_are_missing() {
     }
 }
 
-/// A point at the end of a stretched arm can hardly be accelerated along it by turning:
-/// D is next to singular there, and errors of its cosine may make it indefinite.
+/// D of a mass at the end of a stretched arm is nearly singular: sines may make it indefinite.
 #[test]
 fn sines_too_rough_for_the_inertia_matrix_are_refused() {
     let joint = |mass: &str| {
@@ -189,7 +178,6 @@ fn sines_too_rough_for_the_inertia_matrix_are_refused() {
     assert!(why.contains("positive definite"), "{why}");
 }
 
-/// What no sine is taken of comes out as it was: no NaN is swallowed.
 #[test]
 fn what_is_no_number_stays_none() {
     let case = Case::in_scene("planar3r", "", ASKED);
@@ -203,8 +191,6 @@ fn what_is_no_number_stays_none() {
     }
 }
 
-/// By default polynomials are as exact as the scene's tolerance needs, and
-/// are in its certificates.
 #[test]
 fn a_tolerance_says_how_exact_sines_are() {
     let rough = "box = { position = [[-3, 3], [0.2, 2.8]], velocity = [2, 3], \

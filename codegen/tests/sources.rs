@@ -12,8 +12,6 @@ use dalembert_model::robot::Robot;
 use crate::support::draw::robots;
 use crate::support::{path, read_robot};
 
-/// Torques by whole recursions, matrices by composite bodies, poses by no regrouping, and what has
-/// most in common.
 const FUNCTIONS: [Function; 5] = [
     Function::InverseDynamics,
     Function::Inertia,
@@ -32,10 +30,8 @@ fn all() -> Vec<Robot> {
     drawn.chain(read).collect()
 }
 
-/// Leaves a source of the search out.
 type LeaveOut = fn(&mut Limits);
 
-/// Sources of the search, and what leaves each out.
 const SOURCES: [(&str, LeaveOut); 4] = [
     ("rules", |limits| limits.rules = 0),
     ("pairs", |limits| limits.pairs = 0),
@@ -45,7 +41,6 @@ const SOURCES: [(&str, LeaveOut); 4] = [
     }),
 ];
 
-/// Returns the cheapest program's operations over a search from each list of graphs.
 fn operations(cases: &[Vec<Dag>], leave_out: LeaveOut) -> usize {
     let limits = |operations| {
         let mut limits = Effort::Quick.limits(operations);

@@ -19,7 +19,6 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
 }
 ";
 
-/// Returns what a function of two joints is called with, in doubles.
 fn signature(function: Function, arguments: &[Argument]) -> Signature<'_> {
     Signature {
         function,
@@ -37,7 +36,6 @@ fn read(text: &str) -> Result<Code, usize> {
     })
 }
 
-/// Changes of the text, by the line that is refused.
 const REFUSED: &str = "
 1 | gravity → inertia
 2 | (s1, c1) → (c1, s1)
@@ -50,7 +48,6 @@ const REFUSED: &str = "
 8 | [t3, -t2] → [t3, -t2]↵    let t4 = t1 + t2;
 ";
 
-/// Changes of the text with one call for all angles, by the line that is refused.
 const REFUSED_TOGETHER: &str = "
 2 | dalembert_sines → libm … ([s1, _] → ([c1, _] … [c1, c2] → [c2, c1] … [c1, c2] → [c1, _]
 2 | [q[0], q[1]] → [q[0]] … [q[0], q[1]] → [q[0], t1] … [q[0], q[1]] → [q[1], q[0]]
@@ -73,7 +70,6 @@ fn what_was_not_is_refused() {
     }
 }
 
-/// Returns the same function with all its angles in one call.
 fn together() -> String {
     let alone = "    let (s1, c1) = libm::sincos(q[0]);\n    let c2 = libm::cos(q[1]);\n";
     let called = "    let ([s1, _], [c1, c2]) = dalembert_sines::sincos(&[q[0], q[1]]);\n";
@@ -81,8 +77,6 @@ fn together() -> String {
     TEXT.replacen(alone, called, 1)
 }
 
-/// One call for all angles is the same program but for the library, and its
-/// sines are the library's to the last bit.
 #[test]
 fn all_angles_together_are_read() {
     let together = read(&together()).unwrap();
@@ -95,7 +89,6 @@ fn all_angles_together_are_read() {
         ..JointState::default()
     };
     assert_eq!(together.run_at(&state), [c2 * t2, -t2]);
-    // Nothing is made up for an entry that a state lacks.
     assert!(together.run_at(&JointState::default()).is_empty());
 }
 
@@ -144,8 +137,7 @@ fn blocks_hand_on_what_they_say() {
     assert_eq!(read(&twice), Err(5));
 }
 
-/// Robot files, what is asked, of which the first function is read, and every how manieth line
-/// changes.
+/// Robot files, what is asked, and every how manieth line changes; the first function is read.
 const PRINTED: &str = "
 planar3r stanford puma560 | inverse_dynamics | 7
 planar3r stanford puma560 | manipulator_equation | 7
@@ -162,13 +154,10 @@ planar2r | inverse_dynamics; scalar: f32; sincos: together; language: cuda | 1
 planar2r | inverse_dynamics; scalar: f32; sincos: polynomial; language: cuda | 1
 ";
 
-/// Changes of a line in every language: nearly all compile, and give wrong numbers.
 const CHANGES: &str = "
 ·+· → ·-· … ·-· → ·+· … ·*· → ·+· … qd[ → qdd[ … [0] → [1] … ; → ∅
 ";
 
-/// Changes of a line in Rust: of the arithmetic, of roots, of calls for sines, of polynomials, and
-/// of columns.
 const IN_RUST: &str = "
 = t → = -t … sincos → cossin … qd[ → q[ … = s → = c … let t1 → let t2 … -t → t
 0.0001 → 0.0002 … 0.0001 → 0.0001 + 0.0 … ] + → ] - … * qd[0] → * qd[1]
@@ -187,14 +176,12 @@ Vector<f64>>([q, qd, qdd]: → Vector<f64>>([q, qdd, qd]:
 of.all(9.81) → of.all(9.82) … <InverseDynamicsBatch → <ForwardDynamicsBatch
 ";
 
-/// Changes of a line in C and CUDA.
 const IN_C: &str = "
 =· → = - … F → ∅ … F; → e1F; … const· → ∅ … float → double … t1· → t2· … s1 → c1
 fmaf( → fma( … fmaf( → fmaf(- … ,· → , - … sin → cos … cosf → cos … x1_ → x2_
 _MULF( → _MUL( … DALEMBERT_MULF( → ( … static· → ∅ … __device__· → ∅
 ";
 
-/// Lists lines in place of one with a literal: with its neighbour in the scalar.
 fn neighbours(line: &str, scalar: ScalarType) -> Vec<String> {
     let words = line.split([' ', ';', ',', '[', ']', '(', ')']);
     let literals = words.filter(|word| word.contains('.') && !word.contains(':'));
@@ -211,8 +198,6 @@ fn neighbours(line: &str, scalar: ScalarType) -> Vec<String> {
     lines.collect()
 }
 
-/// Lists lines in place of one with a fused product: factor and addend traded, without the addend,
-/// each with another sign, and rounded once more.
 fn unfused(line: &str) -> Vec<String> {
     let Some((name, value)) = line.split_once(" = ") else {
         return Vec::new();
@@ -238,7 +223,6 @@ fn unfused(line: &str) -> Vec<String> {
     ]
 }
 
-/// Returns whether a text is read as the first function in a scalar.
 fn passes(case: &Case, generated: &Generated, scalar: ScalarType, text: &str) -> bool {
     let (function, request) = (&generated.functions[0], &case.request);
     let code = function.code(scalar, request.library());
@@ -252,7 +236,6 @@ fn passes(case: &Case, generated: &Generated, scalar: ScalarType, text: &str) ->
     read.is_ok_and(|read| read.difference(&code).is_none())
 }
 
-/// No line can go, or say something else; each of these changes was tried.
 #[test]
 fn every_change_of_a_line_is_found() {
     let [in_rust, in_c] = [IN_RUST, IN_C].map(|own| changes(&format!("{CHANGES}{own}")));

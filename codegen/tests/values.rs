@@ -14,7 +14,6 @@ use dalembert_model::scene::write;
 
 use crate::support::{self, BOUND, Case, all_but_one_in, is_close, largest, one_in, rows};
 
-/// Names in the tables, and the texts that they stand for.
 const NAMES: &str = "
 FRAMES := jacobian@camera:local, jacobian_rate@elbow:world, operational_inertia@camera:x_y_rz, operational_bias@elbow:linear, inverse_dynamics_with_wrench@camera:local, forward_dynamics_with_wrench@elbow, contact_wrench@camera:linear, momentum_observer, task=operational_inertia@camera:linear+consistent_inverse@camera:linear+null_space_projector@camera:linear
 SECOND := inverse_dynamics_second_derivatives, forward_dynamics_second_derivatives
@@ -24,13 +23,8 @@ LINKED := inverse_dynamics, manipulator_equation, forward_dynamics
 FIRST := inverse_dynamics, inertia, coriolis, gravity, manipulator_equation, dynamic_coefficients
 ";
 
-/// Robot files, outputs with options, the lines of a scene, and the number of states: outputs at
-/// frames, with arguments and with a joint locked; joints that follow others, a leader of them locked,
-/// one asked for alone; second derivatives, and what divides; bundles, quantity by quantity, cut by a
-/// scene too; Coulomb friction from every formulation the same, whose arithmetic is not, in scenes
-/// that drop it, and beside arguments. Of D with a payload the range of polynomial sines was once
-/// looked for in a box without one. Last a base and a tool, and axes that are nearly parallel. The
-/// second table is a campaign's.
+/// Robot files, outputs with options, the lines of a scene, and the number of states. The range of
+/// polynomial sines of D with a payload was once looked for in a box without one.
 const ROWS: [&str; 2] = [
     r#"
 frames/planar3r | FRAMES | | 60
@@ -59,7 +53,6 @@ coulomb  | RUBBED | lock = { waist = 0.4 }; joints = ["slide", "wrist"] | 40
 "#,
 ];
 
-/// The six robots, with products rounded and fused; again the second table is a campaign's.
 const ROBOTS: [&str; 2] = [
     "
 planar2r stanford | FIRST | | 200
@@ -104,9 +97,8 @@ fn scenes_arguments_and_frames(table: &str) {
     check(table);
 }
 
-/// Compares the scene's text against the runtime of the whole robot, at states that have the
-/// scene's values; nothing here goes through what the generator makes of the scene. What is locked
-/// or zero must not be read: it would show.
+/// Nothing here goes through what the generator makes of the scene. A joint that is locked or zero
+/// must not be read: it would show.
 pub fn is_whole_robots(case: &Case) {
     let (robot, scene) = (case.robot(), case.request.scene.as_ref().unwrap());
     let generated = case.generated();
@@ -181,7 +173,6 @@ fn scenes_are_the_full_model() {
     }
 }
 
-/// Coulomb friction, and what it is not in.
 #[test]
 fn friction() {
     let rubbed = "inverse_dynamics, passivity, forward_dynamics, inverse_dynamics_derivatives, \
@@ -197,11 +188,9 @@ fn friction() {
     }
 }
 
-/// The force and the width of each joint of the arm, whose last one has no friction.
 const FRICTION: [(f64, f64); 3] = [(2.5, 0.01), (14.0, 1.0 / 300.0), (0.0, 1.0)];
 
-/// The torques beside those of the arm without, in all velocities; forward dynamics takes them of τ,
-/// passivity has them of v. A joint that does not move has none, but their slope: F/w + b.
+/// A joint that does not move has no friction, but its slope: F/w + b.
 #[test]
 fn friction_is_that_of_the_textbook() {
     let asked = "outputs: inverse_dynamics, passivity, forward_dynamics; scalar: f64";
@@ -240,7 +229,6 @@ fn friction_is_that_of_the_textbook() {
     }
 }
 
-/// A function without friction in it is certified, and inside all limits nothing overflows.
 #[test]
 fn what_has_no_friction_is_as_ever() {
     let limits = "limits = { position = [-1, 1], velocity = 2, acceleration = 9, torque = 90 }";
@@ -253,8 +241,7 @@ fn what_has_no_friction_is_as_ever() {
     assert!(admitted.is_some_and(|own| !own.certificates.is_empty()));
 }
 
-/// Outputs of an arm of which three joints follow others, against 256 bits, since the runtime's
-/// recursion errs more here than the code does.
+/// Compared with 256 bits, since the runtime's recursion errs more here than the code does.
 fn followers_beside_the_truth(is_tried: fn(usize) -> bool) {
     let robot = support::robot("wafer");
     let (runtime, setup) = (Runtime::new(&robot), Setup::whole(&robot));
@@ -278,14 +265,11 @@ fn followers_beside_the_truth(is_tried: fn(usize) -> bool) {
     }
 }
 
-/// Outputs of the arm below; the second are a campaign's.
 const TIED: [&str; 2] = [
     "inverse_dynamics inertia regressor",
     "forward_dynamics inverse_dynamics_derivatives operational_inertia passivity_regressor",
 ];
 
-/// A PUMA whose forearm keeps its direction, as a parallelogram has it: base parameters, and
-/// less work than with one joint more.
 fn a_parallelogram_costs_less_than_free_joints(outputs: &str) {
     let (free, elbow) = (support::source("puma560", ""), "name = \"elbow\"\n");
     let mimic = "mimic = { joint = 2, multiplier = -1 }\n";
@@ -303,7 +287,6 @@ fn a_parallelogram_costs_less_than_free_joints(outputs: &str) {
     }
 }
 
-/// A bundle of the table has the program of a user's bundle with its parts.
 #[test]
 fn the_manipulator_equation_is_a_bundle() {
     let [own, made] = ["manipulator_equation", "equation=inertia+coriolis+gravity"].map(|asked| {
@@ -323,7 +306,6 @@ fn the_manipulator_equation_is_a_bundle() {
     assert_eq!(text.matches("pub const BASE_PARAMETERS").count(), 2);
 }
 
-/// A base and a tool in the other convention; where they stand, they cost the torques nothing.
 #[test]
 fn placements() {
     let asked = "outputs: inverse_dynamics, forward_kinematics, link_poses, jacobian, \
@@ -341,8 +323,7 @@ fn placements() {
     assert_eq!(placed, code(""));
 }
 
-/// At 1e5 rad the f64 state is 4e-3 rad away from the f32 one, at which single precision is
-/// compared.
+/// At 1e5 rad the f64 state is 4e-3 rad away from the f32 one.
 #[test]
 fn single_precision_at_its_own_state() {
     let case = Case::new("planar2r", "", "outputs: inverse_dynamics");
@@ -355,9 +336,7 @@ fn single_precision_at_its_own_state() {
     support::rounds_well(&generated, &runtime, &states, "far");
 }
 
-/// A planar arm is singular in three of six components everywhere: without damping there is
-/// no Λ, and infinities or no numbers say so; with as little as 1e-9 all is finite. Of the
-/// three components that it moves in nothing is singular but where it is stretched out.
+/// A planar arm is singular in three of six components everywhere: there is no Λ undamped.
 #[test]
 fn singular_poses_give_no_numbers_without_damping() {
     let asked = "outputs: operational_inertia, operational_inertia@hand:x_y_rz; scalar: f64";
@@ -373,7 +352,6 @@ fn singular_poses_give_no_numbers_without_damping() {
     assert!(is_finite(1, bent, 0.0) && is_finite(1, straight, 1e-9));
 }
 
-/// The measure sees a literal that is off, and what is no number.
 #[test]
 fn a_wrong_literal_is_far_outside() {
     let case = Case::new("planar3r", "", "outputs: inverse_dynamics");
@@ -412,7 +390,6 @@ fn states_keep_to_the_limits() {
     assert!((9.0..=10.0).contains(&most(&states, Argument::Acceleration)));
 }
 
-/// No two keys of given states are one.
 #[test]
 fn keys_of_states_are_told_apart() {
     let quantities = Quantity::ALL.iter().filter_map(|own| own.facts().given);

@@ -7,7 +7,6 @@ use dalembert_codegen::{Effort, Function, Generated, Watch};
 
 use crate::support::{Case, daily_and_campaign};
 
-/// Writes down what it is told, and wants an end at so many steps of a part.
 struct Clerk {
     until: Option<(Part, usize)>,
     seen: Mutex<Vec<Progress>>,
@@ -26,7 +25,6 @@ impl Observer for Clerk {
     }
 }
 
-/// Generates a case under the eyes of a clerk; returns what he saw, too.
 fn watched(
     mut case: Case,
     effort: Effort,
@@ -62,8 +60,6 @@ fn watching_changes_nothing() {
     assert_eq!(format!("{other:?}"), format!("{plain:?}"));
 }
 
-/// What an early end leaves is proved like everything else (or `generate`
-/// fails), and no dearer than what the search began with.
 #[test]
 fn an_early_end_keeps_the_best_so_far() {
     for until in [Part::Formulations, Part::Search] {
@@ -84,9 +80,7 @@ daily_and_campaign! {
     a_tolerance_is_watched: (Some((Part::Omissions, 20))), (None);
 }
 
-/// With a tolerance, its search and its bounds are told too, to its end or up to a late one; an early
-/// end keeps a variant that is certified (or `generate` fails). The fewer operations are left, the
-/// more often they are edited again, each time simplified thoroughly: the whole takes a minute.
+/// The fewer operations are left, the more often they are edited again: the whole takes a minute.
 fn a_tolerance_is_watched(late: Option<(Part, usize)>) {
     let hold = "outputs = [\"gravity\"]; tolerance = { value = 0.3, relative_to = \"range\" }";
     let case = || Case::in_scene("planar2r", hold, "gravity; scalar: f64");
@@ -107,7 +101,6 @@ fn a_tolerance_is_watched(late: Option<(Part, usize)>) {
     let bounds = seen.iter().filter(|p| p.part == Part::Bounds).count();
     assert!(bounds >= 4, "of the exact program and of the variant");
     let (ended, seen) = watched(case(), Effort::Thorough, Some((Part::Omissions, 1)));
-    // What is left of its program is not edited again and again.
     assert!(rounds(&seen) < all.min(20));
     let admitted = ended.functions[0].admitted.as_ref().unwrap();
     let bounds = &admitted.certificates[0].bounds;
@@ -116,8 +109,6 @@ fn a_tolerance_is_watched(late: Option<(Part, usize)>) {
     assert!(late.is_some() || operations(&ended) >= operations(&generated));
 }
 
-/// Whenever the end is asked for, it is no worse than not to have begun: no
-/// function is dearer than by the quick search, which leaves something out.
 #[test]
 fn an_early_end_is_no_worse_than_the_quick_search() {
     let pick = "lock = { 1 = 0 }; box = { velocity = [1, 1, 1], acceleration = [1, 2, 2] }; \

@@ -1,12 +1,10 @@
 //! The hash of the sources that generated code follows from: part of a cache's keys, so
-//! that what another generator made is not taken for this one's. Read by the build script,
-//! and by the test of it.
+//! that what another generator made is not taken for this one's.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The folders that are hashed, and the versions of what they use.
 pub(crate) const SOURCES: [&str; 7] = [
     "../../Cargo.lock",
     "src",
@@ -18,9 +16,6 @@ pub(crate) const SOURCES: [&str; 7] = [
 ];
 
 /// Returns the SHA-256 of all files in these folders, with their names, as hexadecimal.
-///
-/// # Errors
-/// A file cannot be read.
 pub(crate) fn hash(root: &Path, sources: &[&str]) -> io::Result<String> {
     let mut files = Vec::new();
     for source in sources {

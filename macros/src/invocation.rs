@@ -7,18 +7,13 @@ use syn::ext::IdentExt;
 use syn::parse::{ParseStream, Parser};
 use syn::{Attribute, Error, LitStr, Path, Token, Visibility};
 
-/// The content of an invocation.
 pub(crate) struct Invocation {
-    /// Its documentation and other attributes, for each module.
     pub(crate) attributes: Vec<Attribute>,
     pub(crate) visibility: Visibility,
     pub(crate) name: Ident,
-    /// The path of a robot file, or the text of one.
     pub(crate) robot: LitStr,
     pub(crate) clauses: Vec<Clause>,
-    /// The options that the clauses ask for.
     pub(crate) asked: Asked,
-    /// The path of the facade crate.
     pub(crate) facade: Path,
 }
 
@@ -33,7 +28,6 @@ pub(crate) struct Clause {
 pub(crate) struct Errors(Vec<Error>);
 
 impl Errors {
-    /// Adds an error, with the likely fix if there is one.
     pub(crate) fn say(&mut self, at: impl ToTokens, text: &str, help: &str) {
         self.0.push(Error::new_spanned(at, with_help(text, help)));
     }
@@ -42,7 +36,6 @@ impl Errors {
         self.0.is_empty()
     }
 
-    /// Returns one `compile_error!` each.
     pub(crate) fn tokens(&self) -> TokenStream {
         self.0.iter().map(Error::to_compile_error).collect()
     }
@@ -101,7 +94,6 @@ impl Invocation {
         self.robot.value().contains('\n')
     }
 
-    /// Returns the name of the robot file in messages: its path, or the module's name.
     #[cfg(feature = "search")]
     pub(crate) fn shown(&self) -> String {
         match self.has_text() {
@@ -110,13 +102,12 @@ impl Invocation {
         }
     }
 
-    /// Returns the clause of an option.
     pub(crate) fn clause(&self, option: &str) -> Option<&Clause> {
         self.clauses.iter().find(|clause| clause.key == option)
     }
 
-    /// Returns the word that a message quotes first where the tokens of an item have it, the item
-    /// else.
+    /// Returns the word that a message quotes first if it is among the item's tokens, else the
+    /// item.
     #[cfg(feature = "search")]
     pub(crate) fn word(&self, option: &str, item: &str, message: &str) -> TokenStream {
         let place = self.place(option, item);
@@ -126,8 +117,6 @@ impl Invocation {
         found.last().map_or(place, |word| word.to_token_stream())
     }
 
-    /// Returns the tokens that an item of an option's value was asked for by: the option's, or
-    /// the module's name, where there are none.
     pub(crate) fn place(&self, option: &str, item: &str) -> TokenStream {
         let Some(clause) = self.clause(option) else {
             return self.name.to_token_stream();
@@ -219,7 +208,6 @@ impl Invocation {
         self.clauses.push(Clause { key, items });
     }
 
-    /// Reads the path of the facade crate, as an import inside the module can take it.
     fn read_facade(&mut self, key: &Ident, value: TokenStream, errors: &mut Errors) {
         let Ok(path) = Path::parse_mod_style.parse2(value.clone()) else {
             let help = "crate = ::my_library::dalembert;";
@@ -270,8 +258,7 @@ fn head(input: ParseStream<'_>, late: &mut Vec<Error>) -> syn::Result<Head> {
     Ok((attributes, visibility, name, robot))
 }
 
-/// Returns the number of trees of a clause: up to a semicolon, or to the next key where the
-/// semicolon was forgotten.
+/// Counts up to a semicolon, or to the next key where the semicolon was forgotten.
 fn length(trees: &[TokenTree]) -> usize {
     let is_colon = |tree: &TokenTree| match tree {
         TokenTree::Punct(punct) => punct.as_char() == ':' && punct.spacing() == Spacing::Alone,
@@ -295,12 +282,10 @@ fn length(trees: &[TokenTree]) -> usize {
     trees.len()
 }
 
-/// Returns `true` if a tree is either word.
 fn is_word(tree: &TokenTree, one: &str, other: &str) -> bool {
     matches!(tree, TokenTree::Ident(word) if word == one || word == other)
 }
 
-/// Returns `true` if a tree is this punctuation.
 fn is_punct(tree: &TokenTree, c: char) -> bool {
     matches!(tree, TokenTree::Punct(punct) if punct.as_char() == c)
 }
@@ -319,7 +304,6 @@ fn trees(tokens: TokenStream) -> Vec<TokenTree> {
     trees
 }
 
-/// Returns a name at the place of another.
 pub(crate) fn named(name: &str, span: Span) -> Ident {
     match name.strip_prefix("r#") {
         Some(raw) => Ident::new_raw(raw, span),

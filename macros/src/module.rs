@@ -12,8 +12,7 @@ use syn::Attribute;
 
 use crate::invocation::{Errors, Invocation, named};
 
-/// Returns the modules that an invocation asks for, or all of its errors. Paths of robot files are
-/// relative to the first of these folders that has the file.
+/// Paths of robot files are relative to the first of these folders that has the file.
 pub(crate) fn expand(input: TokenStream, folders: &[PathBuf]) -> TokenStream {
     let mut errors = Errors::default();
     let Some(invocation) = Invocation::read(input, &mut errors) else {
@@ -27,13 +26,10 @@ pub(crate) fn expand(input: TokenStream, folders: &[PathBuf]) -> TokenStream {
     quote!(#watch #errors #modules)
 }
 
-/// The name of the module of one scalar, and the options that its file must have.
 type Wanted = (Ident, Asked);
 
-/// A file beside a robot file, and why it is not taken.
 type Refused = (PathBuf, Stale);
 
-/// Returns items that make an edit of a file expand the macro again, and the modules.
 fn modules(
     invocation: &Invocation,
     folders: &[PathBuf],
@@ -72,7 +68,6 @@ fn modules(
     (watch, modules)
 }
 
-/// Returns the modules that are asked for: one a scalar, the second of a pair called `…_f32`.
 fn wanted(invocation: &Invocation) -> Vec<Wanted> {
     let name = &invocation.name;
     let files = invocation.asked.by_scalar().into_iter();
@@ -81,7 +76,6 @@ fn wanted(invocation: &Invocation) -> Vec<Wanted> {
         .collect()
 }
 
-/// Returns the robot file and its text, or why there is none and the likely fix.
 fn robot(
     invocation: &Invocation,
     folders: &[PathBuf],
@@ -126,7 +120,6 @@ fn meant(path: &Path) -> Option<String> {
     names.filter(alike).min()
 }
 
-/// Returns the path of a file in the folder of another, as messages show it.
 fn beside(shown: &str, file: &str) -> String {
     match shown.rsplit_once('/') {
         Some((folder, _)) => format!("{folder}/{file}"),
@@ -146,7 +139,6 @@ fn watched(path: &Path) -> TokenStream {
     }
 }
 
-/// Returns a module with the text of a generated file, and further items.
 fn module(
     invocation: &Invocation,
     name: &Ident,
@@ -190,8 +182,7 @@ fn module(
     }
 }
 
-/// Returns the text with its comments of documentation as the attributes that they stand for:
-/// an editor that reads tokens itself takes a third slash for a part of the comment.
+/// An editor that reads tokens itself takes a third slash for a part of the comment.
 fn with_attributes(text: &str) -> String {
     let mut attributes = String::with_capacity(text.len());
     for line in text.lines() {
@@ -206,7 +197,6 @@ fn with_attributes(text: &str) -> String {
     attributes
 }
 
-/// Generates the modules of an invocation whose files are not taken, or of a robot's text.
 #[cfg(feature = "search")]
 fn generated(
     invocation: &Invocation,
@@ -241,7 +231,6 @@ fn generated(
         .collect()
 }
 
-/// Says why the files of an invocation cannot be taken, and which command makes them.
 #[cfg(not(feature = "search"))]
 fn generated(
     invocation: &Invocation,
@@ -303,7 +292,6 @@ fn generated(
     TokenStream::new()
 }
 
-/// Returns the path of a file beside the robot file, as messages show it.
 fn shown_file(shown: &str, file: &Path) -> String {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     beside(shown, &name)

@@ -8,8 +8,6 @@ use quote::{format_ident, quote, quote_spanned};
 
 use crate::invocation::{Errors, Invocation};
 
-/// Returns the texts of the modules, one a scalar, none after an error; and what makes the compiler
-/// say in the first of them what is odd about the robot.
 pub(crate) fn texts(
     invocation: &Invocation,
     robot: Option<&Path>,

@@ -42,7 +42,6 @@ const PIECES: &str = "mod pub arm joint outputs scalar formulation gravity inert
     kind limits crate self 90deg 0 -1 0.5 1e400 0x1f 1f32 99999999999999999999 \"pi/2\" \
     \"robots/none.toml\" b\"x\" 'c' : :: ; , = / * - # @ 'a r#mod [] [gravity] {} (a) #[doc]";
 
-/// Returns the tokens with a few cut out, doubled, moved, replaced or wrapped.
 fn mutate(tokens: TokenStream, random: &mut Random, rate: usize) -> TokenStream {
     let pieces: Vec<&str> = PIECES.split_whitespace().collect();
     let piece = |random: &mut Random| {
@@ -76,7 +75,6 @@ fn mutate(tokens: TokenStream, random: &mut Random, rate: usize) -> TokenStream 
     out.into_iter().collect()
 }
 
-/// Asserts that something comes back, and that it is tokens that print and read again.
 fn check(tokens: TokenStream) -> bool {
     let said = tokens.to_string();
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR"));

@@ -13,12 +13,10 @@ include!(concat!(env!("OUT_DIR"), "/stanford_fma.rs"));
 include!(concat!(env!("OUT_DIR"), "/ur10_fma.rs"));
 include!(concat!(env!("OUT_DIR"), "/panda_fma.rs"));
 
-/// Returns a joint vector of the right length.
 fn joints<const N: usize>(x: &[f64]) -> [f64; N] {
     std::array::from_fn(|i| x[i])
 }
 
-/// Returns a function of three joint vectors, with how its result is written down.
 fn with<const N: usize, R>(
     function: fn(&[f64; N], &[f64; N], &[f64; N]) -> R,
     flat: fn(&R, &mut Vec<f64>),
@@ -70,7 +68,6 @@ macro_rules! robot {
     };
 }
 
-/// Returns the function of a robot, with `mul_add` or without; none if there is no such.
 pub fn ready(robot: &str, function: &str, fma: bool) -> Option<Ready> {
     match (robot, fma) {
         ("puma560", false) => robot!(puma560, function),

@@ -13,19 +13,16 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
-/// A function of three joint vectors.
 type Compute = Box<dyn FnMut(&[f64], &[f64], &[f64], &mut Vec<f64>)>;
 
 /// A timer of a function over states: nanoseconds a state, batch by batch.
 type Timed = Box<dyn FnMut(&[Vec<f64>]) -> f64>;
 
-/// A function ready to run, by whichever library.
 struct Ready {
     compute: Compute,
     batch: Timed,
 }
 
-/// Batches whose median is printed.
 const BATCHES: usize = 301;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -61,7 +58,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Numbers, a line a row.
 fn read(path: &Path) -> Result<Vec<Vec<f64>>, Box<dyn Error>> {
     let text = std::fs::read_to_string(path)?;
     text.lines()

@@ -9,7 +9,6 @@ use crate::program::{Program, has_inertia};
 use crate::split::ErrorByCause;
 use crate::words::complaint;
 
-/// Sub-boxes for the overflow of a certificate.
 const RANGE_BOXES: usize = 256;
 
 /// A variant that meets its tolerance.
@@ -40,8 +39,7 @@ impl Admitted {
     /// Returns whether every E is within its output's tolerance, and nothing overflows.
     ///
     /// # Errors
-    /// [`ToleranceError::Above`] with the first that is not;
-    /// [`ToleranceError::Overflow`].
+    /// [`ToleranceError::Above`] with the first that is not; [`ToleranceError::Overflow`].
     pub fn within(&self, tolerances: &[f64]) -> Result<(), ToleranceError> {
         self.certificates
             .iter()
@@ -49,11 +47,6 @@ impl Admitted {
     }
 }
 
-/// Returns whether every E of a certificate is within its output's tolerance, and nothing
-/// overflows.
-///
-/// # Errors
-/// As of [`Admitted::within`].
 pub(super) fn within(certificate: &Certificate, tolerances: &[f64]) -> Result<(), ToleranceError> {
     let Certificate {
         emitted,
@@ -65,7 +58,7 @@ pub(super) fn within(certificate: &Certificate, tolerances: &[f64]) -> Result<()
     } = certificate;
     let wider = scalar.of("", ", or choose a wider scalar");
     let mut pairs = bounds.iter().zip(tolerances);
-    // No number is within nothing.
+    // False for a bound that is not a number.
     let within = |bound: &ErrorByCause, tolerance: f64| bound.total() <= tolerance;
     if let Some(index) = pairs.position(|(bound, &tolerance)| !within(bound, tolerance)) {
         let (entry, bound, tolerance) = (emitted.entry(index), bounds[index], tolerances[index]);

@@ -46,9 +46,8 @@ pub struct ErrorBudget<'a> {
     /// If it is the range, states at which the outputs reach it.
     reached: Vec<JointState>,
     watch: FunctionWatch<'a>,
-    /// Of the programs asked for last.
+    /// Cache of the latest programs' sensitivities.
     sensitivities: RefCell<Vec<Rc<Sensitivity>>>,
-    /// Whether the exact D can be shown to be positive definite, in the scalars asked for.
     definite: RefCell<BTreeMap<ScalarType, Result<f64, Complaint>>>,
 }
 
@@ -98,8 +97,6 @@ impl<'a> ErrorBudget<'a> {
         scale::tolerances(self.exact, tolerance)
     }
 
-    /// Returns what bounds of a program's rounding need: found once for the scalars, the
-    /// sines and the tolerances of the same program.
     fn sensitivity(&self, program: &Program, bound_effort: BoundEffort) -> Rc<Sensitivity> {
         let mut known = self.sensitivities.borrow_mut();
         let found = known
@@ -114,9 +111,8 @@ impl<'a> ErrorBudget<'a> {
         found
     }
 
-    /// Returns whether the exact program's D, if it has one, can be shown to be positive
-    /// definite: where the full model's cannot, no variant's can, and a search would
-    /// be in vain.
+    /// Shows that the exact program's D, if it has one, is positive definite: if it cannot be
+    /// shown, no variant's can.
     ///
     /// # Errors
     /// [`ToleranceError::Indefinite`].
@@ -136,7 +132,6 @@ impl<'a> ErrorBudget<'a> {
         Ok(())
     }
 
-    /// Returns the claim of a variant, before anything of it is bounded.
     fn draft(&self, emitted: &Program) -> Certificate {
         Certificate {
             scene: self.setup.scene().map(SceneKey::new),
@@ -151,7 +146,6 @@ impl<'a> ErrorBudget<'a> {
         self.certified(self.exact, &[], scalars, &[], bound_effort)
     }
 
-    /// Returns the certificates of a variant, which is to be within tolerances.
     fn certified(
         &self,
         emitted: &Program,
@@ -160,7 +154,6 @@ impl<'a> ErrorBudget<'a> {
         tolerances: &[f64],
         bound_effort: BoundEffort,
     ) -> Admitted {
-        // What the scalars share, then each of them.
         let tell = |done| {
             let rounds = [done, 1 + scalars.len()];
             self.watch
@@ -184,7 +177,6 @@ impl<'a> ErrorBudget<'a> {
         }
     }
 
-    /// Returns what rounding leaves of each tolerance in every scalar, in the output's unit.
     fn left(
         &self,
         draft: &Certificate,
@@ -203,9 +195,8 @@ impl<'a> ErrorBudget<'a> {
         pairs.map(|(left, scale)| left * scale).collect()
     }
 
-    /// Returns a variant with bounds that are as coarse as shows that it is within the tolerances; if
-    /// nothing does, with the finest. So one that a plan kept has those that it had when it was
-    /// found.
+    /// Returns a variant with bounds as coarse as shows that it is within the tolerances; if
+    /// nothing does, with the finest.
     ///
     /// # Errors
     /// A program that is not of the function, or reads what it may not.
@@ -364,8 +355,6 @@ impl<'a> ErrorBudget<'a> {
         Ok(found)
     }
 
-    /// Returns what is left for edits, in each output's unit; `None` if that is
-    /// nothing.
     fn allowances(
         &self,
         tolerances: &[f64],

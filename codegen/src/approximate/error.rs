@@ -20,16 +20,13 @@ pub enum ToleranceError {
     Above(Complaint),
 }
 
-/// Why errors of a function with Coulomb friction have no bound.
 pub(crate) const FRICTION: &str = "it has Coulomb friction in it, which divides by a root, so its \
     errors have no certified bound: leave `coulomb` out of the robot file and add the friction to \
     the torques yourself, or leave the tolerance out of the scene";
 
-/// Why errors have no bound where joints of the robot follow others.
 pub(crate) const FOLLOWS: &str = "joints of the robot follow others (`mimic`), and what may be \
     left out of links that share a coordinate is not bounded: leave the tolerance out of the scene";
 
-/// Returns why errors of a function have no bound, whatever its program; `None` if they have one.
 pub(crate) fn unbounded(function: Function) -> Option<Complaint> {
     if function.columns() != Columns::None {
         let why = "its entries multiply parameters of any size";
@@ -43,7 +40,6 @@ pub(crate) fn unbounded(function: Function) -> Option<Complaint> {
     other.map(reads)
 }
 
-/// Returns why errors of a program have no bound; `None` if they have one.
 pub(super) fn unbounded_by(program: &Program) -> Option<Complaint> {
     if program.divides() {
         return Some(no_bound(DIVIDES));
@@ -53,7 +49,6 @@ pub(super) fn unbounded_by(program: &Program) -> Option<Complaint> {
     friction.or_else(|| unbounded(program.function))
 }
 
-/// Complains of an argument that no box bounds.
 pub(crate) fn reads(argument: Argument) -> Complaint {
     let why = format!(
         "a tolerance needs ranges, and a box has none for `{}`",

@@ -1,10 +1,9 @@
 //! Errors at sampled positions, at the worst rates.
 //!
-//! An output is a polynomial of degree two in the rates, whose coefficients
-//! depend on the position. At each sampled position a program is run at the
-//! few motions that give these coefficients, and an error is measured as the
-//! certificate measures it: rates at their worst. So only positions
-//! are sampled, which are few and smooth, and not the signs of 2n rates.
+//! An output is a polynomial of degree two in the rates, whose coefficients depend on the position.
+//! At each sampled position a program is run at the few motions that give these coefficients, and
+//! an error is measured as the certificate measures it: rates at their worst. So only positions are
+//! sampled, which are few and smooth, and not the signs of 2n rates.
 //!
 //! A program that multiplies a velocity by an acceleration has further
 //! monomials, which are missed here; the certificate decides.
@@ -17,13 +16,10 @@ use crate::program::Program;
 use crate::random::Random;
 use crate::states::JointState;
 
-/// Sampled positions and the motions at each.
 #[derive(Clone)]
 pub(super) struct Motions {
-    /// Joints that may have a velocity, and its largest magnitude.
     velocities: Vec<(usize, f64)>,
     accelerations: Vec<(usize, f64)>,
-    /// The pairs of velocities, by their places.
     pairs: Vec<(usize, usize)>,
 }
 
@@ -45,12 +41,10 @@ impl Motions {
         }
     }
 
-    /// Returns how many motions there are at a position.
     pub(super) fn len(&self) -> usize {
         1 + self.accelerations.len() + 2 * self.velocities.len() + self.pairs.len()
     }
 
-    /// Returns the motions at each position.
     pub(super) fn states(&self, positions: &[Vec<f64>]) -> Vec<JointState> {
         let mut states = Vec::with_capacity(positions.len() * self.len());
         for q in positions {
@@ -98,18 +92,16 @@ impl Motions {
         }
     }
 
-    /// Returns the largest magnitude at one position, from its monomials.
     pub(super) fn largest(&self, block: &[f64]) -> f64 {
         self.beyond(block, 0.0)
     }
 
-    /// Returns the largest magnitude at any of some positions, from their monomials.
     pub(super) fn largest_of(&self, blocks: &[f64]) -> f64 {
         let blocks = blocks.chunks_exact(self.len());
         blocks.fold(0.0, |most, block| f64::max(most, self.beyond(block, most)))
     }
 
-    /// Returns the same at one position, or anything smaller than a magnitude that it is not above.
+    /// As [`Motions::largest`], or any number up to `most` if the magnitude does not exceed it.
     fn beyond(&self, block: &[f64], most: f64) -> f64 {
         let (a, v) = (self.accelerations.len(), self.velocities.len());
         let (single, products) = block.split_at(1 + a + 2 * v);
@@ -141,7 +133,6 @@ impl Motions {
     }
 }
 
-/// Positions of the box: anywhere, now and then at a quarter turn or an end.
 pub(super) fn positions(limits: &InputBox, count: usize, random: &mut Random) -> Vec<Vec<f64>> {
     (0..count)
         .map(|_| crate::bound::sample::draw(limits, random).q)

@@ -1,11 +1,10 @@
 //! The exact program to prune: in the regrouping that leaves least.
 //!
-//! The smallest exact program shares so much that every value matters to many
-//! outputs, and its regrouping makes entries vanish that a tolerance would drop
-//! anyway. A descent over the regroupings, link by link as for the exact program,
-//! but by what is left after pruning, finds a better one. Prices are of
-//! samples; what comes out is an equal program like any other, and whoever
-//! uses it shows that again.
+//! The smallest exact program shares so much that every value matters to many outputs, and its
+//! regrouping makes entries vanish that a tolerance would drop anyway. A descent over the
+//! regroupings, link by link as for the exact program, but by what is left after pruning, finds a
+//! better one. Prices are of samples; what comes out is an equal program like any other, and
+//! whoever uses it shows that again.
 
 use dalembert_model::equations::chain::Regrouping;
 use dalembert_model::number::Exact;
@@ -19,16 +18,12 @@ use crate::seeds::start::Problem;
 use crate::setup::Setup;
 use crate::watch::Part;
 
-/// What a look at every regrouping and the closer one at a few take: samples, and
-/// how much of the allowances their errors may use. The fewer the samples, the
-/// more they miss.
+/// What a look at every regrouping and the closer one at a few take: samples, and how much of the
+/// allowances their errors may use. The fewer the samples, the more they miss.
 const LOOKS: [(usize, f64); 2] = [(16, 0.45), (40, 0.7)];
 
-/// Regroupings that are looked at closer, in each round.
 const CLOSER: usize = 12;
 
-/// Returns an exact program that pruning is about to leave less of than of the given
-/// one; `None` if none was found.
 pub(super) fn descend(setup: &Setup, target: Target<'_>) -> Option<Program> {
     let Target {
         exact,
@@ -83,7 +78,6 @@ pub(super) fn descend(setup: &Setup, target: Target<'_>) -> Option<Program> {
     best.map(|(_, program)| program)
 }
 
-/// Estimates by a look what pruning would leave of an exact program.
 fn price(target: Target<'_>, exact: &Program, (samples, share): (usize, f64)) -> u32 {
     if target.watch.is_over() {
         return u32::MAX;

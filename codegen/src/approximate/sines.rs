@@ -79,7 +79,6 @@ pub fn within(
     }
 }
 
-/// Returns the largest error that all sines may have alike; zero if none.
 fn uniform(
     program: &Program,
     scalar: ScalarType,
@@ -107,8 +106,6 @@ fn uniform(
     least.fold(0.1, f64::min).max(0.0)
 }
 
-/// Returns the angles of each range that need the same, by their places, and the
-/// kernels for them that are not too far off, from cheap to dear.
 fn groups(
     program: &Program,
     scalar: ScalarType,
@@ -137,7 +134,6 @@ fn groups(
     groups
 }
 
-/// How many times the common error the sines of one range may have.
 const MAX: f64 = 1e4;
 
 fn taken(old: &AngleKernel, choice: &Choice) -> AngleKernel {

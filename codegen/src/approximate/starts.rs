@@ -15,20 +15,17 @@ use crate::setup::Setup;
 /// Starts that are about to leave this much more than the best are not edited.
 const NEAR: f64 = 1.15;
 
-/// The number of best starts, and of best programs found, that are edited again.
 const AGAIN: usize = 2;
 
-/// The programs to start from, and the errors that edits may cost.
 pub(super) struct Starts<'a> {
     pub setup: &'a Setup,
     pub target: Target<'a>,
-    /// An equal program to edit in the exact one's place.
     pub equal: Option<&'a Program>,
 }
 
 impl Starts<'_> {
-    /// Returns what comes of the exact program, of these and of smaller models, the cheapest
-    /// first: never dearer than the first of these, if that is within the allowances.
+    /// The cheapest comes first; it is never dearer than the first program of `from`, if that is
+    /// within the allowances.
     pub(super) fn pruned(
         &self,
         from: &[Program],
@@ -57,7 +54,6 @@ impl Starts<'_> {
         found
     }
 
-    /// Returns what is left of each start, of the best ones with other samples as well.
     fn started(&self, starts: &[Option<&Program>]) -> Vec<Pruned> {
         let mut found = Vec::new();
         let edited = self.edited(starts.iter().copied(), 0);
@@ -82,7 +78,6 @@ impl Starts<'_> {
         found
     }
 
-    /// Selects the starts to edit, the shortest first.
     fn promising<'p>(
         &self,
         mut starts: Vec<Option<&'p Program>>,
@@ -115,12 +110,10 @@ impl Starts<'_> {
         cost(self.program(start))
     }
 
-    /// Estimates what pruning would leave of a start.
     fn price(&self, start: Option<&Program>) -> usize {
         prune::appraise(self.target, self.program(start)) as usize
     }
 
-    /// Returns what is left of each start, with the samples of a round.
     fn edited<'p>(
         &self,
         starts: impl Iterator<Item = Option<&'p Program>>,
@@ -140,13 +133,11 @@ impl Starts<'_> {
     }
 }
 
-/// Returns the cost of the cheapest program, the first; of none, more than any has.
 fn least(found: &[Pruned]) -> usize {
     let first = found.first();
     first.map_or(usize::MAX, |found| cost(&found.program))
 }
 
-/// Adds what is new, the cheapest first.
 fn add(found: &mut Vec<Pruned>, others: impl IntoIterator<Item = Pruned>) {
     for other in others {
         if !other.stages.is_empty() && found.iter().all(|known| known.program != other.program) {

@@ -8,8 +8,6 @@
 /// The most factors, the constant one among them: each doubles the work.
 const MOST: usize = 10;
 
-/// The coefficients of products, by their two factors.
-///
 /// Factor 0 is the constant 1, the others are velocities between −1 and 1.
 #[derive(Clone, Debug)]
 pub(crate) struct Corners {
@@ -18,7 +16,6 @@ pub(crate) struct Corners {
 }
 
 impl Corners {
-    /// Returns no products of so many velocities; `None` if they have too many corners.
     pub(crate) fn new(velocities: usize) -> Option<Corners> {
         let factors = 1 + velocities;
         (factors <= MOST).then_some(Corners {
@@ -27,13 +24,11 @@ impl Corners {
         })
     }
 
-    /// Returns the place for the coefficient of two factors, the first of which is smaller.
+    /// The first factor is the smaller one.
     pub(crate) fn of(&mut self, first: usize, second: usize) -> &mut f64 {
         &mut self.products[first][second]
     }
 
-    /// Computes the smallest and the largest sum.
-    ///
     /// No term goes through more additions than there are terms.
     pub(crate) fn extremes(&self) -> (f64, f64) {
         // Without linear terms opposite corners are alike.
@@ -64,8 +59,6 @@ mod tests {
     use super::*;
     use crate::random::Random;
 
-    /// The extremes are those of all corners, with and without linear terms, and within what
-    /// each term by itself can be.
     #[test]
     fn extremes_are_those_of_all_corners() {
         let mut random = Random::new(3);
@@ -95,7 +88,6 @@ mod tests {
                 let (low, high) = corners.extremes();
                 assert!((low - least).abs() < 1e-12 && (high - most).abs() < 1e-12);
                 let alone: f64 = terms.iter().map(|(_, _, x)| x.abs()).sum();
-                // Of three signs all products can be at their worst, of many never.
                 let most = if velocities < 6 { 1.0 + 1e-12 } else { 0.99 };
                 assert!(high.max(-low) <= most * alone);
             }

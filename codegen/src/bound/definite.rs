@@ -1,9 +1,8 @@
 //! Whether D stays positive definite: forward dynamics divides by it.
 //!
-//! D is scaled first: with S = diag(1/√D_ii), D_ii at the middle of the box
-//! and rounded to a power of four, S D S has no units, and its least
-//! eigenvalue tells how far D is from singular whatever the masses and
-//! lengths are. S D S > 0 means D > 0.
+//! D is scaled first: with S = diag(1/√D_ii), D_ii at the middle of the box and rounded to a power
+//! of four, S D S has no units, and its least eigenvalue tells how far D is from singular whatever
+//! the masses and lengths are. S D S > 0 means D > 0.
 //!
 //! The entries of the *emitted* code are meant: their exact values written
 //! out as trigonometric polynomials, and what rounding may add to each.
@@ -22,17 +21,14 @@ use crate::sincos::AngleKernel;
 use crate::states::JointState;
 use crate::words::{Complaint, complaint};
 
-/// Points of the bound at most.
 const POINTS: usize = 1 << 24;
 
-/// Positions at which D may show that it is not positive definite.
 const SAMPLES: usize = 64;
 
 /// A pivot is negative for certain if it is so by this part of what it was
 /// subtracted from, far beyond what doubles lose.
 const CERTAIN: f64 = 1e-6;
 
-/// Complains that no lower bound above zero was found within the work allowed.
 fn unproved() -> Complaint {
     complaint(
         "D could not be shown to be positive definite over the box: \
@@ -54,8 +50,6 @@ pub fn least_eigenvalue(
     shown(program, scalar, sines, limits, Wanted::Most)
 }
 
-/// Returns whether D can be shown to be positive definite, by whatever little: what a search
-/// asks of one variant after the other.
 pub(crate) fn is_definite(
     program: &Program,
     scalar: ScalarType,
@@ -121,8 +115,6 @@ fn shown(
     grid::least_eigenvalue(&entries, &errors, limits, &sliding, POINTS, wanted).ok_or_else(unproved)
 }
 
-/// Returns the row from which on D is not positive definite at one of some positions, the
-/// middle of the box first, as far as doubles tell for certain.
 fn negative(
     program: &Program,
     limits: &InputBox,
@@ -143,11 +135,10 @@ fn negative(
     })
 }
 
-/// Returns the row of the first negative pivot, eliminated from the last row on: D of the
-/// joints from that one on is not positive definite.
+/// Eliminates from the last row on: D of the joints from the returned one on is not positive
+/// definite.
 fn negative_pivot(mut d: Vec<Vec<f64>>) -> Option<usize> {
     let n = d.len();
-    // What each diagonal entry was made of.
     let mut sizes: Vec<f64> = (0..n).map(|i| d[i][i].abs()).collect();
     for last in (0..n).rev() {
         let pivot = d[last][last];
@@ -174,7 +165,6 @@ fn middle(limits: &InputBox) -> Vec<f64> {
     limits.position.iter().map(|q| q.mid()).collect()
 }
 
-/// Returns where D starts among the outputs.
 fn start(program: &Program) -> Option<usize> {
     let quantities = program.function.quantities();
     let place = quantities.iter().position(|own| own.facts().definite)?;
@@ -182,7 +172,6 @@ fn start(program: &Program) -> Option<usize> {
     Some(before.map(|own| own.len(program.sizes())).sum())
 }
 
-/// Returns the diagonal of S: powers of two.
 fn scales(
     program: &Program,
     limits: &InputBox,

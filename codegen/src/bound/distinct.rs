@@ -3,12 +3,9 @@
 
 use std::collections::BTreeMap;
 
-/// Which outputs are bounded, and which of those each output is.
 #[derive(Clone, Debug)]
 pub(super) struct Distinct {
-    /// The first of each value.
     firsts: Vec<usize>,
-    /// Each output's place in that list.
     places: Vec<usize>,
 }
 
@@ -28,7 +25,6 @@ impl Distinct {
         Distinct { firsts, places }
     }
 
-    /// Returns the first of each value, of a list over all outputs.
     pub(super) fn pick<T: Clone>(&self, all: &[T]) -> Vec<T> {
         debug_assert_eq!(all.len(), self.places.len());
         let firsts = self.firsts.iter();
@@ -37,7 +33,6 @@ impl Distinct {
             .collect()
     }
 
-    /// Returns what was found of each value, for every output.
     pub(super) fn scatter<T: Clone>(&self, found: &[T]) -> Vec<T> {
         debug_assert_eq!(found.len(), self.firsts.len());
         let places = self.places.iter();

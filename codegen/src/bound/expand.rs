@@ -1,19 +1,16 @@
 //! A graph written out as a trigonometric polynomial.
 //!
-//! Over a sub-box, intervals forget that two values depend on the same angle.
-//! Written out, the terms of a difference that cancel are gone, and each
-//! coefficient stands once:
+//! Over a sub-box, intervals forget that two values depend on the same angle. Written out, the
+//! terms of a difference that cancel are gone, and each coefficient stands once:
 //!
 //! Σ coefficient · (product of at most two rates) · Π_j sin^a(q_j) cos^b(q_j)
 //!
-//! with a ∈ {0, 1}, since sin² = 1 − cos². A sliding joint is written as
-//! q = middle + radius·cos θ, which takes every position of its range; θ stands
-//! where an angle would, so a graph that reads a joint's position and its sine
-//! or cosine as well is not written out.
+//! with a ∈ {0, 1}, since sin² = 1 − cos². A sliding joint is written as q = middle + radius·cos θ,
+//! which takes every position of its range; θ stands where an angle would, so a graph that reads a
+//! joint's position and its sine or cosine as well is not written out.
 //!
-//! **Soundness.** Only identities are used, and coefficients are intervals
-//! rounded outward: there are coefficients inside them with which the
-//! polynomial is the output, exactly.
+//! **Soundness.** Only identities are used, and coefficients are intervals rounded outward: there
+//! are coefficients inside them with which the polynomial is the output, exactly.
 
 use crate::bound::input_box::InputBox;
 use crate::bound::work;
@@ -26,23 +23,16 @@ use crate::program::{Input, Operation};
 /// five bits a joint: the power of the cosine, and the sine's on top.
 pub(super) type Key = u128;
 
-/// The most joints that fit a key.
 const MAX_JOINTS: usize = 22;
 
-/// A polynomial, sorted by key.
 pub(super) type Polynomial = Vec<(Key, Interval)>;
 
-/// Products of more terms than this are not written out.
 const MAX_PRODUCTS: usize = 4_000_000;
 
-/// Nor graphs whose products have more together: some seconds.
 const MAX_WORK: usize = 100_000_000;
 
-/// Products of terms that take about a unit of work.
 const TERMS: usize = 16;
 
-/// Returns the outputs written out; `None` if they are too large, or of higher degree
-/// than fits.
 pub(super) fn expand(graph: &Dag, limits: &InputBox) -> Option<Vec<Polynomial>> {
     let mut found: Vec<Polynomial> = vec![Vec::new(); graph.nodes.len()];
     visit(graph, limits, &mut |node, polynomial| {
@@ -58,8 +48,7 @@ pub(super) fn expand(graph: &Dag, limits: &InputBox) -> Option<Vec<Polynomial>> 
     Some(outputs.collect())
 }
 
-/// Shows each output's node, once and without a sign, written out; none is
-/// kept longer than others are made of it. `None` as [`expand`].
+/// Each node comes once and without a sign, and is not kept longer than others are made of it.
 pub(super) fn visit(
     graph: &Dag,
     limits: &InputBox,
@@ -101,13 +90,11 @@ pub(super) fn visit(
                 }
                 product(a, b)?
             }
-            // No polynomial.
             Node::Apply(Operation::Div, _) => return None,
         };
         if is_output[index] {
             show(index, &value);
         }
-        // What nobody reads any more need not be kept.
         values.push(if last_use[index] > index {
             value
         } else {
@@ -124,8 +111,7 @@ pub(super) fn visit(
     Some(())
 }
 
-/// Returns whether a joint's position is read and its sine or cosine too: both would
-/// have the same place in a key.
+/// A joint's position would have the same place in a key as its sine or cosine.
 fn mixes(graph: &Dag) -> bool {
     let (mut slides, mut turns) = (0u64, 0u64);
     for (_, node) in graph.live() {
@@ -138,18 +124,15 @@ fn mixes(graph: &Dag) -> bool {
     slides & turns != 0
 }
 
-/// Returns where a joint's bits are in a key.
 pub(super) const fn shift(joint: usize) -> usize {
     16 + 5 * joint
 }
 
-/// Returns the power of the cosine and of the sine of a joint.
 pub(super) fn powers(key: Key, joint: usize) -> (u32, u32) {
     let bits = (key >> shift(joint)) as u32 & 31;
     (bits & 15, bits >> 4)
 }
 
-/// Returns the rates of a key.
 pub(super) fn rates(key: Key) -> [u8; 2] {
     [(key >> 8) as u8, key as u8]
 }
@@ -207,7 +190,6 @@ fn product(a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
     Some(added_up(terms))
 }
 
-/// Adds equal keys' coefficients up, in the order that they come in.
 pub(super) fn added_up(mut terms: Polynomial) -> Polynomial {
     // Stable: the sums are rounded in that order, and runs that are sorted are merged.
     terms.sort_by_key(|&(key, _)| key);
@@ -222,7 +204,6 @@ pub(super) fn added_up(mut terms: Polynomial) -> Polynomial {
     terms
 }
 
-/// Returns the product of two monomials: each squared sine splits it in two.
 fn multiply(x: Key, y: Key, coefficient: Interval, out: &mut Polynomial) -> Option<()> {
     let [a, b] = rates(x);
     let [c, d] = rates(y);
@@ -268,7 +249,6 @@ mod tests {
     use super::*;
     use crate::dag::{Builder, Folding};
 
-    /// sin q₁ − q₁ is no polynomial in the sine and cosine of one angle.
     #[test]
     fn an_angle_that_is_read_as_a_number_is_not_written_out() {
         let limits = InputBox::symmetric(&[3.2; 2], &[0.0; 2], &[0.0; 2]);

@@ -23,8 +23,6 @@ pub struct InputBox {
     pub acceleration: Vec<Interval>,
 }
 
-/// Complains of limits that a bound needs, by their keys of the robot file, each with the
-/// zero-based joints that lack it.
 pub(super) fn missing(limits: impl IntoIterator<Item = (&'static str, Vec<usize>)>) -> Complaint {
     let of = |(limit, joints): (&str, Vec<usize>)| {
         let numbers: Vec<String> = joints.iter().map(|joint| (joint + 1).to_string()).collect();
@@ -113,8 +111,7 @@ impl InputBox {
         self.position.len()
     }
 
-    /// Returns the values that a rate of a polynomial takes: 0 is none, then velocities, then
-    /// accelerations.
+    /// Rate 0 is none, then come velocities, then accelerations.
     pub(super) fn rate(&self, rate: u8) -> Interval {
         let (n, index) = (self.joints(), usize::from(rate));
         match index {
@@ -136,8 +133,6 @@ impl InputBox {
         ranges.map(range).collect()
     }
 
-    /// Returns equal sub-boxes, at most `boxes`: the angles that a program reads are halved joint
-    /// after joint.
     pub(super) fn sub_boxes(&self, program: &Program, boxes: usize) -> Vec<InputBox> {
         let joints: Vec<usize> = program.trig().iter().map(|trig| trig.joint).collect();
         let mut joints = joints.iter().cycle();
@@ -172,9 +167,8 @@ impl InputBox {
     }
 }
 
-/// Returns true if a joint may stand anywhere, however many turns: it has no limits.
-/// Everything reads its sine and cosine, so that what holds over one turn
-/// holds wherever those two are good.
+/// Returns true if a joint may stand anywhere, however many turns: it has no limits. Everything
+/// reads its sine and cosine, so that what holds over one turn holds wherever those two are good.
 pub(crate) fn turns_freely(robot: &Robot, joint: usize) -> bool {
     robot
         .joints
@@ -182,7 +176,6 @@ pub(crate) fn turns_freely(robot: &Robot, joint: usize) -> bool {
         .is_some_and(|joint| joint.kind == JointKind::Revolute && joint.limits.position.is_none())
 }
 
-/// Returns a position that need not be a double.
 fn around(at: &Position) -> Interval {
     let near = at.to_f64();
     Interval::new(near.next_down(), near.next_up()).unwrap_or(Interval::point(near))
@@ -198,7 +191,6 @@ fn position(joint: &Joint) -> Option<Interval> {
 
 #[cfg(test)]
 impl InputBox {
-    /// Returns the box of every coordinate between a number and its negative.
     pub(crate) fn symmetric(position: &[f64], velocity: &[f64], acceleration: &[f64]) -> InputBox {
         let of = |ends: &[f64]| ends.iter().map(|&end| Interval::symmetric(end)).collect();
         InputBox {
@@ -215,8 +207,6 @@ mod tests {
     use crate::bound::scale;
     use dalembert_model::read::parse;
 
-    /// A limit of zero is not a missing one: at rest for a box, nothing to be
-    /// relative to for T.
     #[test]
     fn limits_that_are_missing_and_limits_of_zero() {
         let of = |limits: &str| {

@@ -3,9 +3,8 @@
 //!
 //! - [`input_box`]: the states for which a bound holds; [`scale`]: what errors
 //!   are relative to; [`sample`]: states of a box
-//! - [`magnitude`]: the largest magnitude of a program over a box: written out as
-//!   a trigonometric polynomial (`expand`) at a grid (`grid`), or by branch
-//!   and bound over polynomials in the rates
+//! - [`magnitude`]: the largest magnitude of a program over a box: written out as a trigonometric
+//!   polynomial (`expand`) at a grid (`grid`), or by branch and bound over polynomials in the rates
 //! - [`definite`]: whether D stays positive definite
 //! - [`sensitivity`]: what rounding costs, over sub-boxes and written out; what may overflow.
 //!   `distinct`: equal outputs once

@@ -30,7 +30,6 @@ pub fn draw(limits: &InputBox, random: &mut Random) -> JointState {
     })
 }
 
-/// Returns a multiple of a quarter turn, where sines and cosines are extreme.
 fn quarter(x: Interval, random: &mut Random) -> f64 {
     let turns = random.below(5) as f64 - 2.0;
     (turns * std::f64::consts::FRAC_PI_2).clamp(x.low(), x.high())
@@ -64,7 +63,6 @@ pub fn climb(
             _ => *x + reach * range.width() * (random.unit() - 0.5),
         }
         .clamp(range.low(), range.high());
-        // Where a range is a point nothing moves.
         if next != best {
             let value = error(&next);
             if value > most {

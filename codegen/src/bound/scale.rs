@@ -67,8 +67,7 @@ pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, Complaint>
     Ok(scales)
 }
 
-/// Returns the tolerance of each output: that of its joint, for an entry of D the
-/// smaller of its two joints'.
+/// An entry of D has the smaller one of its two joints'.
 pub(crate) fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
     let (rows, sizes) = (&program.rows, program.sizes());
     // Down: nothing is allowed that the decimal does not allow.

@@ -1,10 +1,9 @@
 //! Work counted, for who cannot wait.
 //!
-//! A unit is about what a grid takes for a point, 64 products and sums: some
-//! tenths of a microsecond. Units are counted where the time goes, in grids,
-//! polynomials written out and errors at samples, and never timed, so that a
-//! limit ends a search at the same place on every machine. A thread counts its
-//! own.
+//! A unit is about what a grid takes for a point, 64 products and sums: some tenths of a
+//! microsecond. Units are counted where the time goes, in grids, polynomials written out and errors
+//! at samples, and never timed, so that a limit ends a search at the same place on every machine. A
+//! thread counts its own.
 
 use std::cell::Cell;
 
@@ -12,12 +11,10 @@ thread_local! {
     static DONE: Cell<u64> = const { Cell::new(0) };
 }
 
-/// Counts units.
 pub(crate) fn count(units: usize) {
     DONE.set(DONE.get().wrapping_add(units as u64));
 }
 
-/// Work that may be done from now on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Meter {
     from: u64,
@@ -25,7 +22,6 @@ pub(crate) struct Meter {
 }
 
 impl Meter {
-    /// Makes a limit of so many units; without a limit if `None`.
     pub(crate) fn new(limit: Option<u64>) -> Meter {
         Meter {
             from: DONE.get(),
@@ -33,12 +29,10 @@ impl Meter {
         }
     }
 
-    /// Returns the units since its beginning.
     pub(crate) fn done(self) -> u64 {
         DONE.get().wrapping_sub(self.from)
     }
 
-    /// Returns whether more was done than may be.
     pub(crate) fn is_over(self) -> bool {
         self.done() > self.limit
     }

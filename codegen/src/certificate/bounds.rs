@@ -16,11 +16,6 @@ use crate::words::Complaint;
 const NEAR: f64 = 1.07;
 
 impl Certificate {
-    /// Checks that the programs of a variant are of the function in this scene, and take bounded
-    /// work.
-    ///
-    /// # Errors
-    /// Why the variant is none.
     pub(crate) fn check(&self, setup: &Setup) -> Result<(), Complaint> {
         let programs = [
             ("the exact program", &self.exact),
@@ -33,10 +28,8 @@ impl Certificate {
         Ok(())
     }
 
-    /// Returns the largest errors of the edits, one an output, relative to the scales: the part
-    /// of the bounds that every scalar shares, and the longest to find. If there are limits, in
-    /// the outputs' units, an output that is a little above its own is shown to be at most that,
-    /// if it can be: bounds by themselves exceed what is reached by some hundredths.
+    /// `limits` are in the outputs' units, the result is relative to the scales. An output a little
+    /// above its limit is shown to be at most that, where it can be.
     pub(crate) fn model(&self, limits: &[f64], bound_effort: BoundEffort) -> Vec<f64> {
         if is_same(&self.exact, &self.emitted) {
             return vec![0.0; self.scales.len()];
@@ -63,7 +56,6 @@ impl Certificate {
         pairs.map(|(&x, &scale)| relative(x, scale)).collect()
     }
 
-    /// Returns the cost of sines and of rounding, relative to the scales.
     pub(crate) fn rounding(
         &self,
         scalar: ScalarType,
@@ -80,10 +72,8 @@ impl Certificate {
             .collect()
     }
 
-    /// Returns a lower bound of the least eigenvalue of S D S, if D is an output and
-    /// not the model's; `None` as well if there is none above zero.
+    /// The matrix is S D S; `None` if D is no output, is the model's, or has no bound above zero.
     pub(super) fn least_eigenvalue(&self, scalar: ScalarType) -> Option<f64> {
-        // The cheap questions first.
         let is_changed = || !self.sines.is_empty() || !is_same(&self.exact, &self.emitted);
         if !has_inertia(&self.emitted) || !is_changed() {
             return None;
@@ -92,7 +82,6 @@ impl Certificate {
     }
 }
 
-/// Returns true if two programs are the same function: what differs is rounding.
 pub(crate) fn is_same(exact: &Program, emitted: &Program) -> bool {
     exact == emitted || prove_same(exact, emitted).is_ok()
 }

@@ -39,7 +39,7 @@ pub struct Certificate {
     pub limits: InputBox,
     /// T of each output, in its unit.
     pub scales: Vec<f64>,
-    /// What the scales are, if they are one of these: then that is checked.
+    /// The named scale that errors are relative to, if any. It is checked.
     pub relative_to: Option<Scale>,
     /// If they are ranges, states at which the outputs reach them.
     pub reached: Vec<JointState>,
@@ -51,22 +51,18 @@ pub struct Certificate {
     pub text: String,
     /// Who computes its sines, unless polynomials do.
     pub library: Library,
-    /// The polynomials for its sines, with what is claimed of each; none if
-    /// they are the library's.
+    /// The polynomials for its sines; none if they are the library's.
     pub sines: Sines,
     /// E of each output.
     pub bounds: Vec<ErrorByCause>,
-    /// A lower bound of the least eigenvalue of S D S over the box, if D is
-    /// an output and something was left out; S is diagonal
-    /// (`bound::definite`). Above zero, D is positive definite.
+    /// A lower bound of the least eigenvalue of S D S over the box, if D is an output and something
+    /// was left out; S is diagonal (`bound::definite`). Above zero, D is positive definite.
     pub lambda_min: Option<f64>,
 }
 
 impl Certificate {
-    /// Returns the positions of a joint of this robot for which it holds; `None` for all.
-    ///
-    /// Where a joint [turns freely](turns_freely), one turn is certified and its
-    /// sine reaches further: so does the certificate.
+    /// Returns the positions of a joint of this robot for which it holds; `None` for all. If a
+    /// joint [turns freely](turns_freely), one turn is certified and its sine reaches further.
     pub fn positions(&self, robot: &Robot, joint: usize) -> Option<Interval> {
         if !turns_freely(robot, joint) {
             return self.limits.position.get(joint).copied();
@@ -77,8 +73,6 @@ impl Certificate {
             .map(|sine| sine.range)
     }
 
-    /// Returns the claim of an emitted program over a box relative to scales, before anything
-    /// of it is bounded or printed: of a whole robot, with a library's sines.
     pub(crate) fn draft(
         exact: &Program,
         emitted: &Program,
@@ -102,8 +96,6 @@ impl Certificate {
         }
     }
 
-    /// Returns the claim in a scalar, with the edits' errors relative to the scales and the
-    /// sensitivity at hand.
     pub(crate) fn bounded(
         self,
         scalar: ScalarType,
@@ -123,9 +115,7 @@ impl Certificate {
         .printed()
     }
 
-    /// Bounds the emitted program's error and writes the claim down.
-    ///
-    /// The exact program may be the one that is emitted.
+    /// Bounds the emitted program's error and writes the claim down. `exact` may be `emitted`.
     pub fn make(
         exact: &Program,
         emitted: &Program,
@@ -140,8 +130,7 @@ impl Certificate {
         draft.bounded(scalar, &model, &sensitivity)
     }
 
-    /// Returns the claim's part about sines and rounding: of the emitted program by
-    /// itself, as if that were the full model.
+    /// Returns the claim about sines and rounding, as if the emitted program were the full model.
     #[must_use]
     pub fn of_rounding(&self) -> Certificate {
         let bounds = self.bounds.iter().map(|bound| ErrorByCause {

@@ -11,7 +11,6 @@ use crate::program::{Input, Program};
 use crate::setup::Setup;
 use crate::words::{Complaint, complaint};
 
-/// Checks that a program is of the function in the scene, and reads what that has.
 pub(super) fn check(
     name: &str,
     program: &Program,
@@ -44,7 +43,6 @@ pub(super) fn check(
     })
 }
 
-/// Returns why a program may not read an input.
 fn wrong(setup: &Setup, emitted: &Program, input: Input) -> Option<&'static str> {
     let of = |joint: usize, kind: Option<JointKind>| match setup.robot().joints.get(joint) {
         None => Some("the robot has no such joint"),

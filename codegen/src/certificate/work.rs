@@ -1,30 +1,22 @@
 //! Bounds on the work that a variant of a plan makes, found before any of it is done.
 //!
-//! Constants are exact, and folding multiplies them out: eighteen squarings of
-//! 3/10 in a row have a quarter of a million digits. How large a constant can
-//! become follows from how large its operands can, so a program that would
-//! take long is refused before anything of it is computed.
+//! Constants are exact, and folding multiplies them out: eighteen squarings of 3/10 in a row have a
+//! quarter of a million digits. How large a constant can become follows from how large its operands
+//! can, so a program that would take long is refused before anything of it is computed.
 
 use dalembert_model::number::{Exact, Extent};
 
 use crate::program::{Operand, Operation, Program, Steps};
 use crate::words::{Complaint, complaint};
 
-/// The most steps of a program.
 const MAX_STEPS: u64 = 50_000;
-/// The most angles whose sine or cosine a program reads.
 const MAX_ANGLES: u64 = 256;
-/// The most bits of a constant's coefficient.
 const MAX_BITS: u64 = 1 << 16;
-/// The most monomials of a constant.
 const MAX_TERMS: u64 = 20_000;
-/// The largest degree of a constant in sines and cosines.
 const MAX_DEGREE: u64 = 256;
-/// What all constants of a program may cost together: terms times degrees
-/// times bits.
+/// Terms times degrees times bits, over all constants of a program.
 const MAX_COST: u64 = 1 << 30;
 
-/// Checks that a program can be bounded with bounded work.
 pub(super) fn check(place: &str, program: &Program) -> Result<(), Complaint> {
     let steps = program.dag.steps();
     limit(place, "steps", steps.steps.len() as u64, MAX_STEPS)?;

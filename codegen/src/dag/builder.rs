@@ -20,13 +20,11 @@ pub enum Folding {
     Semantic,
 }
 
-/// A graph under construction.
 pub(crate) struct Builder {
     dag: Dag,
     prints: Vec<Fingerprint>,
     folding: Folding,
     known: FxHashMap<Node, Id>,
-    /// The edge that has a canonical print.
     by_print: FxHashMap<Fingerprint, Edge>,
     /// Values where every angle, position and rate is zero, as far as they were asked for.
     at_rest: FxHashMap<Id, Option<Exact>>,
@@ -34,7 +32,6 @@ pub(crate) struct Builder {
 }
 
 impl Builder {
-    /// Creates an empty graph.
     pub(crate) fn new(folding: Folding) -> Builder {
         Builder {
             dag: Dag::default(),
@@ -47,36 +44,30 @@ impl Builder {
         }
     }
 
-    /// Returns the operations asked for so far: the formula as executed, before any folding but
-    /// that of constants.
+    /// The formula as executed, before any folding but that of constants.
     pub(crate) fn asked(&self) -> Counts {
         self.asked
     }
 
-    /// Returns the graph of these outputs.
     pub(crate) fn finish(mut self, outputs: Vec<Edge>) -> Dag {
         self.dag.outputs = outputs;
         self.dag
     }
 
-    /// Returns the fingerprint of an edge.
     pub(crate) fn print(&self, edge: Edge) -> Fingerprint {
         signed(&self.prints[edge.index()], edge.negative)
     }
 
-    /// Returns a constant; its sign is the edge's.
     pub(crate) fn constant(&mut self, constant: &Exact) -> Edge {
         let negative = constant.leads_negative();
         let size = signed(constant, negative);
         self.leaf(Node::Constant(size)).negated_if(negative)
     }
 
-    /// Returns zero.
     pub(crate) fn zero(&mut self) -> Edge {
         self.constant(&Exact::zero())
     }
 
-    /// Returns an input.
     pub(crate) fn input(&mut self, input: Input) -> Edge {
         self.leaf(Node::Input(input))
     }
@@ -91,7 +82,7 @@ impl Builder {
         }
     }
 
-    /// Applies an operation. A divisor vanishes in no state in which the program has values.
+    /// A divisor vanishes in no state in which the program has values.
     pub(crate) fn apply(&mut self, operation: Operation, a: Edge, b: Edge) -> Edge {
         match operation {
             Operation::Add => self.add(a, b),
@@ -101,12 +92,10 @@ impl Builder {
         }
     }
 
-    /// Returns the constant that an edge leads to.
     pub(crate) fn exact(&self, edge: Edge) -> Option<Exact> {
         Some(signed(self.size(edge)?, edge.negative))
     }
 
-    /// Returns the constant that an edge leads to, up to sign.
     fn size(&self, edge: Edge) -> Option<&Exact> {
         match self.dag.node(edge.node) {
             Node::Constant(constant) => Some(constant),
@@ -114,7 +103,6 @@ impl Builder {
         }
     }
 
-    /// Returns a + b
     pub(crate) fn add(&mut self, a: Edge, b: Edge) -> Edge {
         let constants = [a, b].map(|edge| self.size(edge));
         if let [Some(x), Some(y)] = constants {
@@ -144,12 +132,10 @@ impl Builder {
             .negated_if(a.negative)
     }
 
-    /// Returns a − b
     pub(crate) fn sub(&mut self, a: Edge, b: Edge) -> Edge {
         self.add(a, b.negated_if(true))
     }
 
-    /// Returns a · b
     pub(crate) fn mul(&mut self, a: Edge, b: Edge) -> Edge {
         let negative = a.negative != b.negative;
         let product = match [a, b].map(|edge| self.size(edge)) {
@@ -173,7 +159,6 @@ impl Builder {
         product.negated_if(negative)
     }
 
-    /// Returns a constant times what is none.
     fn scale(&mut self, x: Exact, node: Id) -> Edge {
         if x.is_zero() {
             return self.constant(&x);
@@ -205,7 +190,6 @@ impl Builder {
         }
     }
 
-    /// Returns a / b
     pub(crate) fn div(&mut self, a: Edge, b: Edge) -> Edge {
         let divisor = self.exact(b);
         let inverse = divisor.and_then(|y| Exact::one().divide(y.as_rational()?));
@@ -249,8 +233,8 @@ impl Builder {
         self.intern(node, print)
     }
 
-    /// Evaluates an operation where every angle, position and rate is zero: what does not depend on
-    /// the state has that value. None where a divisor is no rational number there, or zero.
+    /// An operation that does not depend on the state has its value where every angle, position and
+    /// rate is zero. `None` if a divisor is zero there, or not a rational number.
     fn value_at_rest(&mut self, operation: Operation, a: Id, b: Id) -> Option<Exact> {
         // Of what is asked for alone: at rest, long constants of odd angles multiply.
         let mut pending = vec![a, b];
@@ -283,7 +267,6 @@ impl Builder {
         operation.exactly(x?, y?)
     }
 
-    /// Adds a node that there is not.
     fn intern(&mut self, node: Node, print: Fingerprint) -> Edge {
         let own = Edge::from(self.dag.nodes.len() as Id);
         self.known.insert(node.clone(), own.node);
@@ -295,7 +278,6 @@ impl Builder {
         own
     }
 
-    /// Copies the live nodes of a graph; returns the edges of its nodes, zero of dead ones.
     pub(crate) fn copy(&mut self, dag: &Dag) -> Vec<Edge> {
         let mut edges: Vec<Edge> = Vec::with_capacity(dag.nodes.len());
         for (node, reads) in dag.nodes.iter().zip(dag.reads()) {
@@ -312,7 +294,6 @@ impl Builder {
         edges
     }
 
-    /// Returns the results of a graph.
     pub(crate) fn results(&mut self, dag: &Dag) -> Vec<Edge> {
         let edges = self.copy(dag);
         let outputs = dag.outputs.iter();

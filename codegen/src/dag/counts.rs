@@ -11,8 +11,7 @@ pub struct Counts {
     pub mul: usize,
     /// Additions, subtractions, doublings.
     pub add: usize,
-    /// Products with a sum that takes them, a fused multiply-add each; neither is
-    /// among the multiplications and additions.
+    /// Fused multiply-adds, which are not among the multiplications and additions.
     pub fma: usize,
     /// Divisions.
     pub div: usize,
@@ -27,7 +26,6 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Counts the arithmetic alone, without sines.
     pub(crate) fn of_operations(operations: impl Iterator<Item = Operation>) -> Counts {
         let mut counts = Counts::default();
         for operation in operations {
@@ -43,7 +41,6 @@ impl Counts {
         counts
     }
 
-    /// Returns the counts with what so many r = 1/√(q̇² + w²) of Coulomb friction take.
     pub(crate) fn with_speeds(self, speeds: usize) -> Counts {
         Counts {
             mul: self.mul + speeds,
@@ -54,15 +51,13 @@ impl Counts {
         }
     }
 
-    /// Multiplications, additions, both in one and divisions, without those of the sines'
-    /// polynomials.
+    /// Multiplications, additions, both in one and divisions, but those of sines' polynomials.
     pub fn operations(&self) -> usize {
         self.mul + self.add + self.fma + self.div
     }
 }
 
 impl<C, I> Dag<C, I> {
-    /// Counts the operations, needed or not, without sines.
     pub(crate) fn arithmetic(&self) -> Counts {
         Counts::of_operations(self.operations().map(|(_, operation, _)| operation))
     }

@@ -58,8 +58,8 @@ impl<C, I> Dag<C, I> {
         })
     }
 
-    /// Returns whether a node's rounding can lose what is below the least normal number: that of a
-    /// product, a quotient, and a sum with a fused product. A sum of two floats cannot.
+    /// True for a product, a quotient, and a sum with a fused product. A sum of two floats loses
+    /// nothing below the least normal number.
     pub(crate) fn underflows(&self, id: Id) -> bool {
         match self.node(id) {
             Node::Apply(Operation::Mul | Operation::Div, _) => true,
@@ -67,8 +67,7 @@ impl<C, I> Dag<C, I> {
         }
     }
 
-    /// Returns the number of operations of the longest chain, a product with the sum that takes it
-    /// counted as one.
+    /// Returns the length of the longest chain of operations; a fused multiply-add counts as one.
     pub fn depth(&self) -> usize {
         let mut depths: Vec<usize> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
@@ -135,11 +134,9 @@ impl Dag {
         matches!(self.node(id), Node::Constant(_))
     }
 
-    /// Finds, for each node, the product that is fused into it.
     fn taken(&self) -> Vec<Option<Id>> {
         let reads = self.reads();
         let mut taken = vec![None; self.nodes.len()];
-        // The operations of the longest chain that ends in each node.
         let mut chain = vec![0usize; self.nodes.len()];
         for (id, operation, [a, b]) in self.operations() {
             let longest = |ends: &[Id]| {

@@ -16,7 +16,6 @@ pub enum Input {
 }
 
 impl Input {
-    /// Returns its name in emitted code.
     pub(crate) fn name(self) -> String {
         match self {
             Input::Sin(joint) => format!("s{}", joint + 1),

@@ -3,7 +3,6 @@
 
 use dalembert_model::scalar::{Divide, Scalar};
 
-/// The number of states side by side.
 pub(crate) const LANES: usize = 16;
 
 /// A number of each.
@@ -11,7 +10,7 @@ pub(crate) const LANES: usize = 16;
 pub struct Lanes<T, const N: usize = LANES>(pub [T; N]);
 
 impl<T: Divide + Copy, const N: usize> Lanes<T, N> {
-    /// Returns lanes of these numbers; those beyond repeat the last of them. None of no number.
+    /// The lanes beyond `values` repeat the last of them.
     pub(crate) fn new(values: &[T]) -> Option<Self> {
         let last = *values.last()?;
         let lane = |lane: usize| values.get(lane).copied().unwrap_or(last);
@@ -61,7 +60,6 @@ impl<T: Divide + Copy, const N: usize> Scalar for Lanes<T, N> {
         self.zip(self, |x, _| x.half())
     }
 
-    /// Returns whether all are zero by structure.
     fn is_zero(&self) -> bool {
         self.0.iter().all(T::is_zero)
     }

@@ -96,7 +96,6 @@ pub trait Leaves<C = Exact, I = Input> {
     fn input(&self, input: I) -> Self::Value;
 }
 
-/// Leaves by two functions: of constants, and of inputs.
 impl<C, I, S: Divide, F: Fn(&C) -> S, G: Fn(I) -> S> Leaves<C, I> for (F, G) {
     type Value = S;
 
@@ -142,7 +141,6 @@ impl Edge {
     }
 }
 
-/// Returns a value, negated if `negative`.
 #[inline]
 pub(crate) fn signed<S: Scalar>(value: &S, negative: bool) -> S {
     match negative {
@@ -191,8 +189,7 @@ impl<C, I> Dag<C, I> {
         outputs.collect()
     }
 
-    /// Computes the derivative of a node by itself and by each node before it, given the values of
-    /// the nodes.
+    /// Computes the derivative of a node by itself and by each node before it.
     pub fn adjoints<S: Divide>(&self, top: Id, values: &[S], adjoints: &mut Vec<S>) {
         adjoints.clear();
         adjoints.resize(top as usize, S::zero());
@@ -252,8 +249,8 @@ impl<C, I> Dag<C, I> {
 }
 
 impl Node {
-    /// Returns the fingerprint of a leaf. A constant that has none, since the prime divides a
-    /// denominator, counts as zero, as operations do: the proof refuses what comes of it.
+    /// A constant without a print, since the prime divides a denominator, counts as zero, as
+    /// operations do: the proof refuses what comes of it.
     pub(crate) fn leaf_print(&self) -> Fingerprint {
         let print = match self {
             Node::Constant(constant) => Points::SEARCH.constant(constant),

@@ -14,8 +14,7 @@ pub enum Operation {
     Mul,
     /// left / right
     Div,
-    /// left · right, not rounded: the next operation, a sum or a difference, takes it and rounds
-    /// once (`fusion`).
+    /// left · right, not rounded: the sum or difference that takes it rounds once (`fusion`).
     Fused,
 }
 
@@ -57,8 +56,7 @@ impl Operation {
         }
     }
 
-    /// Computes the operation on constants; none of a quotient by what is no rational number, or
-    /// zero.
+    /// `None` for a quotient by zero, or by what is not a rational number.
     pub(crate) fn exactly(self, left: &Exact, right: &Exact) -> Option<Exact> {
         Some(match self {
             Operation::Add => left.add(right),
@@ -68,7 +66,6 @@ impl Operation {
         })
     }
 
-    /// Returns whether the operands may be exchanged.
     pub(crate) fn commutes(self) -> bool {
         matches!(self, Operation::Add | Operation::Mul | Operation::Fused)
     }

@@ -8,14 +8,10 @@ use egg::{RecExpr, SymbolLang};
 use super::{Builder, Dag, Edge, Folding, Input, Operation};
 use crate::function::Argument;
 
-/// A leaf of a pattern; variables by their place in the alphabet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Leaf {
-    /// A number.
     Number(u32),
-    /// `?k` or `?m`: a constant.
     Constant(u32),
-    /// Another variable: any value.
     Value(u32),
 }
 
@@ -29,7 +25,6 @@ impl Leaf {
         }
     }
 
-    /// Returns it in a builder: a decimal for a constant, a velocity for another variable.
     pub(crate) fn edge(self, builder: &mut Builder) -> Edge {
         let number = match self {
             Leaf::Number(number) => Rational::from_integer(number.into()),
@@ -80,8 +75,7 @@ pub(crate) fn evaluate(
     values.pop().expect("a value")
 }
 
-/// Returns a graph with these outputs, folded by shape: `?a` is the first joint's velocity, `?b`
-/// the second's, and so on.
+/// `?a` is the first joint's velocity, `?b` the second's, and so on.
 pub(crate) fn graph(outputs: &[&str]) -> Dag {
     let mut builder = Builder::new(Folding::Syntactic);
     let values = outputs

@@ -1,12 +1,11 @@
 //! Semantic fingerprints: a node's values at random points of a prime field.
 //!
-//! Every sin/cos pair is a rational point of the circle, so sin² + cos² = 1
-//! holds in the field; decimal constants are exact there. Two nodes are
-//! polynomials of degree d in the points' parameters (d is below a few
-//! hundred); if they differ, they agree at one point with probability at most
-//! d/p ≈ 2⁻⁵³ (Schwartz–Zippel), and at all [`POINTS`] of them with the power
-//! of that. Points 0 and 1 share the constant angles: a node with
-//! equal values there does not depend on the state.
+//! Every sin/cos pair is a rational point of the circle, so sin² + cos² = 1 holds in the field;
+//! decimal constants are exact there. Two nodes are polynomials of degree d in the points'
+//! parameters (d is below a few hundred); if they differ, they agree at one point with probability
+//! at most d/p ≈ 2⁻⁵³ (Schwartz–Zippel), and at all [`POINTS`] of them with the power of that.
+//! Points 0 and 1 share the constant angles: a node with equal values there does not depend on the
+//! state.
 
 use std::hash::{Hash, Hasher};
 
@@ -18,7 +17,6 @@ use dalembert_model::scalar::field::{Field, Modulo};
 use super::{Input, Lanes};
 use crate::random::Random;
 
-/// The points of a fingerprint.
 pub(crate) const POINTS: usize = 3;
 
 /// The values of one node at every point. A divisor that is zero at a point has a chance of
@@ -61,7 +59,6 @@ impl Points {
     /// The points that the simplifier uses.
     pub const SEARCH: Points = Points { seed: 0x5eed };
 
-    /// Creates the points of a seed.
     pub(crate) fn new(seed: u64) -> Points {
         Points { seed }
     }
@@ -71,7 +68,6 @@ impl Points {
         Lanes(core::array::from_fn(|point| self.input_at(input, point)))
     }
 
-    /// Returns the value of an input at a point.
     pub(crate) fn input_at<const P: u64>(&self, input: Input, point: usize) -> Modulo<P> {
         let draw = |kind: u64, joint: usize| {
             Modulo::new(mix([self.seed, point as u64, kind, joint as u64]))
@@ -93,8 +89,7 @@ impl Points {
         circle(mix([self.seed, point as u64, 1, joint as u64]))
     }
 
-    /// Returns the print of a constant; `None` if a denominator is divisible by the
-    /// prime (no decimal's is).
+    /// Returns the print of a constant; `None` if the prime divides a denominator.
     pub fn constant(&self, value: &Exact) -> Option<Fingerprint> {
         let coefficient = &mut |x: &Rational| Some(Lanes([Field::from_rational(x)?; POINTS]));
         value.map(coefficient, &mut |angle| {
@@ -107,8 +102,7 @@ impl Points {
         })
     }
 
-    /// Returns the value of a constant at a point, which has its own constant angles; `None` if
-    /// the prime divides a denominator.
+    /// Each point has its own constant angles. `None` if the prime divides a denominator.
     pub(crate) fn constant_at<const P: u64>(
         &self,
         value: &Exact,
@@ -122,8 +116,7 @@ impl Points {
         circle(mix([self.seed, point as u64, 5, hash_angle(angle)]))
     }
 
-    /// Returns whether a field cannot tell a constant from zero: its prime divides
-    /// one of the coefficients.
+    /// Returns true if a field cannot tell a constant from zero: its prime divides a coefficient.
     pub fn lose<const P: u64>(value: &Exact) -> bool {
         let coefficient = &mut |x: &Rational| {
             let residue = Modulo::<P>::from_rational(x);
@@ -139,7 +132,7 @@ fn circle<const P: u64>(parameter: u64) -> SinCosPair<Modulo<P>> {
     SinCosPair { sin, cos }
 }
 
-/// Returns one well-mixed word from several (SplitMix64 over the words).
+/// SplitMix64 over the words.
 fn mix(words: [u64; 4]) -> u64 {
     let words = words.into_iter();
     words.fold(0x9e37_79b9_7f4a_7c15, |state, word| {
@@ -147,7 +140,7 @@ fn mix(words: [u64; 4]) -> u64 {
     })
 }
 
-/// Returns the same on every machine: over the digits of the exact value.
+/// Over the digits of the exact value, so that it is the same on every machine.
 fn hash_angle(angle: &Angle) -> u64 {
     // The number of digits tells where the numerator ends.
     let word = |kind: u64, value: &Rational| {

@@ -64,8 +64,6 @@ mod tests {
         dag.operations().map(|own| own.1).collect()
     }
 
-    /// The longer operand is computed first, whichever side it stands on, so that
-    /// two values are alive at most.
     #[test]
     fn the_longer_operand_comes_first() {
         for text in [
@@ -74,15 +72,12 @@ mod tests {
         ] {
             let dag = graph(&[text]).scheduled();
             assert_eq!(operations(&dag), [Mul, Mul, Mul, Mul, Add]);
-            // The fourth operation is the short one: it reads leaves alone.
             let short = dag.nodes.iter().filter_map(Node::operands).nth(3);
             let is_leaf = |id: &Id| dag.node(*id).operands().is_none();
             assert!(short.is_some_and(|operands| operands.iter().all(is_leaf)));
         }
     }
 
-    /// A product that two outputs share is computed once, one that none needs is left out, a
-    /// difference keeps its order, and a constant stands on the right.
     #[test]
     fn shared_once_and_dead_never() {
         let dag = graph(&["(+ (* ?a ?b) ?c)", "(- ?c (* ?a ?b))", "(* 3 ?a)"]).scheduled();
@@ -94,7 +89,6 @@ mod tests {
         let edge = dag.outputs[1];
         let [first, second] = dag.node(edge.node).operands().unwrap();
         let is_rate = |id| *dag.node(id) == Node::Input(Input::Entry(Argument::Velocity, 2));
-        // Whose sign the output carries.
         assert!(if edge.negative {
             is_rate(second)
         } else {

@@ -8,34 +8,27 @@ use dalembert_model::scalar::{Divide, Scalar};
 
 use super::{Builder, Edge, Input, Operation};
 
-/// A constant, which needs no context, or a node of a shared builder.
-///
-/// The builder travels with the nodes, so there is no global state; two nodes
-/// in one expression must come from the same builder.
+/// The builder travels with the nodes, so there is no global state; two nodes in one expression
+/// must come from the same builder.
 #[derive(Clone)]
 pub(crate) enum Symbol {
-    /// An exact constant.
     Constant(Exact),
     /// A quotient of constants whose divisor is not zero, and no rational
     /// number, or it would be a constant.
     Quotient(Exact, Exact),
-    /// A node with its builder.
     Node(Rc<RefCell<Builder>>, Edge),
 }
 
 impl Symbol {
-    /// Returns a constant.
     pub(crate) fn constant(constant: &Exact) -> Symbol {
         Symbol::Constant(constant.clone())
     }
 
-    /// Returns an input of the traced program.
     pub(crate) fn input(builder: &Rc<RefCell<Builder>>, input: Input) -> Symbol {
         let edge = builder.borrow_mut().input(input);
         Symbol::Node(builder.clone(), edge)
     }
 
-    /// Returns the value in a builder, which is that of its nodes if it has any.
     pub(crate) fn edge(&self, builder: &mut Builder) -> Edge {
         match self {
             Symbol::Constant(constant) => builder.constant(constant),
@@ -56,7 +49,6 @@ impl Symbol {
         }
     }
 
-    /// Returns dividend and divisor of a value without nodes.
     fn fraction(&self) -> Option<[Exact; 2]> {
         match self {
             Symbol::Constant(constant) => Some([constant.clone(), Exact::one()]),
@@ -153,8 +145,6 @@ mod tests {
     use crate::function::Argument;
     use dalembert_model::number::Angle;
 
-    /// (1/c)·x with c the cosine of an odd angle: constants without a builder
-    /// keep their quotient until they meet one.
     #[test]
     fn quotients_of_constants_wait_for_a_builder() {
         let angle = Angle::Radians(Rational::new(1.into(), 3.into()));

@@ -8,7 +8,6 @@ use super::pattern::{Leaf, evaluate};
 use super::{Builder, Dag, Edge, Folding, Id, Node, Operation};
 use crate::random::Random;
 
-/// Every builder folds these.
 pub(crate) const BY_SHAPE: &[(&str, &str)] = &[
     ("(+ ?k ?m)", "(+ ?k ?m)"),
     ("(- ?k ?m)", "(- ?k ?m)"),
@@ -27,7 +26,7 @@ pub(crate) const BY_SHAPE: &[(&str, &str)] = &[
     ("(* ?k (* ?m ?a))", "(* (* ?k ?m) ?a)"),
 ];
 
-/// These too; they save no operation.
+/// Every builder folds these too; they save no operation.
 pub(crate) const NORMAL_FORM: &[(&str, &str)] = &[
     ("(* 2 ?a)", "(+ ?a ?a)"),
     ("(+ ?b ?a)", "(+ ?a ?b)"),
@@ -50,8 +49,7 @@ pub(crate) const BY_FINGERPRINT: &[(&str, &str)] = &[
     ("(- (+ ?a ?k) (+ ?a ?m))", "(- ?k ?m)"),
 ];
 
-/// Both sides of a row in a builder. The right side first: by fingerprint it is the value that is
-/// known.
+/// The right side first: by fingerprint it is the value that is known.
 fn sides((from, to): &(&str, &str), folding: Folding) -> [Edge; 2] {
     let mut builder = Builder::new(folding);
     let [to, from] = [to, from].map(|side| evaluate(side, &mut builder, Leaf::edge));
@@ -73,7 +71,6 @@ fn left_sides_become_right_sides() {
     }
 }
 
-/// Returns a graph of three inputs, two constants and operations on whatever stands before them.
 fn drawn(random: &mut Random) -> Dag<u64, usize> {
     let mut nodes: Vec<Node<u64, usize>> = (0..3).map(Node::Input).collect();
     nodes.extend([2, 3].map(|c| Node::Constant(c + random.bits() % 1000)));
@@ -86,8 +83,6 @@ fn drawn(random: &mut Random) -> Dag<u64, usize> {
     Dag { nodes, outputs }
 }
 
-/// The backward pass and forward ones (duals) give the same derivatives of every node, in a field,
-/// where equal is equal: all operations, values that are read twice, leaves.
 #[test]
 fn the_backward_pass_agrees_with_duals() {
     let (mut random, mut compared) = (Random::new(0xadd), 0);

@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 use super::{Dag, Edge, Id, Node};
 use crate::dag::Operation;
 
-/// Writes operations in a given order; a leaf stands before the first operation that reads it.
+/// A leaf stands before the first operation that reads it.
 #[derive(Clone, Debug)]
 pub(crate) struct Writer<C, I> {
     nodes: Vec<Node<C, I>>,
@@ -24,7 +24,6 @@ impl<C, I> Default for Writer<C, I> {
 }
 
 impl<C: Clone + Eq + Hash, I: Clone + Eq + Hash> Writer<C, I> {
-    /// Returns the node of a constant or an input.
     pub(crate) fn leaf(&mut self, leaf: Node<C, I>) -> Id {
         let nodes = &mut self.nodes;
         *self.leaves.entry(leaf).or_insert_with_key(|leaf| {
@@ -33,18 +32,15 @@ impl<C: Clone + Eq + Hash, I: Clone + Eq + Hash> Writer<C, I> {
         })
     }
 
-    /// Appends an operation on nodes that there are.
     pub(crate) fn apply(&mut self, operation: Operation, operands: [Id; 2]) -> Id {
         self.nodes.push(Node::Apply(operation, operands));
         self.nodes.len() as Id - 1
     }
 
-    /// Returns a node.
     pub(crate) fn node(&self, id: Id) -> &Node<C, I> {
         &self.nodes[id as usize]
     }
 
-    /// Returns the code with these results.
     pub(crate) fn finish(self, outputs: Vec<Edge>) -> Dag<C, I> {
         let nodes = self.nodes;
         Dag { nodes, outputs }
@@ -52,8 +48,7 @@ impl<C: Clone + Eq + Hash, I: Clone + Eq + Hash> Writer<C, I> {
 }
 
 impl<C, I> Dag<C, I> {
-    /// Returns the operations that the outputs need, in their order, over other constants and
-    /// inputs.
+    /// Returns the operations that the outputs need, over other constants and inputs.
     #[must_use]
     pub fn map<D, J>(&self, constant: impl Fn(&C) -> D, input: impl Fn(&I) -> J) -> Dag<D, J>
     where

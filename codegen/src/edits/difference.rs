@@ -7,10 +7,9 @@
 //! - Δ(a·b) = a'·Δb + b·Δa
 //! - where a + b is replaced by a: Δ = Δa − b, and so on
 //!
-//! so [`difference`] is a program for Δ of the outputs, not an approximation
-//! of one: nothing is left of second order. It forms no difference of two
-//! large values, so bounding *it* over a box bounds the error without the
-//! difference of two enclosures.
+//! so [`difference`] is a program for Δ of the outputs, not an approximation of one: nothing is
+//! left of second order. It forms no difference of two large values, so bounding *it* over a box
+//! bounds the error without the difference of two enclosures.
 
 use std::collections::BTreeMap;
 
@@ -32,8 +31,7 @@ impl Stage {
     }
 }
 
-/// Returns what a program differs from another by: edited − exact, output by output, as
-/// they stand. Written out as polynomials, what they have in common cancels.
+/// edited − exact, output by output; written out as polynomials, common terms cancel.
 pub(crate) fn deviation(exact: &Program, edited: &Program) -> Dag {
     let mut builder = Builder::new(Folding::Syntactic);
     let before = builder.results(&exact.dag);
@@ -68,7 +66,6 @@ struct Run<'a> {
     /// The edit of each place; its first, if a place has several.
     edits: BTreeMap<EditSite, &'a Edit>,
     builder: Builder,
-    /// x, x' and Δx of each step.
     values: Vec<[Edge; 3]>,
 }
 
@@ -128,7 +125,6 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Returns an operand of a step: before, after, and the difference.
     fn operand(&mut self, operand: &Operand, place: EditSite) -> [Edge; 3] {
         let before = self.before(operand);
         match self.edit(place) {
@@ -173,7 +169,6 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Runs the steps, and returns what is asked for of each output.
     fn outputs(&mut self, of: fn(&mut Self, &Operand) -> Edge) -> Vec<Edge> {
         self.steps();
         let outputs = std::mem::take(&mut self.program.outputs).into_iter();

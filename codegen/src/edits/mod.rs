@@ -57,8 +57,8 @@ impl Edit {
         }
     }
 
-    /// Returns true if it puts another constant in the place of an operand: it saves
-    /// nothing, but makes up for what other edits leave out.
+    /// Returns true if it only puts another constant in the place of an operand, which saves
+    /// nothing.
     pub fn corrects(&self) -> bool {
         matches!(self.place, EditSite::Left(_) | EditSite::Right(_))
             && matches!(self.value, Operand::Constant(_))
@@ -75,7 +75,6 @@ impl Stage {
     }
 }
 
-/// Returns true if anything was edited.
 pub(crate) fn has_edits(stages: &[Stage]) -> bool {
     stages.iter().any(|stage| !stage.edits.is_empty())
 }

@@ -13,7 +13,6 @@ pub struct Omission {
     /// what: `qd[3] * (s4 * …) -> 0`.
     pub words: String,
     /// Operations that come back if it alone is put back.
-    /// Corrected constants stay corrected.
     pub operations: usize,
     /// Sines and cosines that come back with them.
     pub sincos: usize,
@@ -38,7 +37,6 @@ pub fn omissions(stages: &[Stage]) -> Vec<Omission> {
     omissions
 }
 
-/// Returns what the stage costs with one edit put back.
 fn without(stage: &Stage, edit: &Edit) -> Counts {
     let edits = stage.edits.iter().filter(|e| e.place != edit.place);
     let back = Stage {
@@ -66,7 +64,7 @@ fn words(program: &Steps, edit: &Edit) -> String {
     format!("{place} -> {value}")
 }
 
-/// What binds an expression's parts, the weakest first.
+/// The weakest binding first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Strength {
     Sum,
@@ -74,7 +72,6 @@ enum Strength {
     Atom,
 }
 
-/// Returns an operand in terms of inputs, `…` for what is too deep.
 fn expression(program: &Steps, operand: &Operand, depth: usize) -> (String, Strength) {
     let step = match operand {
         Operand::Input(input) => return (input.name(), Strength::Atom),

@@ -14,7 +14,6 @@ use crate::language::{comment, list};
 use crate::program::ScalarType;
 use crate::setup::Setup;
 
-/// Returns what gravity is, for the header.
 pub(super) fn gravity(robot: &Robot, setup: &Setup) -> String {
     let file = list(robot.gravity.iter().map(decimal));
     match setup.has(RuntimeParameter::Gravity) {
@@ -25,7 +24,6 @@ pub(super) fn gravity(robot: &Robot, setup: &Setup) -> String {
     }
 }
 
-/// The types of arguments that are no joint vectors; nothing where there are none.
 pub(super) fn types(setup: &Setup, scalar: ScalarType) -> String {
     let mut text = String::new();
     if setup.has(RuntimeParameter::Gravity) {
@@ -53,7 +51,6 @@ pub(super) fn types(setup: &Setup, scalar: ScalarType) -> String {
     text
 }
 
-/// Returns the documentation of the function that makes a payload in C, and its text.
 pub(super) fn payload_c(setup: &Setup, names: &Names) -> (Vec<String>, String) {
     let dialect = names.dialect();
     let mut doc = Vec::new();
@@ -73,7 +70,6 @@ pub(super) fn payload_c(setup: &Setup, names: &Names) -> (Vec<String>, String) {
     (doc, indented(&text))
 }
 
-/// Indents the lines between braces.
 fn indented(text: &str) -> String {
     let mut depth = 0usize;
     let line = |line: &str| {
@@ -85,7 +81,6 @@ fn indented(text: &str) -> String {
     text.lines().map(line).collect()
 }
 
-/// Describes the numbers of a payload.
 fn payload(setup: &Setup, scalar: ScalarType) -> Vec<String> {
     let n = setup.joints();
     let frame = match setup.robot().payload_frame.as_ref() {
@@ -106,7 +101,6 @@ fn payload(setup: &Setup, scalar: ScalarType) -> Vec<String> {
     text.lines().map(str::to_owned).collect()
 }
 
-/// Writes a type of so many numbers, which are public or not.
 fn newtype(text: &mut String, name: &str, public: &str, scalar: ScalarType, length: usize) {
     *text += &format!(
         "#[derive(Clone, Copy, Debug, PartialEq)]\n#[repr(transparent)]\n\
@@ -116,7 +110,6 @@ fn newtype(text: &mut String, name: &str, public: &str, scalar: ScalarType, leng
     );
 }
 
-/// Returns what a function's arguments are that are no joint vectors.
 pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
     let mut lines = Vec::new();
     if setup.takes(function, RuntimeParameter::Gravity) {

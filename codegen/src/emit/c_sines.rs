@@ -11,8 +11,8 @@ use crate::program::kernel::Kernel;
 use crate::program::{Code, Library, Literal};
 use crate::sincos::routine::routine;
 
-/// Writes what functions of so many joints call: of a number of angles each, a loop that compilers
-/// make vectors of; of one angle for functions that are called at many states.
+/// Several angles get a loop that compilers make vectors of; functions of many states take one
+/// angle.
 pub(super) fn write<'c>(
     text: &mut String,
     functions: impl Iterator<Item = (usize, &'c Code)>,
@@ -34,7 +34,6 @@ pub(super) fn write<'c>(
     }
 }
 
-/// Returns the operations from `x0` on, so far from the margin, and their results.
 fn operations(dialect: Dialect, margin: &str) -> (String, [String; 2]) {
     let kernel: Kernel = routine(dialect.scalar);
     let lines = Lines::of_kernel(dialect, &kernel, "x0", "x");
@@ -44,9 +43,8 @@ fn operations(dialect: Dialect, margin: &str) -> (String, [String; 2]) {
     (steps.collect(), results)
 }
 
-/// Returns the function of several angles. Its loop has no branch and no integer, of which
-/// gcc makes vectors for every processor; clang keeps results in memory if it is not
-/// inlined, which is shorter than taking vectors apart.
+/// The loop has no branch and no integer, of which gcc makes vectors for every processor; clang
+/// keeps results in memory if it is not inlined, which is shorter than taking vectors apart.
 fn several(names: &Names, count: usize) -> String {
     let dialect = names.dialect();
     let (float, f) = (float(dialect.scalar), dialect.scalar.math_suffix());
@@ -82,7 +80,6 @@ fn several(names: &Names, count: usize) -> String {
     )
 }
 
-/// Returns the function of one angle, which is told whether it may be far.
 fn one(names: &Names) -> String {
     let dialect = names.dialect();
     let (float, f) = (float(dialect.scalar), dialect.scalar.math_suffix());

@@ -1,10 +1,8 @@
 //! Names and sentences that users chose, inside documentation.
 
-/// Returns the name as text that no reader of documentation takes for markup: a bar
-/// would end a table's cell, a backtick begin code, `<` an HTML tag.
-///
-/// Markdown lets a backslash stand before any ASCII punctuation. It is left out
-/// before what means nothing inside a word, so that usual names stay as they are.
+/// A bar would end a table's cell, a backtick begin code, `<` an HTML tag. Markdown lets a
+/// backslash stand before any ASCII punctuation; it is left out before what means nothing inside a
+/// word.
 pub(super) fn escaped(name: &str) -> String {
     let harmless = |c: char| matches!(c, '_' | '-' | '.' | ',' | '\'' | '(' | ')' | '+');
     let last = name.chars().count().saturating_sub(1);
@@ -19,7 +17,6 @@ pub(super) fn escaped(name: &str) -> String {
     text
 }
 
-/// Returns a sentence with the names in its backticks as code, and no other markup.
 pub(super) fn sentence(text: &str) -> String {
     let is_paired = text.matches('`').count().is_multiple_of(2);
     let (mut is_code, mut marked) = (false, String::new());

@@ -24,18 +24,15 @@ pub struct GeneratedFunction {
     pub planned: bool,
     /// The final program with exact constants: what is emitted.
     pub program: Program,
-    /// The program that was found, if its operations were then put into another order or its
-    /// products fused: what a plan keeps.
+    /// The program before its operations were reordered or products fused: a plan keeps it.
     pub found: Option<Program>,
     /// The polynomials of its sines in each scalar, if they are not libm's.
     pub sines: Vec<(ScalarType, Sines)>,
     /// Counts of the formula as executed, then after each step.
     pub passes: Vec<Pass>,
-    /// The proof of the exact program. With a tolerance, `program` is another one that was made from
-    /// it; this proof is not about that.
+    /// The proof of the exact program, from which a tolerance may have made another `program`.
     pub proof: Proof,
-    /// What the limit on rounding errors cost, if it did: a cheaper program
-    /// that the preference for operations takes.
+    /// A cheaper program that the limit on rounding errors refused, if it did.
     pub refused: Option<Refused>,
     /// With a tolerance: what was left out, and the certificates.
     pub admitted: Option<Admitted>,
@@ -48,14 +45,12 @@ impl GeneratedFunction {
         found.map_or(&[], |(_, sines)| sines)
     }
 
-    /// Returns the certificate of its text in a scalar, if a tolerance admitted it.
     pub(crate) fn certificate(&self, scalar: ScalarType) -> Option<&Certificate> {
         let mut all = self.admitted.as_ref()?.certificates.iter();
         all.find(|own| own.scalar == scalar)
     }
 
-    /// Returns the program in a scalar, each constant rounded once: what is printed. Sines
-    /// without polynomials are the library's.
+    /// Rounds the constants to a scalar; sines without polynomials are the library's.
     pub fn code(&self, scalar: ScalarType, library: Library) -> Code {
         self.program.code(scalar, library, self.sines(scalar))
     }

@@ -22,7 +22,6 @@ const FUSES: &str = "defined(__GNUC__) && !defined(__clang__) && \
 /// vectors without masks where it first computes (`tree-pre`) what follows of an angle that is far.
 const GCC: &str = "defined(__GNUC__) && !defined(__clang__)";
 
-/// The text that headers in CUDA define, once the one of the robot's names is there.
 const PRODUCTS: &str = "
 /* Each operation is rounded, on the device too: no product becomes one with a sum. */
 #if defined(__CUDA_ARCH__)
@@ -34,13 +33,11 @@ const PRODUCTS: &str = "
 #endif
 ";
 
-/// The text that takes this back at their end.
 const NO_PRODUCTS: &str = "
 #undef DALEMBERT_MUL
 #undef DALEMBERT_MULF
 ";
 
-/// Returns the first name that some C compiler does not take: too long, of other letters, or of two.
 pub(crate) fn misnamed(base: &str, functions: &[Function], request: &Request) -> Option<String> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
     if !base.starts_with(|c: char| c.is_ascii_alphabetic()) || !base.chars().all(plain) {
@@ -73,8 +70,6 @@ pub(crate) fn misnamed(base: &str, functions: &[Function], request: &Request) ->
     names.find(|name| name.len() > LONGEST || !seen.insert(name.clone()))
 }
 
-/// Prints the whole file: in each scalar, the functions' programs. A note says which scalar is not
-/// there.
 pub(crate) fn write(
     job: &Job<'_>,
     functions: &[GeneratedFunction],
@@ -227,7 +222,6 @@ pub(crate) fn write(
     text
 }
 
-/// Lines as a comment.
 fn comment(text: &mut String, lines: &[String]) {
     let lines: Vec<String> = lines.iter().map(|line| plain(line)).collect();
     *text += &format!("\n/*\n{} */\n", language::comment(" *", &lines));

@@ -25,7 +25,6 @@ mod variant;
 
 pub use generated::GeneratedFunction;
 
-/// Appends constant lines.
 fn say<const N: usize>(lines: &mut Vec<String>, own: [&str; N]) {
     lines.extend(own.map(String::from));
 }

@@ -15,12 +15,10 @@ use crate::program::{Code, Counts, ScalarType};
 use crate::setup::Setup;
 use crate::task::Job;
 
-/// What generated code must not be told: that not every function is called or
-/// seen from outside, that literals carry all the digits they need, that names
-/// are the equations', that a flat function is as long as it is.
+/// Not every function is called or seen from outside, literals carry all the digits they need,
+/// names are the equations', and a flat function is as long as it is.
 const ALLOWED: &str = "dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery";
 
-/// Prints the contents of the module: the functions' programs in one scalar.
 pub(crate) fn write(
     job: &Job<'_>,
     functions: &[GeneratedFunction],
@@ -67,7 +65,6 @@ pub(crate) fn write(
     text
 }
 
-/// Returns the position of a joint that follows, from the number of the one that leads.
 fn followed(own: &Follower, number: usize) -> String {
     let by = decimal(&own.multiplier);
     let offset = match &own.offset {
@@ -80,7 +77,6 @@ fn followed(own: &Follower, number: usize) -> String {
     }
 }
 
-/// Writes robot, conventions, DH table, counts and proof.
 pub(super) fn header(
     robot: &Robot,
     setup: &Setup,
@@ -195,7 +191,6 @@ pub(super) fn header(
     lines
 }
 
-/// The operation counts, fused operations, divisions and roots among them where there are any.
 fn table(functions: &[GeneratedFunction]) -> Vec<String> {
     type Column = (&'static str, bool, fn(&Counts) -> usize);
     let columns: [Column; 6] = [
@@ -223,7 +218,6 @@ fn table(functions: &[GeneratedFunction]) -> Vec<String> {
     lines
 }
 
-/// Returns the documentation of a function in a scalar.
 pub(super) fn function_doc(
     job: &Job<'_>,
     generated: &GeneratedFunction,

@@ -10,7 +10,6 @@ use crate::program::{Literal, ScalarType};
 use crate::setup::Setup;
 use crate::setup::base::{BaseParameters, Parameter};
 
-/// Returns what the columns of a function's regressor are; nothing of other functions.
 pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
     let mut lines = match function.columns() {
         Columns::None => return Vec::new(),
@@ -70,7 +69,6 @@ pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
     lines
 }
 
-/// Returns the constant π; nothing of functions that are over no base parameters.
 pub(super) fn constant(function: Function, setup: &Setup, scalar: ScalarType) -> String {
     let mut text = String::new();
     let Some((name, values)) = values(function, setup, scalar) else {
@@ -88,7 +86,6 @@ pub(super) fn constant(function: Function, setup: &Setup, scalar: ScalarType) ->
     text
 }
 
-/// Returns the function that writes π in C; nothing of functions that are over no base parameters.
 pub(super) fn write_c(function: Function, setup: &Setup, names: &Names) -> String {
     let mut text = String::new();
     let dialect = names.dialect();
@@ -111,7 +108,6 @@ pub(super) fn write_c(function: Function, setup: &Setup, names: &Names) -> Strin
     text
 }
 
-/// Returns π of a function that is over base parameters, and its name.
 fn values(
     function: Function,
     setup: &Setup,
@@ -124,7 +120,6 @@ fn values(
     Some((name, values.collect()))
 }
 
-/// Returns the name of the constant π, if a function is over base parameters.
 pub(super) fn name(function: Function) -> Option<&'static str> {
     match function.columns() {
         Columns::Base(quantity) => Some(quantity.facts().linear?.1),

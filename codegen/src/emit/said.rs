@@ -9,7 +9,6 @@ use crate::program::{Counts, Program, ScalarType};
 use crate::setup::Setup;
 use crate::sincos::AngleKernel;
 
-/// Returns the words of a function's documentation about its sines.
 pub(super) fn sines(sines: &[AngleKernel], scalar: ScalarType) -> Vec<String> {
     if sines.is_empty() {
         return Vec::new();
@@ -40,8 +39,6 @@ pub(super) fn sines(sines: &[AngleKernel], scalar: ScalarType) -> Vec<String> {
     lines
 }
 
-/// Returns the equation of the friction that is in it, joint by joint; nothing of functions
-/// that have none in them.
 pub(super) fn friction(generated: &GeneratedFunction, setup: &Setup) -> Vec<String> {
     let program = &generated.program;
     if program.speeds.is_empty() {
@@ -69,7 +66,6 @@ pub(super) fn friction(generated: &GeneratedFunction, setup: &Setup) -> Vec<Stri
     lines
 }
 
-/// Returns what a function's documentation says of them, if it has any.
 pub(super) fn fused(program: &Program) -> Vec<String> {
     if !program.fuses() {
         return Vec::new();

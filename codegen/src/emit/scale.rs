@@ -8,7 +8,6 @@ use super::say;
 use crate::function::{ErrorScale, Quantity};
 use crate::program::Program;
 
-/// Returns a line or two for each kind of output that the function has.
 pub(super) fn sentences(relative_to: Option<Scale>, quantities: &[Quantity]) -> Vec<String> {
     match relative_to {
         None => vec!["T is as given.".into()],
@@ -51,7 +50,6 @@ fn actuators(quantities: &[Quantity]) -> Vec<String> {
     lines
 }
 
-/// Returns the unit of each output.
 pub(super) fn units(program: &Program, robot: &Robot) -> Vec<&'static str> {
     let (rows, sizes) = (&program.rows, program.sizes());
     let mut units = Vec::new();
@@ -68,7 +66,6 @@ mod tests {
     use crate::function::Function;
     use dalembert_model::read::parse;
 
-    /// T/q̈ and T/(q̇ q̇) by hand, for joints that turn and joints that slide.
     #[test]
     fn units_of_mixed_joints() {
         let joint = |kind: &str| {

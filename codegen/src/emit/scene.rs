@@ -7,7 +7,6 @@ use super::say;
 use crate::figures::decimal;
 use crate::language::list;
 
-/// Returns a line each.
 pub(super) fn describe(scene: &Scene, robot: &Robot) -> Vec<String> {
     let mut lines = vec![format!(
         "Scene `{}` {}. Its functions are the full model's at:",

@@ -15,13 +15,11 @@ use crate::program::{Literal, ScalarType};
 use crate::setup::Setup;
 use crate::sincos;
 
-/// The ranges of each argument's entries; none for those that nothing bounds.
 pub(super) struct StateBox {
     pub(super) columns: Vec<(Argument, Vec<Option<Interval>>)>,
 }
 
 impl StateBox {
-    /// Returns where all of the functions hold; `None` if that is everywhere.
     pub(super) fn of(
         functions: &[GeneratedFunction],
         setup: &Setup,
@@ -41,7 +39,6 @@ impl StateBox {
         (!columns.is_empty()).then_some(StateBox { columns })
     }
 
-    /// Writes the constant, its type and the function that asks.
     pub(super) fn write(&self, text: &mut String, scalar: ScalarType) {
         text.push_str(
             "\n/// The lowest and the highest entries of arguments for which the functions of this\n\
@@ -92,7 +89,6 @@ impl StateBox {
         text.push_str("    inside\n}\n");
     }
 
-    /// Prints the function of C that asks.
     pub(super) fn write_c(&self, text: &mut String, scalar: ScalarType, names: &Names) {
         let (float, restrict) = (float(scalar), names.constant("RESTRICT"));
         let dialect = names.dialect();
@@ -122,7 +118,6 @@ impl StateBox {
     }
 }
 
-/// Writes where one function holds.
 fn bound(
     column: &mut [Option<Interval>],
     argument: Argument,
@@ -153,7 +148,6 @@ fn bound(
     }
 }
 
-/// Returns what is in both of two ranges that meet.
 fn narrower(known: Option<Interval>, range: Interval) -> Interval {
     let both = known.and_then(|known| {
         Interval::new(known.low().max(range.low()), known.high().min(range.high()))
@@ -174,7 +168,6 @@ fn ends(range: Option<Interval>, scalar: ScalarType) -> [String; 2] {
 mod tests {
     use super::*;
 
-    /// No end is rounded out of the range.
     #[test]
     fn ends_are_inside() {
         let pi = std::f64::consts::PI;
@@ -189,7 +182,6 @@ mod tests {
                 f64::from(read[0]) >= low && f64::from(read[1]) <= high,
                 "{read:?}"
             );
-            // Nor further in than to the next number.
             assert!(f64::from(read[0].next_down()) < low && f64::from(read[1].next_up()) > high);
         }
         assert_eq!(

@@ -11,7 +11,6 @@ use crate::function::Argument;
 use crate::interval::Interval;
 use crate::setup::Setup;
 
-/// Returns a line each: the bounds, the box, what was left out.
 pub(super) fn describe(
     admitted: &Admitted,
     certificate: &Certificate,
@@ -41,10 +40,8 @@ pub(super) fn describe(
     lines
 }
 
-/// How many omissions a function's documentation lists.
 const MAX_LISTED: usize = 3;
 
-/// Returns how much was left out, and the omissions that save most.
 fn omitted(mut left_out: Vec<Omission>) -> Vec<String> {
     let count = left_out.len();
     // Stable: of equal ones the first.
@@ -93,7 +90,6 @@ fn bounds(certificate: &Certificate, setup: &Setup) -> Vec<String> {
     lines
 }
 
-/// Returns the entries of an argument for which a certificate holds; `None` for all.
 pub(super) fn held(
     certificate: &Certificate,
     setup: &Setup,
@@ -106,7 +102,6 @@ pub(super) fn held(
     }
 }
 
-/// Returns the box, for what the function reads; what is printed is inside it.
 fn states(certificate: &Certificate, setup: &Setup) -> Vec<String> {
     let limits = &certificate.limits;
     let columns = &certificate.emitted.arguments;

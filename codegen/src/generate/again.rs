@@ -37,9 +37,8 @@ pub fn generate_anew(
     Ok(generated)
 }
 
-/// Puts the quick search's functions in the place of dearer ones of a search that was ended early:
-/// it takes seconds, and whoever wants an end could have had them at once. So an early end is never
-/// worse than no patience.
+/// After an early end, keeps the quick search's function wherever it is cheaper, so that an early
+/// end is never worse than no patience.
 pub(super) fn no_dearer_than_quick(
     job: &Job<'_>,
     generated: &mut [GeneratedFunction],
@@ -50,7 +49,6 @@ pub(super) fn no_dearer_than_quick(
         watch: Watch::default(),
         ..job.request.clone()
     };
-    // Where it finds nothing, what is there already stays.
     let Ok((quick, theirs)) = functions(&job.with(&quick)) else {
         return;
     };

@@ -53,8 +53,6 @@ pub fn claim_of(robot: &Robot, source: &str, setup: &Setup, own: &Certificate) -
     document(robot, source, setup, vec![function], constants)
 }
 
-/// Returns the document of functions, with the numbers that were rounded: rows of placed joints, and
-/// the payload of a scene in the last row's frame where its own is tilted.
 fn document(
     robot: &Robot,
     source: &str,
@@ -82,7 +80,6 @@ fn document(
     }
 }
 
-/// Returns the part of a claim about a tolerance, from the certificates of its scalars.
 fn tolerated(certificates: &[Certificate], constants: &mut Written) -> Option<Tolerated> {
     let first = certificates.first()?;
     let program = &first.emitted;

@@ -18,10 +18,8 @@ use crate::verify::truth::Reference;
 /// Two states: what is wrong, is wrong almost everywhere.
 const STATES: usize = 2;
 
-/// A seed of its own.
 const SEED: u64 = 0x0074_7269_616c;
 
-/// Runs every function.
 pub(super) fn check(
     setup: &Setup,
     functions: &[GeneratedFunction],
@@ -41,7 +39,6 @@ pub(super) fn check(
     Ok(())
 }
 
-/// Compares an exact program with the recursion.
 fn exact(reference: &Reference, generated: &GeneratedFunction) -> Result<(), GenerateError> {
     // Limits may reach beyond f32, and the reference is of finite numbers.
     let states = reference.setup().states(STATES, SEED);
@@ -64,7 +61,6 @@ fn exact(reference: &Reference, generated: &GeneratedFunction) -> Result<(), Gen
     Ok(())
 }
 
-/// Compares a text with the recursion, where a tolerance admitted it.
 fn tolerated(
     reference: &Reference,
     generated: &GeneratedFunction,
@@ -80,7 +76,6 @@ fn tolerated(
     for _ in 0..STATES {
         let state = held(&draw(&claim.limits, &mut random), scalar, &claim.limits);
         let truth = reference.run(generated.function, &state);
-        // What was not computed is no number.
         let results = emitted.run(&state).into_iter();
         let results = results.chain(std::iter::repeat(f64::NAN));
         let errors = truth.iter().zip(results).map(|(own, x)| own.error(x));
@@ -119,7 +114,6 @@ mod tests {
     use dalembert_model::read;
     use dalembert_model::scalar::Scalar;
 
-    /// A constant that is off in its fortieth digit is found, where doubles would see nothing.
     #[test]
     fn a_wrong_digit_is_found() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
@@ -147,7 +141,6 @@ mod tests {
             planted += 1;
         }
         assert!(planted >= 5, "{planted} constants");
-        // Nor does one pass that reads what is not there, or returns too little.
         let mut other = function.clone();
         other.program.dag.outputs[0].node = Id::MAX;
         assert!(exact(&reference, &other).is_err());

@@ -56,7 +56,6 @@ impl GenerateError {
         GenerateError::refused(None, "nothing to generate", help)
     }
 
-    /// Refuses a plan of this robot before an edit.
     pub(super) fn stale_plan(robot: &str) -> GenerateError {
         let message = format!(
             "the plan beside the robot file no longer fits `{robot}`: a parameter, a limit or a name \
@@ -66,7 +65,6 @@ impl GenerateError {
         GenerateError::Stale(format!("`{robot}`"), complaint(message))
     }
 
-    /// Refuses a plan's program of this scene before an edit.
     pub(super) fn stale_scene(scene: &str) -> GenerateError {
         let message = format!(
             "the plan no longer fits the scene `{scene}`: the scene was edited, the robot was not; \
@@ -76,7 +74,6 @@ impl GenerateError {
         GenerateError::Stale(format!("the scene `{scene}`"), complaint(message))
     }
 
-    /// Refuses what has something of each link, of a robot whose joints follow others.
     pub(super) fn follows(function: Function) -> GenerateError {
         let takes_slopes = function.arguments().contains(&Argument::Multiplier);
         let (message, help) = match takes_slopes {
@@ -115,7 +112,6 @@ impl GenerateError {
     }
 }
 
-/// Refuses what is about no function.
 impl From<Complaint> for GenerateError {
     fn from(complaint: Complaint) -> GenerateError {
         GenerateError::Refused(None, complaint)

@@ -19,9 +19,8 @@ pub struct Kept {
     pub own: Vec<(Function, ScalarType)>,
 }
 
-/// Returns the plan with the programs of a run in it. Those of other requests for the
-/// same robot stay, and after a search that was ended early those that are no
-/// dearer than what it found.
+/// Returns the plan with the programs of a run in it. Those of other requests for the same robot
+/// stay, and after a search that was ended early those that are no dearer than what it found.
 pub fn keep(robot: &Robot, request: &Request, generated: &Generated, plan: Option<Plan>) -> Kept {
     let input = input_hash(robot);
     let mut plan = plan.filter(|plan| plan.input == input).unwrap_or(Plan {
@@ -69,7 +68,6 @@ pub fn keep(robot: &Robot, request: &Request, generated: &Generated, plan: Optio
     Kept { plan, own }
 }
 
-/// Returns what a run would emit of an entry.
 fn emitted(entry: &Entry) -> &Program {
     let edited = entry.edited.as_ref();
     edited.map_or(&entry.program, |edited| &edited.program)
@@ -87,15 +85,12 @@ mod tests {
         [[joint]]\nkind = \"revolute\"\na = 1\nmass = 2\ncom = [-0.5, 0, 0]\n\
         inertia = [0, 0.1, 0.1, 0, 0, 0]\n";
 
-    /// The plan's own program stays after an early end that found a dearer one
-    /// or an equal one, and only then.
     #[test]
     fn an_early_end_takes_nothing_better_away() {
         let robot = read::parse(PENDULUM);
         let robot = robot.unwrap().robot;
         let request = Request::new(&[Function::Gravity]);
         let good = generate(&robot, &request).unwrap();
-        // The same function with a step that nobody needs.
         let mut dear = good.clone();
         let dag = &mut dear.functions[0].program.dag;
         let (_, operation, operands) = dag.operations().next().unwrap();
@@ -111,7 +106,6 @@ mod tests {
         let (of_good, low, _) = prices(None, &good);
         let (of_dear, high, _) = prices(None, &dear);
         assert!(low < high);
-        // Who had the patience for it gets what was found.
         assert_eq!(prices(Some(of_good.clone()), &dear).1, high);
         for generated in [&mut dear, &mut good.clone()] {
             generated.ended = true;
@@ -123,7 +117,6 @@ mod tests {
             ..good
         };
         assert_eq!(prices(Some(of_dear), &ended).1, low);
-        // Of another robot nothing is kept.
         let mut other = of_good;
         other.input = String::new();
         assert_eq!(prices(Some(other), &dear).1, high);

@@ -13,7 +13,6 @@ use crate::language::Language;
 use crate::language::c99::LONGEST;
 use crate::task::Request;
 
-/// Refuses what the language lacks.
 pub(super) fn check(
     robot: &Robot,
     request: &Request,
@@ -32,10 +31,9 @@ pub(super) fn check(
     Err(GenerateError::refused(None, message, help))
 }
 
-/// Gives the module of a header a short name where nobody chose one and its own is too long: its
-/// beginning, and four digits of its hash, which tell robots apart that begin alike.
-///
-/// The request stays as it is where no such name is short enough: [`check`] refuses that.
+/// The short name is the beginning of the module's own with four digits of its hash, which tell
+/// robots apart that begin alike. The request stays as it is where no such name is short enough:
+/// [`check`] refuses that.
 pub(crate) fn with_short_name<'a>(robot: &Robot, request: &'a Request) -> Cow<'a, Request> {
     let misnamed = |name: &str| header::misnamed(name, &request.functions, request).is_some();
     let name = request.module_name(robot);
@@ -59,7 +57,6 @@ pub(crate) fn with_short_name<'a>(robot: &Robot, request: &'a Request) -> Cow<'a
     }
 }
 
-/// Returns the warning about a module whose name was shortened.
 pub(super) fn renamed(robot: &Robot, request: &Request, named: &Request) -> Option<String> {
     let (name, short) = (request.module_name(robot), named.module_name(robot));
     (name != short).then(|| {

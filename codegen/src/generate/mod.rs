@@ -171,7 +171,6 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
             warn_of_overflow(robot, &generated.program, scalar, &mut warnings);
         }
     }
-    // What is printed, and what the text is compared with once it is read back.
     let in_scalar = |&scalar: &ScalarType| {
         let code = functions
             .iter()
@@ -219,7 +218,6 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     })
 }
 
-/// Refuses what cannot be, before anything is searched for, or a limit is asked for in vain.
 fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
     if request.functions.is_empty() || request.scalars.is_empty() {
         return Err(GenerateError::empty());
@@ -265,7 +263,6 @@ fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
     }
 }
 
-/// Refuses a function at a frame that a robot does not have.
 fn check_frames(robot: &Robot, function: Function) -> Result<(), GenerateError> {
     let frames = robot.frames.iter();
     let names: Vec<&str> = frames.map(|frame| frame.name.as_str()).collect();
@@ -284,10 +281,8 @@ fn check_frames(robot: &Robot, function: Function) -> Result<(), GenerateError> 
 
 type Found = (Vec<GeneratedFunction>, Vec<ScalarType>);
 
-/// Returns every function's program, with what a tolerance leaves of it, and the
-/// scalars to emit. With a tolerance the certificate says what rounding may
-/// cost, and the cheapest exact programs are what to start from; those that
-/// cost fewer digits have their turn if it refuses these.
+/// With a tolerance, the cheapest exact programs are the start; those that cost fewer digits have
+/// their turn if it refuses these.
 fn functions(job: &Job<'_>) -> Result<Found, GenerateError> {
     let request = job.request;
     if job.tolerance().is_none() || request.prefer != Prefer::Accuracy {
@@ -311,7 +306,7 @@ fn attempt(job: &Job<'_>) -> Result<Found, GenerateError> {
     let proved = |function: &Function| proved(job, *function);
     let found: Result<_, _> = match job.request.effort {
         Effort::Quick => parallel::each(&functions, proved).into_iter().collect(),
-        // Who watches a long search sees one function after the other.
+        // One function at a time, so that progress can be shown for each.
         Effort::Thorough => functions.iter().map(proved).collect(),
     };
     let mut functions: Vec<GeneratedFunction> = found?;
@@ -319,7 +314,6 @@ fn attempt(job: &Job<'_>) -> Result<Found, GenerateError> {
     Ok((functions, scalars))
 }
 
-/// Returns a function with its program, from the plan or searched for, and the program's proof.
 fn proved(job: &Job<'_>, function: Function) -> Result<GeneratedFunction, GenerateError> {
     let setup = job.setup;
     let base = setup.base_of(function);

@@ -10,7 +10,6 @@ use crate::seeds::Start;
 use crate::task::Job;
 use crate::words::Complaint;
 
-/// Refuses, before anything is searched for, what cannot be.
 pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
     let Job { setup, request, .. } = *job;
     let refused = |function: Option<Function>, message: String, help: &str| {

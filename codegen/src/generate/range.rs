@@ -15,7 +15,6 @@ use crate::program::{Program, ScalarType};
 use crate::setup::Setup;
 use crate::words::Complaint;
 
-/// Returns a parameter that the search or the proof cannot tell from zero.
 pub(super) fn vanishing(setup: &Setup) -> Option<Exact> {
     let mut lost = None;
     let mut constant = |value: &Exact| {
@@ -29,7 +28,6 @@ pub(super) fn vanishing(setup: &Setup) -> Option<Exact> {
     lost
 }
 
-/// Leaves f32 out where nobody chose a scalar and it cannot hold a constant, and returns why.
 pub(super) fn leave_out_single(
     request: &Request,
     functions: &[GeneratedFunction],
@@ -47,10 +45,7 @@ pub(super) fn leave_out_single(
     ))
 }
 
-/// Returns warnings about subnormal constants: their relative rounding errors are not bounded by u.
-///
-/// # Errors
-/// A constant becomes infinite or zero.
+/// The relative rounding errors of subnormal constants are not bounded by u.
 pub(super) fn check_constants(
     program: &Program,
     scalar: ScalarType,
@@ -85,8 +80,6 @@ pub(super) fn check_constants(
     Ok(warnings)
 }
 
-/// Intermediates that may overflow inside the robot's limits, where it has
-/// all of them: never a silent infinity.
 pub(super) fn warn_of_overflow(
     robot: &Robot,
     program: &Program,

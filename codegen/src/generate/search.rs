@@ -56,8 +56,7 @@ pub fn replay(
 /// A program with where it comes from, its counts on the way, and what would be cheaper.
 type Origin = (Source, Vec<Pass>, Program, Option<Refused>);
 
-/// Searches for a program; on from the one that is renewed, which stays unless there is a cheaper
-/// one.
+/// Goes on from the program that is renewed, which stays unless there is a cheaper one.
 pub(super) fn found(job: &Job<'_>, function: Function) -> Result<Origin, GenerateError> {
     let search = Search::new(job, function);
     let mut found = search.cheapest()?;
@@ -100,7 +99,7 @@ pub fn search(job: &Job<'_>, function: Function) -> Result<Found, GenerateError>
     Search::new(job, function).cheapest()
 }
 
-/// What costs one part in so many more than the cheapest is as good.
+/// Programs within 1/50 of the cheapest count as equally cheap.
 const NEAR: u64 = 50;
 
 struct Search<'a> {
@@ -124,7 +123,7 @@ impl<'a> Search<'a> {
         let request = self.job.request;
         let watch = request.watch.over(self.task.function);
         let nobody = FunctionWatch::default();
-        // Who wants an end before a function's turn gets the quick search for it.
+        // A function whose turn comes after an early end gets the quick search.
         if watch.is_over() {
             return self.quick(nobody);
         }
@@ -150,8 +149,6 @@ impl<'a> Search<'a> {
         Ok(found)
     }
 
-    /// Returns the program that is renewed; none if there is none that is proved to be the
-    /// function's and is accurate enough.
     fn renewed(&self) -> Option<(Entry, Program)> {
         let Job { setup, request, .. } = self.job;
         let plan = request.renewed.as_ref();
@@ -162,7 +159,6 @@ impl<'a> Search<'a> {
         is_right.then_some((entry, program))
     }
 
-    /// Searches on from a plan's program, with what was found without it at hand.
     fn on_from(&self, entry: &Entry, program: &Program, found: &Found) -> Option<Found> {
         let again = Approach {
             tuned: found.tuned.clone(),
@@ -177,9 +173,8 @@ impl<'a> Search<'a> {
         self.search_from(again, self.job.request.effort, true, watch)
     }
 
-    /// Returns the quick search: without a limit first, since most robots need none.
-    /// Where that costs too many digits, again within the limit, also from
-    /// where the other one ended.
+    /// Searches without a limit first, since most robots need none. Where that costs too many
+    /// digits, again within the limit, also from where the other search ended.
     fn quick(&self, watch: FunctionWatch<'_>) -> Result<Found, GenerateError> {
         let free = self.run(Effort::Quick, false, &[], watch)?;
         if self.judge.accepts(&free.searched.graph) {
@@ -215,7 +210,6 @@ impl<'a> Search<'a> {
         Ok(found)
     }
 
-    /// Returns a refused program, worth a word only where it is cheaper.
     fn refused(&self, counts: Counts, error: f64, taken: &Found) -> Option<Refused> {
         let graph = &taken.searched.graph;
         let is_cheaper = counts.operations() < graph.counts().operations();
@@ -245,7 +239,6 @@ impl<'a> Search<'a> {
         let approaches = self.job.request.start.approaches(&problem).into_iter();
         let found =
             approaches.filter_map(|approach| self.search_from(approach, effort, limited, watch));
-        // The first of the cheapest, of those that are accurate enough if there are such.
         let refused = |found: &Found| limited && !self.judge.accepts(&found.searched.graph);
         found
             .min_by_key(|found| (refused(found), found.cost()))

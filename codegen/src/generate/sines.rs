@@ -11,9 +11,8 @@ use crate::sincos::reach::OutOfReach;
 use crate::sincos::{self, AngleKernel, SinCos, Sines};
 use crate::words::Complaint;
 
-/// Gives functions polynomials for their sines. In each scalar all err by no more than
-/// [`SinCos::ERROR`], or else than the least error of two digits that can be had. An error that was
-/// asked for is kept to.
+/// In each scalar all err by no more than [`SinCos::ERROR`], or else by no more than the least
+/// error of two digits that can be had. An error that was asked for is kept to.
 pub(super) fn give(
     job: &Job<'_>,
     functions: &mut [GeneratedFunction],
@@ -55,7 +54,6 @@ pub(super) fn give(
     Ok(())
 }
 
-/// Returns the polynomials of each function; or the first function and angle that has none.
 fn polynomials(
     setup: &Setup,
     functions: &[GeneratedFunction],
@@ -74,7 +72,6 @@ fn refused(function: Function, miss: &OutOfReach) -> GenerateError {
     GenerateError::SinCos(function, Complaint::new(miss.to_string(), miss.help()))
 }
 
-/// Refuses sines with which D cannot be shown to be positive definite any more.
 fn check_inertia(
     setup: &Setup,
     generated: &GeneratedFunction,
@@ -95,8 +92,7 @@ fn check_inertia(
     Err(GenerateError::SinCos(generated.function, why))
 }
 
-/// Returns whether D, if it is an output, can be shown to be positive definite at all positions
-/// with exact sines, and with these no more.
+/// True if exact sines keep D positive definite for certain, and these do not.
 fn spoil_inertia(
     setup: &Setup,
     program: &Program,

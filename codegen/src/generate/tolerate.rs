@@ -22,8 +22,6 @@ use crate::setup::SceneKey;
 use crate::sincos::SinCos;
 use crate::words::Complaint;
 
-/// Replaces the programs, if the scene has a tolerance. Returns the scalars to
-/// emit.
 pub(super) fn tolerate(
     job: &Job<'_>,
     functions: &mut [GeneratedFunction],
@@ -32,7 +30,6 @@ pub(super) fn tolerate(
     let Some(all) = admitted(job, &programs)? else {
         return Ok(job.request.scalars.clone());
     };
-    // One a certificate, the same of every function.
     let certificates = all.first().map_or(&[][..], |own| &own.certificates).iter();
     let scalars = certificates.map(|certificate| certificate.scalar).collect();
     for (function, admitted) in functions.iter_mut().zip(all) {
@@ -45,8 +42,7 @@ pub(super) fn tolerate(
     Ok(scalars)
 }
 
-/// Returns what the scene's tolerance admits in place of each exact program; `None` if
-/// it has none.
+/// Returns the variants that the scene's tolerance admits; `None` if it has no tolerance.
 pub fn admitted(
     job: &Job<'_>,
     programs: &[&Program],
@@ -93,8 +89,7 @@ pub fn admitted(
     Err(GenerateError::empty())
 }
 
-/// Returns what a tolerance admits of every function in these scalars. Whether it admits
-/// the exact programs is seen first: a refusal comes before any search.
+/// Checks first that the tolerance admits the exact programs: a refusal comes before any search.
 fn in_scalars(
     job: &Job<'_>,
     budgets: &[ErrorBudget<'_>],
@@ -126,7 +121,6 @@ fn bound_effort(job: &Job<'_>) -> BoundEffort {
     }
 }
 
-/// Returns the plan's variant, if the tolerances admit it and it is the same for each of the scalars.
 /// A plan is a text that anybody can edit: the variant's bounds are found anew.
 fn usable(
     job: &Job<'_>,
@@ -157,7 +151,6 @@ fn usable(
     Ok(is_usable.then_some(found))
 }
 
-/// Returns what a tolerance admits of one function: the plan's variant, or the cheapest found.
 fn chosen(
     job: &Job<'_>,
     budget: &ErrorBudget<'_>,
@@ -202,8 +195,7 @@ fn chosen(
             }
         }
     };
-    // Always as fine, so that a plan's variant gets the sines that it got when
-    // it was found.
+    // Always as fine, so that a plan's variant gets the sines that it got when it was found.
     let with = |certificate: &Certificate| {
         budget.with_polynomials(certificate, &tolerances, BoundEffort::QUICK)
     };

@@ -1,12 +1,10 @@
 //! Intervals of doubles, rounded outward.
 //!
-//! **Soundness.** IEEE arithmetic rounds to nearest: the exact result of one
-//! operation lies between the doubles next to the computed one on either
-//! side. Every operation here computes its ends to nearest and then moves
-//! each outward by one double, so the interval contains the exact result of
-//! every choice of operands in the operands' intervals. An end that overflows
-//! becomes infinite; a NaN (∞ − ∞ or 0 · ∞) becomes the whole line, which
-//! says nothing and is therefore true.
+//! **Soundness.** IEEE arithmetic rounds to nearest: the exact result of one operation lies between
+//! the doubles next to the computed one on either side. Every operation here computes its ends to
+//! nearest and then moves each outward by one double, so the interval contains the exact result of
+//! every choice of operands in the operands' intervals. An end that overflows becomes infinite; a
+//! NaN (∞ − ∞ or 0 · ∞) becomes the whole line, which says nothing and is therefore true.
 
 use dalembert_model::number::{Exact, Rational, Rounded};
 
@@ -43,8 +41,7 @@ impl Interval {
         checked(-radius.abs(), radius.abs())
     }
 
-    /// Returns an enclosure of an exact constant. The nearest double is within half
-    /// an ulp, so its neighbours enclose.
+    /// Returns an enclosure of an exact constant: the neighbours of the nearest double.
     pub fn exact(value: &Exact) -> Interval {
         if let Some(rational) = value.as_rational() {
             return Interval::rational(rational);
@@ -130,7 +127,6 @@ impl Interval {
     }
 }
 
-/// Returns the interval of two ends; the whole line if an end is no number.
 fn checked(low: f64, high: f64) -> Interval {
     if low <= high {
         Interval { low, high }
@@ -172,8 +168,7 @@ impl core::ops::Mul for Interval {
     type Output = Interval;
     #[inline]
     fn mul(self, other: Interval) -> Interval {
-        // Zero times anything is zero: an unbounded operand is still made of
-        // numbers.
+        // Zero times anything is zero: an unbounded operand is still made of numbers.
         if self == Interval::ZERO || other == Interval::ZERO {
             return Interval::ZERO;
         }
@@ -201,8 +196,6 @@ mod tests {
         Rational::new(n.into(), d.into())
     }
 
-    /// Against exact rational arithmetic, over signs and sizes; of sums and products of numbers
-    /// that are doubles, see `scalar`.
     #[test]
     fn rationals_and_squares_are_contained() {
         let end = |x: f64| Rational::from_float(x).unwrap();

@@ -1,25 +1,21 @@
 //! What rounding costs straight-line code over intervals.
 //!
-//! **Soundness.** Every operation gives (x ∘ y)(1 + δ) + η. Each is widened by
-//! that, so the intervals hold what is computed *and* what is exact. The error of a
-//! result is exactly Σ own error of a node · adjoint of the node, with adjoints
-//! that mix computed and exact operands; both are in the intervals here, so the
-//! sum bounds the whole error, not only its first order.
+//! **Soundness.** Every operation gives (x ∘ y)(1 + δ) + η. Each is widened by that, so the
+//! intervals hold what is computed *and* what is exact. The error of a result is exactly Σ own
+//! error of a node · adjoint of the node, with adjoints that mix computed and exact operands; both
+//! are in the intervals here, so the sum bounds the whole error, not only its first order.
 
 use super::Interval;
 use crate::dag::{Dag, Id, Node, Operation};
 
-/// Intervals that hold what is exact and what is computed, and each node's own
-/// rounding.
+/// Intervals that hold what is exact and what is computed, and each node's own rounding.
 pub(crate) struct Forward {
-    /// Node by node.
     pub values: Vec<Interval>,
     /// The distance between the two that a node itself may add.
     pub own: Vec<f64>,
 }
 
-/// Runs code with every operation widened by its `rounding`, from what its exact
-/// result may be. `leaf` gives what a constant or an input is, and what it is off.
+/// `leaf` gives the value of a constant or an input, and its error.
 pub(crate) fn forward<C, I>(
     dag: &Dag<C, I>,
     leaf: impl Fn(Id, &Node<C, I>) -> (Interval, f64),
@@ -33,7 +29,6 @@ pub(crate) fn forward<C, I>(
             Node::Apply(operation, operands) => {
                 let [x, y] = operands.map(|id| values[id as usize]);
                 let exact = match operation {
-                    // Both are the same number.
                     Operation::Mul | Operation::Fused if operands[0] == operands[1] => x.square(),
                     operation => operation.apply(&x, &y),
                 };
@@ -47,7 +42,6 @@ pub(crate) fn forward<C, I>(
     Forward { values, own }
 }
 
-/// Returns the largest power of two that is at most x; x if that is no normal number.
 /// Rounding a number that is no larger than x moves it by at most this times u.
 pub(crate) fn binade(x: f64) -> f64 {
     match x.is_normal() && x > 0.0 {

@@ -55,8 +55,6 @@ mod tests {
     use crate::random::Random;
     use dalembert_model::number::Rational;
 
-    /// Every operation, of numbers inside of intervals: the exact result is
-    /// inside of the interval's.
     #[test]
     fn results_enclose_exact_results() {
         let mut random = Random::new(0x1e7);

@@ -1,9 +1,8 @@
 //! Sine and cosine of an interval.
 //!
-//! **Assumption** (named in certificates): the `libm` crate's `sin` and `cos`
-//! of a double are within one ulp of the true value (`tests/libm_ulps.rs` measures
-//! it). Here two are allowed,
-//! one of them for a value next to a power of two, where an ulp changes.
+//! **Assumption** (named in certificates): the `libm` crate's `sin` and `cos` of a double are
+//! within one ulp of the true value (`tests/libm_ulps.rs` measures it). Here two are allowed, one
+//! of them for a value next to a power of two, where an ulp changes.
 //!
 //! **Soundness.** Between its stationary points a sine is monotonic, so over
 //! an interval it lies between its values at the ends, and ±1 where the

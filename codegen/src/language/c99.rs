@@ -25,23 +25,19 @@ use super::{Language, trig};
 use crate::function::{Argument, Function, Quantity, Sizes};
 use crate::program::{Code, Input, Library, Pair, Program, ScalarType};
 
-/// Returns whether the function's results are one struct: a bundle's are, and a load.
 pub(crate) fn is_bundle(function: Function) -> bool {
     matches!(function, Function::Bundle(_) | Function::Load)
 }
 
-/// Returns the struct that an argument is, so that nothing else is passed for it; none of arrays.
 pub(crate) fn argument_structure(argument: Argument, names: &Names) -> Option<String> {
     let has_type = matches!(argument, Argument::Load | Argument::Payload);
     has_type.then(|| names.of(&format!("{}_t", argument.name())))
 }
 
-/// Returns whether the function returns its only number.
 pub(crate) fn is_number(function: Function) -> bool {
     function.structure().is_none() && function.quantities()[0].shape().0.is_empty()
 }
 
-/// Returns the struct that the results are in, if they are in one.
 pub(crate) fn structure(program: &Program, names: &Names) -> Option<String> {
     let (function, sizes) = (program.function, program.sizes());
     is_bundle(function).then(|| {
@@ -61,7 +57,6 @@ pub(crate) fn structure_name(function: Function, names: &Names) -> String {
     names.of(&format!("{}_t", function.name()))
 }
 
-/// Returns a quantity with its unit and its axes.
 pub(crate) fn shaped(quantity: Quantity, sizes: Sizes) -> String {
     let lengths = quantity.shape().lengths(sizes);
     let lengths: Vec<String> = lengths.map(|length| format!("[{length}]")).collect();
@@ -74,11 +69,9 @@ pub(crate) fn shaped(quantity: Quantity, sizes: Sizes) -> String {
     format!("{field}{}{rows}: {summary}", lengths.concat())
 }
 
-/// Whether the sines of a function are known to be near: of one state they are not, and in
-/// a batch the function is told.
+/// The angles of one state may be far; in a batch the function is told.
 pub(crate) const FAR: [&str; 2] = ["1", "far"];
 
-/// Returns the head of a function; of one that is told whether angles may be far, by another name.
 pub(crate) fn head(program: &Program, names: &Names, is_told: bool) -> String {
     let (function, sizes) = (program.function, program.sizes());
     let float = float(names.dialect().scalar);
@@ -115,7 +108,6 @@ pub(crate) fn head(program: &Program, names: &Names, is_told: bool) -> String {
     )
 }
 
-/// Returns the names of the results that a function writes.
 fn written(function: Function) -> Vec<&'static str> {
     match (is_number(function), is_bundle(function)) {
         (true, _) => Vec::new(),
@@ -124,7 +116,6 @@ fn written(function: Function) -> Vec<&'static str> {
     }
 }
 
-/// Prints the function of one state where there is one that is told more.
 pub(crate) fn single(program: &Program, names: &Names) -> String {
     let function = program.function;
     let called = names.of(&format!("{function}_any"));
@@ -136,7 +127,6 @@ pub(crate) fn single(program: &Program, names: &Names) -> String {
     format!("{head}\n{{\n    {back}{called}({passed});\n}}\n")
 }
 
-/// Returns where the numbers of a result go, in their order; none of a number that is returned.
 fn targets(program: &Program) -> Vec<String> {
     let (function, sizes) = (program.function, program.sizes());
     if is_number(function) {
@@ -150,13 +140,11 @@ fn targets(program: &Program) -> Vec<String> {
     fields.collect()
 }
 
-/// Returns true if the function is told that angles may be far, for which the crate's algorithm
-/// calls others: in batches that are vectors, where calls would be in the way.
+/// The crate's algorithm calls others for far angles: calls would be in the way of vectors.
 pub(crate) fn is_told(code: &Code, names: &Names) -> bool {
     names.language() == Language::C && trig::taken(code).next().is_some()
 }
 
-/// Prints the function.
 pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool) -> String {
     let dialect = names.dialect();
     let far = FAR[usize::from(is_told)];
@@ -222,7 +210,6 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
     text
 }
 
-/// Returns the names of what is taken of an angle, and whether each is its sine.
 fn taken(pair: &Pair) -> impl Iterator<Item = (String, bool)> {
     let sine = pair.need.sin.then_some((Input::Sin(pair.joint), true));
     let cosine = pair.need.cos.then_some((Input::Cos(pair.joint), false));

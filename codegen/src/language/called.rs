@@ -13,7 +13,6 @@ use super::names::{Names, float};
 use super::{Language, list, trig};
 use crate::program::Code;
 
-/// The angles of a call, in the order of their sines.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Called {
     /// The first, where they are positions of neighbouring joints, as they stand in `q`.
@@ -22,8 +21,8 @@ pub(crate) struct Called {
 }
 
 impl Called {
-    /// Returns the call of a function, if it has one. In CUDA, and in a function that batches
-    /// call, vectors are made of states, and each angle has a call of its own.
+    /// In CUDA, and in a function that batches call, vectors are made of states, and each angle has
+    /// a call of its own.
     pub(crate) fn of(code: &Code, joints: usize, names: &Names, is_told: bool) -> Option<Called> {
         let angles: Vec<usize> = trig::taken(code).map(|pair| pair.joint).collect();
         if is_told || names.language() != Language::C || angles.is_empty() {
@@ -35,8 +34,7 @@ impl Called {
         }))
     }
 
-    /// Returns the angles of neighbouring joints: an even number, if that takes one joint more at
-    /// the most, since vectors hold two or four.
+    /// An even number, if that takes one joint more at the most, since vectors hold two or four.
     fn neighbours(own: &[usize], joints: usize) -> Option<Called> {
         let (mut first, mut last) = (*own.iter().min()?, *own.iter().max()?);
         let is_odd = |count: usize| count > 1 && count % 2 == 1;
@@ -54,12 +52,10 @@ impl Called {
         })
     }
 
-    /// Returns the name of the function that is called.
     pub(crate) fn name(count: usize, names: &Names) -> String {
         names.of(&format!("sines_{count}"))
     }
 
-    /// Returns the lines of the call.
     pub(super) fn lines(&self, names: &Names) -> Vec<String> {
         let (float, count) = (float(names.dialect().scalar), self.angles.len());
         let mut lines = Vec::new();
@@ -77,7 +73,6 @@ impl Called {
         lines
     }
 
-    /// Returns what stands for the sine, or else the cosine, of one of the angles.
     pub(super) fn value(&self, joint: usize, is_sine: bool) -> Option<String> {
         let place = self.angles.iter().position(|own| *own == joint)?;
         let array = if is_sine { "sines" } else { "cosines" };

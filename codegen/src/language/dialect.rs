@@ -8,26 +8,19 @@ use crate::program::{Code, Input, Literal, Operation, ScalarType};
 /// The words of a language for one scalar. In a pattern, `{}` stands for a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Dialect {
-    /// The scalar that literals and calls are of.
     pub scalar: ScalarType,
-    /// What a function of the file begins with, before its result.
     pub function: &'static str,
-    /// The line that gives a value its name: name, value.
     pub declaration: &'static str,
-    /// A product: two factors.
     pub product: &'static str,
     /// A product and the sum that takes it: two factors, addend.
     pub fused: &'static str,
-    /// A factor that is negated.
     pub negative: &'static str,
-    /// A literal: its digits.
     pub literal: &'static str,
     /// The array of an argument that has a type of its own: its name, twice.
     pub array: &'static str,
 }
 
 impl Dialect {
-    /// Returns Rust.
     pub(crate) const fn rust(scalar: ScalarType) -> Dialect {
         Dialect {
             scalar,
@@ -49,7 +42,6 @@ impl Dialect {
         }
     }
 
-    /// Returns C99.
     pub(crate) const fn c99(scalar: ScalarType) -> Dialect {
         Dialect {
             scalar,
@@ -63,9 +55,8 @@ impl Dialect {
         }
     }
 
-    /// Returns CUDA: C, but for what a function begins with and for products, which a compiler for
-    /// the device makes one operation with a sum unless they say that they are rounded: a macro, an
-    /// intrinsic on the device and `*` elsewhere.
+    /// C, but for the words in front of a function and for products: the device's compiler fuses
+    /// them with sums, unless they say that they are rounded.
     pub(crate) const fn cuda(scalar: ScalarType) -> Dialect {
         Dialect {
             function: "static __host__ __device__ inline",
@@ -74,12 +65,10 @@ impl Dialect {
         }
     }
 
-    /// Returns the line that gives a value its name.
     pub(crate) fn declare(&self, name: &str, value: &str) -> String {
         filled(self.declaration, &[name, value])
     }
 
-    /// Returns an operation on two operands.
     pub(crate) fn operation(&self, operation: Operation, left: &str, right: &str) -> String {
         match operation {
             Operation::Mul => filled(self.product, &[left, right]),
@@ -87,7 +76,6 @@ impl Dialect {
         }
     }
 
-    /// Returns a call of a library's function.
     pub(crate) fn call(&self, path: &str, function: &str, argument: &str) -> String {
         let separator = if path.is_empty() { "" } else { "::" };
         let suffix = self.scalar.math_suffix();
@@ -99,24 +87,20 @@ impl Dialect {
         self.digits(&value.text(self.scalar))
     }
 
-    /// Returns a literal of these digits.
     pub(crate) fn digits(&self, digits: &str) -> String {
         filled(self.literal, &[digits])
     }
 }
 
-/// The lines of straight-line code in a language: one an operation.
 pub(crate) struct Lines<'c, I> {
     dialect: Dialect,
     dag: &'c Dag<Literal, I>,
     numbers: Vec<Option<usize>>,
-    /// What an operation's name begins with, before its number.
     prefix: String,
     input: Box<dyn Fn(&I) -> String + 'c>,
 }
 
 impl<'c> Lines<'c, Input> {
-    /// Returns the lines of a program.
     pub(crate) fn new(dialect: Dialect, code: &'c Code) -> Lines<'c, Input> {
         Lines {
             dialect,
@@ -135,7 +119,6 @@ impl<'c> Lines<'c, Input> {
 }
 
 impl<'c> Lines<'c, Angle> {
-    /// Returns the lines of the polynomials of an angle.
     pub(crate) fn of_kernel(
         dialect: Dialect,
         kernel: &'c Kernel,
@@ -153,7 +136,6 @@ impl<'c> Lines<'c, Angle> {
 }
 
 impl<I> Lines<'_, I> {
-    /// Returns the name or literal of a node.
     pub(crate) fn operand(&self, id: Id) -> String {
         match self.dag.node(id) {
             Node::Input(input) => (self.input)(input),
@@ -165,26 +147,23 @@ impl<I> Lines<'_, I> {
         }
     }
 
-    /// Returns a result.
     pub(crate) fn result(&self, output: Edge) -> String {
         let sign = if output.negative { "-" } else { "" };
         format!("{sign}{}", self.operand(output.node))
     }
 
-    /// Lists the results.
     pub(crate) fn results(&self) -> impl Iterator<Item = String> {
         self.dag.outputs.iter().map(|output| self.result(*output))
     }
 
-    /// Lists the lines.
     pub(crate) fn statements(&self) -> impl Iterator<Item = String> {
         self.dag
             .operations()
             .filter_map(|(id, ..)| self.statement(id))
     }
 
-    /// Returns an operation as one line: `let t3 = t1 * s2;`, or `let t5 = t3.mul_add(s2,
-    /// t1);` for a sum and the product that it takes, which has no line of its own.
+    /// `let t3 = t1 * s2;`, or `let t5 = t3.mul_add(s2, t1);` for a sum and the product that it
+    /// takes, which has no line of its own.
     pub(crate) fn statement(&self, id: Id) -> Option<String> {
         let Node::Apply(operation, operands) = self.dag.node(id) else {
             return None;
@@ -213,7 +192,6 @@ impl<I> Lines<'_, I> {
     }
 }
 
-/// Fills a pattern.
 fn filled(pattern: &str, parts: &[&str]) -> String {
     let mut pieces = pattern.split("{}");
     let mut text = pieces.next().unwrap_or_default().to_owned();

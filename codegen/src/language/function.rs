@@ -1,8 +1,7 @@
 //! One program as one flat function.
 //!
-//! One operation a line, so that the printed text can be read back and
-//! compared with the program operation by operation. Long functions are cut
-//! into blocks (see [`BLOCK`]); names stay unique.
+//! One operation a line, so that the printed text can be read back and compared with the program
+//! operation by operation. Long functions are cut into blocks (see [`BLOCK`]); names stay unique.
 
 use crate::dag::Id;
 use crate::function::{Argument, Function, Sizes};
@@ -11,23 +10,16 @@ use crate::language::result::{self, array_type};
 use crate::language::{comment, list, trig};
 use crate::program::{Code, Input, Library, Program, ScalarType};
 
-/// A function of more operations than this is printed in blocks.
 pub(crate) const FLAT: usize = 1000;
 
-/// Operations a block.
-///
-/// To rustc each `let` opens a scope inside the one before, and its debug
-/// information walks them recursively: somewhere above 2 000 it overflows the
-/// compiler's stack. A block closes its scopes.
+/// To rustc each `let` opens a scope inside the one before, and its debug information walks them
+/// recursively: somewhere above 2 000 it overflows the compiler's stack. A block closes its scopes.
 pub(crate) const BLOCK: usize = 500;
 
-/// The name of the load's type in a module.
 pub(crate) const LOAD: &str = "Load";
 
-/// The name of a payload's type.
 pub(crate) const PAYLOAD: &str = "Payload";
 
-/// The name of the type of gravity, where it is an argument.
 pub(crate) const GRAVITY: &str = "Gravity";
 
 /// Prints the function, whose roots are this library's; `doc` stands above it, one line an item.
@@ -49,7 +41,6 @@ pub fn write(program: &Program, code: &Code, library: Library, doc: &[String]) -
     text
 }
 
-/// Prints the arithmetic, in blocks if it is long.
 pub(super) fn write_steps(text: &mut String, code: &Code, dialect: Dialect) {
     let lines = Lines::new(dialect, code);
     let ids: Vec<Id> = code.dag.operations().map(|(id, ..)| id).collect();
@@ -96,11 +87,9 @@ fn last_uses(code: &Code) -> Vec<Id> {
     last
 }
 
-/// Returns the signature, without a brace.
 fn signature(program: &Program, code: &Code) -> String {
     let (function, sizes, scalar) = (program.function, program.sizes(), code.scalar);
     let arguments = program.arguments.iter().map(|&argument| {
-        // An argument that this robot's function does not depend on.
         let is_read = reads(code, argument);
         let mark = if is_read { "" } else { "_" };
         let kind = argument_type(argument, sizes, scalar);
@@ -111,8 +100,7 @@ fn signature(program: &Program, code: &Code) -> String {
     format!("pub fn {name}({arguments}) -> {result}")
 }
 
-/// Returns the type of an argument: an array, which has a name where it is no joint vector, so that
-/// none is passed for another of as many numbers.
+/// An array that is no joint vector has a name, so that none is passed for another.
 fn argument_type(argument: Argument, sizes: Sizes, scalar: ScalarType) -> String {
     match argument {
         Argument::Gravity => GRAVITY.to_owned(),
@@ -122,7 +110,6 @@ fn argument_type(argument: Argument, sizes: Sizes, scalar: ScalarType) -> String
     }
 }
 
-/// Returns what it returns.
 pub(crate) fn result_type(function: Function, sizes: Sizes, scalar: ScalarType) -> String {
     match function.structure() {
         Some(name) => name.to_owned(),
@@ -131,13 +118,12 @@ pub(crate) fn result_type(function: Function, sizes: Sizes, scalar: ScalarType) 
     }
 }
 
-/// Returns whether the code depends on an argument.
 pub(super) fn reads(code: &Code, argument: Argument) -> bool {
     let is = |input: &Input| input.argument() == argument;
     (argument == Argument::Position && !code.pairs.is_empty()) || code.dag.inputs().any(is)
 }
 
-/// Returns whether an entry of the argument is read; a sine is none.
+/// Sines of the argument do not count.
 pub(super) fn reads_entry(code: &Code, argument: Argument) -> bool {
     code.dag.inputs().any(|input| match input {
         Input::Entry(read, _) => *read == argument,

@@ -64,8 +64,7 @@ impl Language {
         })
     }
 
-    /// Returns the scalars that are taken where nobody says which: f64 in Rust, where each has a
-    /// file of its own, else both.
+    /// Returns the default scalars: f64 in Rust, where each has a file of its own, else both.
     pub fn scalars(self) -> &'static [ScalarType] {
         match self {
             Language::Rust => &[ScalarType::F64],
@@ -74,12 +73,10 @@ impl Language {
     }
 }
 
-/// Returns items with commas between them.
 pub(crate) fn list(items: impl Iterator<Item = String>) -> String {
     items.collect::<Vec<String>>().join(", ")
 }
 
-/// Returns lines behind the mark of a comment.
 pub(crate) fn comment(mark: &str, lines: &[String]) -> String {
     let marked = lines.iter().map(|line| match line.as_str() {
         "" => format!("{mark}\n"),

@@ -11,7 +11,6 @@ use crate::program::ScalarType;
 /// The most characters of a name: compilers need not tell longer ones apart.
 pub(crate) const LONGEST: usize = 31;
 
-/// Words that are shortened in names that would be too long.
 const SHORT: [(&str, &str); 19] = [
     ("inverse", "inv"),
     ("forward", "fwd"),
@@ -34,8 +33,7 @@ const SHORT: [(&str, &str); 19] = [
     ("wrench", "wr"),
 ];
 
-/// Words that are shortened in names that are still too long: `id` and `fd` are the inverse and the
-/// forward dynamics.
+/// For names that are still too long; `id` and `fd` are the inverse and the forward dynamics.
 const SHORTER: [(&str, &str); 12] = [
     ("inv_dyn_", "id_"),
     ("fwd_dyn_", "fd_"),
@@ -69,12 +67,10 @@ impl Names {
         }
     }
 
-    /// Returns the language.
     pub(super) fn language(&self) -> Language {
         self.language
     }
 
-    /// Returns how its functions are written.
     pub(crate) fn dialect(&self) -> Dialect {
         match self.language {
             Language::Cuda => Dialect::cuda(self.scalar),
@@ -98,7 +94,6 @@ impl Names {
         fits.unwrap_or_else(|| name(&shorter))
     }
 
-    /// Returns all names of a function, by which its text is found.
     pub(crate) fn symbols(&self, function: Function) -> Symbols {
         let infix = self.scalar.of("", "_f32");
         Symbols {
@@ -112,13 +107,11 @@ impl Names {
         }
     }
 
-    /// Returns a macro, which both scalars share.
     pub(crate) fn constant(&self, word: &str) -> String {
         format!("{}_{word}", self.base.to_uppercase())
     }
 }
 
-/// Returns the scalar's type.
 pub(crate) fn float(scalar: ScalarType) -> &'static str {
     scalar.of("double", "float")
 }

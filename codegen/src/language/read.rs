@@ -61,8 +61,7 @@ impl<'a> Signature<'a> {
 }
 
 impl Code {
-    /// Reads a function out of a module's text, by its names in C or CUDA, and its function of any
-    /// number of states if it has one.
+    /// Reads a function out of a module's text, with its function of many states if it has one.
     ///
     /// # Errors
     /// The first line that is not of such a function.
@@ -88,7 +87,6 @@ impl Code {
     }
 }
 
-/// Returns what was read as code.
 fn code(read: read::Function, scalar: ScalarType) -> Result<Code, TextError> {
     let mut libraries = read.sines.iter().filter_map(|own| match own.source {
         Source::Libm => Some(Library::Libm),
@@ -129,7 +127,6 @@ fn code(read: read::Function, scalar: ScalarType) -> Result<Code, TextError> {
     })
 }
 
-/// Returns an operand that is neither a constant nor a step.
 pub(crate) fn input<C>(operand: &Read<C>) -> Input {
     match operand {
         Read::Entry(argument, index) => Input::Entry(Argument::ALL[*argument], *index),
@@ -140,7 +137,6 @@ pub(crate) fn input<C>(operand: &Read<C>) -> Input {
     }
 }
 
-/// Returns the graph of straight-line code.
 pub(crate) fn graph<V, C: Clone + Eq + Hash, I: Clone + Eq + Hash>(
     program: &straight::Program<V>,
     constant: impl Fn(&V) -> C,

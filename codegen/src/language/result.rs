@@ -4,7 +4,6 @@ use crate::function::{Function, Quantity, Sizes};
 use crate::language::list;
 use crate::program::ScalarType;
 
-/// Returns the array type of a quantity: `[[f64; 6]; 6]` for a matrix over the joints.
 pub(crate) fn array_type(quantity: Quantity, sizes: Sizes, scalar: ScalarType) -> String {
     let lengths = quantity.shape().lengths(sizes).rev();
     lengths.fold(scalar.name().to_owned(), |inner, length| {
@@ -12,7 +11,6 @@ pub(crate) fn array_type(quantity: Quantity, sizes: Sizes, scalar: ScalarType) -
     })
 }
 
-/// Returns the struct that a function returns, if it does.
 pub(crate) fn structure(function: Function, sizes: Sizes, scalar: ScalarType) -> Option<String> {
     let name = function.structure()?;
     let mut text = format!("/// What [`{function}`] returns.\n");
@@ -27,8 +25,6 @@ pub(crate) fn structure(function: Function, sizes: Sizes, scalar: ScalarType) ->
     Some(text)
 }
 
-/// Prints a result of these entries, in their order, as the last expression of
-/// a function.
 pub(super) fn write(
     text: &mut String,
     function: Function,
@@ -38,7 +34,6 @@ pub(super) fn write(
     match function.structure() {
         None => {
             let lengths: Vec<usize> = function.quantities()[0].shape().lengths(sizes).collect();
-            // A load is of a type of its own.
             let [before, after] = match function {
                 Function::Load => ["Load(", ")"],
                 _ => [""; 2],
@@ -60,7 +55,6 @@ pub(super) fn write(
     }
 }
 
-/// Writes an array of these lengths, the outermost first; a number without any.
 fn write_array(
     text: &mut String,
     items: &mut impl Iterator<Item = String>,

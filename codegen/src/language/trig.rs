@@ -18,7 +18,6 @@ use crate::language::list;
 use crate::program::kernel::Kernel;
 use crate::program::{Code, Input, Library, Literal, Operation, Pair};
 
-/// Prints them.
 pub(super) fn write(text: &mut String, code: &Code) {
     let dialect = Dialect::rust(code.scalar);
     write_each(text, code, dialect, |function, angle| {
@@ -33,7 +32,6 @@ pub(super) fn write(text: &mut String, code: &Code) {
     }
 }
 
-/// Prints those that are computed angle by angle; `call` is that of a function of the library.
 pub(super) fn write_each(
     text: &mut String,
     code: &Code,
@@ -57,7 +55,6 @@ pub(super) fn write_each(
     }
 }
 
-/// Prints the block of the polynomials of an angle, an operation a line.
 fn write_kernel(text: &mut String, names: &str, angle: &str, kernel: &Kernel, dialect: Dialect) {
     let lines = Lines::of_kernel(dialect, kernel, angle, "x");
     *text += &format!("    let {names} = {{\n");
@@ -71,23 +68,18 @@ fn write_kernel(text: &mut String, names: &str, angle: &str, kernel: &Kernel, di
     *text += &format!("        {result}\n    }};\n");
 }
 
-/// Returns the operand that sines are taken of.
 pub(super) fn operand(joint: usize) -> String {
     format!("q[{joint}]")
 }
 
-/// Returns true if one call gives an angle's sines with others.
 fn is_together(pair: &Pair, code: &Code) -> bool {
     code.library == Library::Together && pair.kernel.is_none()
 }
 
-/// Lists the angles whose sines one call gives.
 pub(super) fn taken(code: &Code) -> impl Iterator<Item = &Pair> {
     code.pairs.iter().filter(|pair| is_together(pair, code))
 }
 
-/// Lists the names of the sines, and of the cosines, of angles that one call gives; what is not
-/// needed gets no name.
 pub(super) fn taken_names(code: &Code) -> [String; 2] {
     let name = |is_needed: bool, input: Input| match is_needed {
         true => input.name(),
@@ -98,8 +90,7 @@ pub(super) fn taken_names(code: &Code) -> [String; 2] {
     [list(sines), list(cosines)]
 }
 
-/// Prints what Coulomb friction reads of speeds: one over the smoothed speed of a joint,
-/// `let r2 = 1.0 / libm::sqrt(qd[1] * qd[1] + 0.0001);`. Roots are correctly rounded, whoever
+/// `let r2 = 1.0 / libm::sqrt(qd[1] * qd[1] + 0.0001);` Roots are correctly rounded, whoever
 /// computes them.
 pub(super) fn write_speeds(text: &mut String, dialect: Dialect, code: &Code, path: &str) {
     let one = dialect.literal(Literal(1.0));

@@ -74,7 +74,6 @@ fn refused(fault: Fault) -> Complaint {
 }
 
 impl Entry {
-    /// Returns the claim of the program, and of its variant if there is one.
     fn claimed(&self, constants: &mut Written) -> Claimed {
         let (exact, edited) = (&self.program, self.edited.as_ref());
         let emitted = edited.map_or(exact, |edited| &edited.program);
@@ -117,7 +116,6 @@ impl Entry {
     }
 }
 
-/// Reads an entry.
 fn entry(own: &Claimed, constants: &[Exact]) -> Result<Entry, Complaint> {
     let unknown = |what: &str, word: &str| complaint(format!("`{word:.40}` is no {what}"));
     let planned = (own.planned.as_ref())
@@ -176,7 +174,6 @@ fn entry(own: &Claimed, constants: &[Exact]) -> Result<Entry, Complaint> {
     })
 }
 
-/// Gives a program the arguments of a claim; returns the parameters of the robot among them.
 fn taken(own: &Claimed, empty: &mut Program) -> Result<Vec<RuntimeParameter>, Complaint> {
     let all = RuntimeParameter::ALL.map(RuntimeParameter::argument);
     empty.arguments.extend(all);
@@ -191,7 +188,6 @@ fn taken(own: &Claimed, empty: &mut Program) -> Result<Vec<RuntimeParameter>, Co
     Ok(taken.filter(|own| is_taken(own.argument())).collect())
 }
 
-/// Returns the program that was read, with the arguments and results of an empty one.
 fn program(
     empty: &Program,
     read: &dalembert_checker::program::Program<Exact>,
@@ -218,7 +214,7 @@ fn program(
     }
 }
 
-/// Reads a variant. What was left out goes into documentation, in every language.
+/// Omissions go into documentation, in every language.
 fn edited(
     empty: &Program,
     emitted: &dalembert_checker::program::Program<Exact>,
@@ -241,7 +237,6 @@ fn edited(
     Ok(Edited { program, left_out })
 }
 
-/// Reads the counts after a pass.
 fn pass((name, [mul, add, div, sincos]): &(String, [usize; 4])) -> Option<Pass> {
     let name = Pass::NAMES.into_iter().find(|known| known == name)?;
     Some(Pass {

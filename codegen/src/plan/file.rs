@@ -16,10 +16,8 @@ pub fn path(robot_file: &Path) -> PathBuf {
 
 /// Makes cargo notice a plan that was not there before.
 ///
-/// A macro that was expanded without one could not name it to the compiler: of
-/// a file that is not there, nothing can be included. It did name the robot
-/// file, so that gets a new time, and everything that was made from it is made
-/// anew, with the plan.
+/// A macro that was expanded without a plan could not name it to the compiler. It did name the
+/// robot file, so that gets a new time.
 ///
 /// # Errors
 /// The robot file's time cannot be set.
@@ -28,8 +26,7 @@ pub fn announce(robot_file: &Path) -> std::io::Result<()> {
     file.set_modified(std::time::SystemTime::now())
 }
 
-/// Reads at most one byte more than a file may have, which is enough for its reader to say so; the
-/// path may be a device without end.
+/// One byte more than `most` is enough to refuse a file; the path may be a device without end.
 pub(crate) fn bytes(path: &Path, most: usize) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let file = File::open(path)?;

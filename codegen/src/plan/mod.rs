@@ -1,9 +1,8 @@
 //! Plans: final programs as claims, beside the robot file they belong to.
 //!
-//! A long search is run once; its programs, with exact constants, are kept
-//! in `<robot>.plan` and replayed: read, proved again, printed. A plan says
-//! which robot it is for by the hash of that robot, so an edited robot does
-//! not get the program of another.
+//! A long search is run once; its programs, with exact constants, are kept in `<robot>.plan` and
+//! replayed: read, proved again, printed. A plan says which robot it is for by the hash of that
+//! robot, so an edited robot does not get the program of another.
 //!
 //! - this file: [`Plan`]: its entries and how one is found
 //! - [`mod@file`]: where it is kept
@@ -26,8 +25,7 @@ use dalembert_model::scene::Scene;
 pub struct Plan {
     /// The robot's name, for readers.
     pub robot: String,
-    /// The robot's [`input_hash`](dalembert_model::robot::Robot::input_hash)
-    /// in hexadecimal.
+    /// The robot's [`input_hash`](dalembert_model::robot::Robot::input_hash) in hexadecimal.
     pub input: String,
     /// One entry a scene, list of results, formulation and scalar, and what is an argument.
     pub entries: Vec<Entry>,
@@ -63,8 +61,7 @@ pub struct Edited {
     pub left_out: Vec<Omission>,
 }
 
-/// The key of an entry, in the order of entries. Functions with the same results count as one, see
-/// [`is_same`].
+/// Functions with the same results count as one, see [`is_same`].
 type Key<'e> = (
     Option<&'e str>,
     Function,
@@ -73,13 +70,11 @@ type Key<'e> = (
     &'e [RuntimeParameter],
 );
 
-/// Returns which parameters of the robot are arguments.
 fn taken(parameters: Option<&ParametersKey>) -> &[RuntimeParameter] {
     parameters.map_or(&[], |parameters| &parameters.taken)
 }
 
-/// Tells whether two keys ask for the same program: whatever a bundle's name, and the order of its
-/// parts.
+/// A bundle's name and the order of its parts do not matter.
 fn is_same(a: Key<'_>, b: Key<'_>) -> bool {
     let [own, other] = [a.1, b.1].map(Function::quantities);
     let has_same_results =
@@ -88,7 +83,6 @@ fn is_same(a: Key<'_>, b: Key<'_>) -> bool {
 }
 
 impl Entry {
-    /// Returns the entry as that of a function with the same results.
     fn as_function(&self, function: Function) -> Option<Entry> {
         let mut entry = self.clone();
         entry.program = entry.program.as_function(function)?;
@@ -111,9 +105,8 @@ impl Entry {
 }
 
 impl Plan {
-    /// Returns the first entry for a formulation and scalar that takes the same parameters, in a
-    /// scene of this name, and has the results of a function; its program is that function's.
-    /// Whether the scene and the load's numbers are still the same, their hashes say.
+    /// Returns a scene's first entry for a formulation, a scalar and parameters, as the program of
+    /// a function with these results. Hashes tell if scene and load are still the same.
     pub fn find(
         &self,
         function: Function,

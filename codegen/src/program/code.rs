@@ -14,8 +14,7 @@ use crate::dag::{Dag, Leaves};
 use crate::function::Argument;
 use crate::states::{JointState, State};
 
-/// A program in a scalar: every constant rounded once, and how each angle's sine and cosine are
-/// computed.
+/// A program in a scalar, with every constant rounded once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Code {
     /// The scalar.
@@ -41,9 +40,8 @@ pub struct Pair {
     pub kernel: Option<Kernel>,
 }
 
-/// A joint whose r = 1/√(q̇² + w²) may be read beside the velocity: it smooths Coulomb friction over
-/// a width w. The code squares the velocity, adds the square of the width, takes the root and
-/// divides one by it.
+/// A joint whose r = 1/√(q̇² + w²) is read: it smooths Coulomb friction over a width w. The code
+/// squares the velocity, adds w², takes the root and divides one by it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Speed<C = Exact> {
     /// The joint, zero-based.
@@ -53,8 +51,7 @@ pub struct Speed<C = Exact> {
 }
 
 impl Speed<Literal> {
-    /// Returns r as the code computes it, from the velocities; none if there is none of
-    /// the joint.
+    /// Returns r as the code computes it; none if the velocities lack the joint.
     pub fn run<T: Machine>(&self, qd: &[T]) -> Option<T> {
         let qd = qd.get(self.joint)?;
         Some(per_speed(qd, &T::literal(self.square.0), |x| x.root()))
@@ -62,9 +59,7 @@ impl Speed<Literal> {
 }
 
 impl Code {
-    /// Rounds a program to a scalar, with the polynomials that there are for sines; other angles are
-    /// the library's. One that takes all angles together is called after the sines that are
-    /// computed alone.
+    /// A library that takes all angles together is called after the sines that are computed alone.
     pub(crate) fn new(
         program: &Program,
         scalar: ScalarType,
@@ -103,8 +98,7 @@ impl Code {
         self
     }
 
-    /// Returns the code with libm's sines in place of all others, to measure what rounding costs
-    /// the rest.
+    /// Returns the code with libm's sines, to measure what rounding costs the rest.
     #[must_use]
     pub fn with_libm(&self) -> Code {
         let mut other = self.clone();
@@ -131,8 +125,7 @@ impl Code {
         Some(self.dag.run(&leaves(inputs, |lanes| lanes.0[0])))
     }
 
-    /// Runs the code bit for bit at many states; returns a column a result, none if a state lacks
-    /// an entry that is read.
+    /// Runs the code at many states, as [`Code::run`]; returns a column a result.
     pub fn run_many<T: Machine>(&self, states: &[State<T>]) -> Option<Vec<Vec<T>>> {
         let mut columns = vec![Vec::with_capacity(states.len()); self.dag.outputs.len()];
         for states in states.chunks(LANES) {
@@ -167,15 +160,12 @@ impl Code {
         }
     }
 
-    /// Returns the value of each node at a state, in doubles; none where the state lacks an entry
-    /// that is read.
     pub(crate) fn values_at(&self, state: &JointState) -> Vec<f64> {
         let inputs = self.inputs::<f64>(&[state.numbers()]);
         let values = inputs.map(|inputs| self.dag.values(&leaves(inputs, |lanes| lanes.0[0])));
         values.unwrap_or_default()
     }
 
-    /// Reads what the code reads at a few states; none if a state lacks an entry of it.
     fn inputs<T: Machine>(&self, states: &[State<T>]) -> Option<BTreeMap<Input, Lanes<T>>> {
         let lanes = |argument: Argument, of: &dyn Fn(&[T]) -> Option<T>| {
             let values = states.iter().map(|state| of(&state[argument.index()]));
@@ -206,7 +196,6 @@ impl Code {
     }
 }
 
-/// Returns the leaves of code at a few states, or what is wanted of them.
 fn leaves<T: Machine, S: Divide>(
     inputs: BTreeMap<Input, Lanes<T>>,
     wanted: impl Fn(Lanes<T>) -> S + Copy,
@@ -232,7 +221,7 @@ impl Program {
 }
 
 impl Pair {
-    /// Returns sine and cosine as the code computes them; of one that it does not read, anything.
+    /// A sine or cosine that the code does not read may be anything.
     fn run<T: Machine>(&self, library: Library, angle: T) -> (T, T) {
         match &self.kernel {
             Some(kernel) => kernel.run(angle),

@@ -4,8 +4,8 @@ use super::{Code, Steps};
 use crate::words::{Complaint, complaint};
 
 impl Code {
-    /// Returns the first difference from other code; none if they compute the same, operation by
-    /// operation, in whatever order their constants and inputs stand.
+    /// Returns the first difference from other code; the order of constants and inputs does not
+    /// count.
     pub fn difference(&self, other: &Code) -> Option<Complaint> {
         let (a, b) = (self, other);
         let counts = [a, b].map(|code| code.dag.operations().count());
@@ -67,7 +67,6 @@ mod tests {
         }
     }
 
-    /// Whatever is changed, it is other code, and said where; but not the order of what is read.
     #[test]
     fn other_code_differs() {
         type Change = (fn(&mut Code), &'static str);

@@ -42,21 +42,17 @@ pub struct Kernel {
     pub dag: Dag<Literal, Angle>,
 }
 
-/// Writes a kernel.
 pub(crate) type KernelWriter = Writer<Literal, Angle>;
 
 impl KernelWriter {
-    /// Returns the angle.
     pub(crate) fn angle(&mut self) -> Id {
         self.leaf(Node::Input(Angle))
     }
 
-    /// Returns a literal.
     pub(crate) fn literal(&mut self, value: f64) -> Id {
         self.leaf(Node::Constant(Literal(value)))
     }
 
-    /// Returns left·right
     pub(crate) fn mul(&mut self, left: Id, right: Id) -> Id {
         self.apply(Operation::Mul, [left, right])
     }
@@ -88,8 +84,6 @@ impl KernelWriter {
         sum
     }
 
-    /// Returns the kernel with these results, as far as they are wanted, and without what none of
-    /// them needs.
     pub(crate) fn kernel(self, need: Need, results: [Edge; 2]) -> Kernel {
         let wanted = results.into_iter().zip([need.sin, need.cos]);
         let wanted = wanted.filter_map(|(result, is_wanted)| is_wanted.then_some(result));

@@ -32,8 +32,7 @@ pub trait Machine: Divide + Copy {
     fn root(self) -> Self;
     /// Returns both at once.
     fn sincos(self) -> (Self, Self);
-    /// Returns both, where the code calls for all angles together: an angle's bits do
-    /// not depend on the others.
+    /// Returns both for code that calls for all angles together; each angle's bits are its own.
     fn together(self) -> (Self, Self);
 }
 

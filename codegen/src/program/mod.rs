@@ -71,15 +71,13 @@ impl Program {
         }
     }
 
-    /// Returns the program of another graph with the same arguments and results, in the order in
-    /// which code is printed.
+    /// Returns the program of another graph with the same arguments and results, in print order.
     #[must_use]
     pub fn with_graph(&self, graph: &Dag) -> Program {
         self.with_code(graph.scheduled())
     }
 
-    /// Returns the program of another graph with the same arguments and results, its operations in
-    /// their order. A constant that is a result has its own sign.
+    /// The operations keep their order. A constant that is a result has its own sign.
     #[must_use]
     pub(crate) fn with_code(&self, mut graph: Dag) -> Program {
         for edge in &mut graph.outputs {
@@ -99,8 +97,7 @@ impl Program {
         program.with_speeds(self.speeds.clone())
     }
 
-    /// Returns the program as that of a function with the same results, by another name or in
-    /// another order; `None` if a result is missing.
+    /// `function` may have another name or order; `None` if it has a result that is missing here.
     pub(crate) fn as_function(&self, function: Function) -> Option<Program> {
         let sizes = self.sizes();
         let mut rest = self.dag.outputs.as_slice();
@@ -126,14 +123,12 @@ impl Program {
         self.with_code(self.dag.fused())
     }
 
-    /// Returns the program with these speeds, as far as it reads them.
     #[must_use]
     pub(crate) fn with_speeds(self, speeds: Vec<Speed>) -> Program {
         let speeds = self.read(speeds);
         Program { speeds, ..self }
     }
 
-    /// Returns those of the speeds that the program reads.
     pub(crate) fn read(&self, mut speeds: Vec<Speed>) -> Vec<Speed> {
         let read = |joint| {
             self.dag
@@ -204,7 +199,6 @@ impl Program {
     }
 }
 
-/// Returns whether a program computes D.
 pub(crate) fn has_inertia(program: &Program) -> bool {
     let mut quantities = program.function.quantities().iter();
     quantities.any(|quantity| quantity.facts().definite)

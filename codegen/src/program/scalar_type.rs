@@ -19,7 +19,6 @@ words! {
 }
 
 impl ScalarType {
-    /// Returns the first value for f64, the second for f32.
     pub(crate) const fn of<T: Copy>(self, double: T, single: T) -> T {
         match self {
             ScalarType::F64 => double,
@@ -42,8 +41,7 @@ impl ScalarType {
         self.of(f64::MIN_POSITIVE, f32::MIN_POSITIVE.into())
     }
 
-    /// Returns the constant, rounded once from its exact value, as a double that
-    /// holds the rounded value exactly.
+    /// Rounds a constant once from its exact value; the double holds the rounded value exactly.
     pub fn round(self, value: &Exact) -> f64 {
         match self {
             ScalarType::F64 => f64::nearest(value),
@@ -51,7 +49,6 @@ impl ScalarType {
         }
     }
 
-    /// Returns a fraction, rounded once, as a double that holds the rounded value exactly.
     pub(crate) fn round_rational(self, value: &Rational) -> f64 {
         match self {
             ScalarType::F64 => f64::nearest_rational(value),
@@ -64,8 +61,7 @@ impl ScalarType {
         self.of(value, f64::from(value as f32))
     }
 
-    /// Returns the least number of the type that is not below a value, as a double
-    /// that holds it exactly.
+    /// Returns the least number of the type that is not below a value.
     pub fn above(self, value: f64) -> f64 {
         match self {
             ScalarType::F64 => value,
@@ -103,8 +99,7 @@ pub(crate) fn underflow(scalar: ScalarType) -> f64 {
     scalar.of(f64::from_bits(1), f64::from(f32::from_bits(1)) / 2.0)
 }
 
-/// A literal's value in the code's scalar, held exactly. Equal are equal bits:
-/// −0.0 is not 0.0.
+/// A literal's value in the code's scalar, held exactly. Equal are equal bits: −0.0 is not 0.0.
 #[derive(Clone, Copy, Debug)]
 pub struct Literal(pub f64);
 

@@ -115,7 +115,6 @@ impl Dag {
 }
 
 impl<C: Clone, I: Clone> Operand<C, I> {
-    /// Returns the operand where steps have moved to these places.
     pub(crate) fn moved(&self, place: &[usize]) -> Self {
         match self {
             Operand::Step(step) => Operand::Step(place.get(*step).copied().unwrap_or(usize::MAX)),

@@ -15,7 +15,6 @@ use crate::program::Operation;
 struct Sieve(Vec<u64>);
 
 impl Sieve {
-    /// Makes a sieve that lets one in eight of other keys pass.
     fn new(keys: usize) -> Sieve {
         Sieve(vec![0; (8 * keys).next_power_of_two().max(64) / 64])
     }
@@ -44,7 +43,6 @@ fn key(x: Field) -> Field {
     x.min(x.neg())
 }
 
-/// Visits the key of every sum, difference and product of the pool.
 fn pairs_of(pool: &[(Class, Field)], mut visit: impl FnMut(Field, Way)) {
     for (index, &(a, x)) in pool.iter().enumerate() {
         for &(b, y) in &pool[index..] {
@@ -61,7 +59,6 @@ fn keyed(classes: &Classes, pool: &[Class]) -> Vec<(Class, Field)> {
         .collect()
 }
 
-/// Tries every pair of the pool for every class.
 pub(super) fn pairs(classes: &mut Classes, pool: &[Class]) {
     // A finer one than others: whatever passes costs a print and a look-up.
     let mut known = Sieve::new(8 * classes.ids().len());
@@ -77,9 +74,8 @@ pub(super) fn pairs(classes: &mut Classes, pool: &[Class]) {
     found.into_iter().for_each(|way| classes.offer(way, None));
 }
 
-/// Tries (a ∘ b) ∘ c for every class y of the pool over the pool: y ∓ c or y / c then has the key
-/// of a pair. Of all these keys, hundreds of thousands, only those come into a map that are met
-/// twice.
+/// If y = (a ∘ b) ∘ c, then y ∓ c or y / c has the key of a pair. Only those of hundreds of
+/// thousands of such keys that are met twice come into a map.
 pub(super) fn resubstitute(classes: &mut Classes, pool: &[Class]) {
     let keys = keyed(classes, pool);
     let inverses = keys.iter().filter_map(|&(c, z)| Some((c, z.inverse()?)));

@@ -16,9 +16,7 @@ words! {
     }
 }
 
-/// A program of at most so many operations is a small one.
 const SMALL: usize = 250;
-/// A program of at most so many is searched for twice by a quick search.
 const TINY: usize = 170;
 /// A program of at most so many is searched for from its start more than once where time is not
 /// short: the slopes of a PUMA's torques come out with 1003 to 1008 operations.
@@ -33,8 +31,7 @@ pub struct Limits {
     pub rounds: usize,
     /// Rounds without a gain before a walk ends.
     pub patience: usize,
-    /// The most classes among which all pairs are tried, if the program's own are not more; none are
-    /// tried where it is zero.
+    /// The most classes that are paired, if the program's own are not more; zero pairs none.
     pub pairs: usize,
     /// The most classes among which two-operation substitutes are tried.
     pub substitutes: usize,
@@ -45,7 +42,6 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// Those of a single round without rules or annealing: what a program is about worth.
     pub(super) const GLANCE: Limits = Limits {
         walks: 1,
         rounds: 1,

@@ -28,7 +28,6 @@ define_language! {
 /// One way to compute a class. Operands ascend, except those of a quotient.
 pub(super) type Way = (Operation, [Class; 2]);
 
-/// Returns the way of an operation on two classes.
 #[inline]
 pub(super) fn way(op: Operation, [a, b]: [Class; 2]) -> Way {
     match op != Operation::Div && b < a {
@@ -38,7 +37,6 @@ pub(super) fn way(op: Operation, [a, b]: [Class; 2]) -> Way {
 }
 
 impl ENode {
-    /// Returns the way of an e-node; none of a leaf.
     pub(super) fn way(&self) -> Option<Way> {
         match *self {
             ENode::Add(ends) => Some((Operation::Add, ends)),
@@ -59,16 +57,12 @@ impl ENode {
     }
 }
 
-/// The class and the fingerprint of each e-node.
 #[derive(Clone, Default)]
 pub(super) struct Prints {
     prints: Vec<Fingerprint>,
-    /// The leaf that each class is.
     leaf: Vec<Option<u32>>,
-    /// Leaves with their fingerprints.
     leaves: Vec<(Node, Fingerprint)>,
     by_print: FxHashMap<Fingerprint, Class>,
-    /// Classes, first made first.
     roots: Vec<Class>,
 }
 
@@ -99,7 +93,6 @@ impl Analysis<ENode> for Prints {
         match root == id {
             true if own.roots.last() < Some(&id) => own.roots.push(id),
             true => {
-                // A leaf needs no operation any more.
                 if let Some(leaf) = own.leaf[usize::from(id)] {
                     egraph[id].nodes = vec![ENode::Leaf(leaf)];
                 }
@@ -128,7 +121,6 @@ pub(super) struct Printed<'a> {
 }
 
 impl<'a> Printed<'a> {
-    /// Reads a graph.
     pub(super) fn new(dag: &'a Dag) -> Printed<'a> {
         Printed {
             dag,
@@ -144,10 +136,8 @@ fn flip(value: Signed, negative: bool) -> Signed {
     value.map(|(class, sign)| (class, sign != negative))
 }
 
-/// A program: the way of each class, by the index of the class.
 pub(super) type Choice = Vec<Option<Way>>;
 
-/// All classes of one function.
 #[derive(Default)]
 pub(super) struct Classes {
     egraph: EGraph<ENode, Prints>,
@@ -155,22 +145,18 @@ pub(super) struct Classes {
 }
 
 impl Classes {
-    /// Returns the classes, first made first.
     pub(super) fn ids(&self) -> &[Class] {
         &self.egraph.analysis.roots
     }
 
-    /// Returns a number above the index of every class.
     pub(super) fn bound(&self) -> usize {
         self.egraph.nodes().len()
     }
 
-    /// Returns the canonical print of a class.
     pub(super) fn print(&self, class: Class) -> &Fingerprint {
         &self.egraph.analysis.prints[usize::from(class)]
     }
 
-    /// Returns the print of a way.
     pub(super) fn way_print(&self, way: Way) -> Fingerprint {
         self.egraph.analysis.way_print(way)
     }
@@ -181,14 +167,12 @@ impl Classes {
         own.leaf[usize::from(class)].map(|leaf| &own.leaves[leaf as usize].0)
     }
 
-    /// Returns the class of a print.
     pub(super) fn find(&self, print: &Fingerprint) -> Signed {
         let (canonical, negative) = print.canonical();
         let class = self.egraph.analysis.by_print.get(&canonical)?;
         Some((*class, negative))
     }
 
-    /// Returns every way with the class that it computes, in the order they were added.
     pub(super) fn ways(&self) -> impl Iterator<Item = (Class, Way)> {
         let nodes = self.egraph.nodes().iter().enumerate();
         nodes.filter_map(|(place, node)| {
@@ -198,8 +182,7 @@ impl Classes {
         })
     }
 
-    /// Returns where each pattern matches. All are sought at once: egg puts every class in order
-    /// before it can be searched.
+    /// All are sought at once: egg puts every class in order before it can be searched.
     pub(super) fn matches<'p>(
         &mut self,
         patterns: impl Iterator<Item = &'p Pattern<ENode>>,
@@ -208,7 +191,6 @@ impl Classes {
         patterns.map(|own| own.search(&self.egraph)).collect()
     }
 
-    /// Adds a leaf with its fingerprint.
     fn add_leaf(&mut self, leaf: &Node, print: &Fingerprint) -> Signed {
         if *print == Fingerprint::zero() {
             return None;
@@ -230,13 +212,11 @@ impl Classes {
         }
     }
 
-    /// Adds a way; returns its class with the sign of the result.
     pub(super) fn add(&mut self, way: Way) -> Signed {
         let print = self.way_print(way);
         self.add_printed(way, &print, self.find(&print))
     }
 
-    /// Adds a way with its print, and the class that is known by this.
     fn add_printed(&mut self, way: Way, print: &Fingerprint, known: Signed) -> Signed {
         if let (Some(Node::Constant(a)), Some(Node::Constant(b))) =
             (self.leaf(way.1[0]), self.leaf(way.1[1]))
@@ -262,7 +242,6 @@ impl Classes {
         }
     }
 
-    /// Adds the nodes of a graph; returns the class of each and the ways of the graph.
     pub(super) fn absorb(&mut self, graph: &Printed) -> (Vec<Signed>, Choice) {
         let Printed { dag, prints } = graph;
         let mut values: Vec<Signed> = Vec::with_capacity(dag.nodes.len());
@@ -302,7 +281,6 @@ impl Classes {
         (values, choice)
     }
 
-    /// Adds the graph whose outputs are wanted; returns its classes and its ways.
     pub(super) fn begin(&mut self, dag: &Dag) -> (Vec<Class>, Choice) {
         let (values, choice) = self.absorb(&Printed::new(dag));
         let outputs = dag.outputs.iter();
@@ -315,7 +293,7 @@ impl Classes {
         (own, choice)
     }
 
-    /// Returns the graph that computes the outputs by the chosen ways, which must not go in circles.
+    /// The ways must not go in circles.
     pub(super) fn graph(&self, choice: &Choice) -> Dag {
         let mut builder = Builder::new(Folding::Semantic);
         let mut edges: Vec<Option<Edge>> = vec![None; self.bound()];
@@ -361,8 +339,7 @@ pub(super) const SUM: Kind = &[Operation::Add, Operation::Sub];
 pub(super) const PRODUCT: Kind = &[Operation::Mul];
 
 impl Classes {
-    /// Adds (b ∘ c) ∘ a as a way of a class, with those signs that give it; the inner value may
-    /// be new.
+    /// Takes those signs that give the class; the inner value may be new.
     pub(super) fn nest(
         &mut self,
         class: Class,

@@ -31,7 +31,6 @@ impl Schedule {
         }
     }
 
-    /// Creates one that leaves what a small program is stuck in.
     pub(super) const fn hot(moves: usize) -> Schedule {
         Schedule {
             moves,
@@ -45,27 +44,22 @@ impl Schedule {
 const NOTHING: u32 = 0;
 const NONE: u32 = u32::MAX;
 
-/// A way as the search sees it: leaves have one that costs nothing; a sine and a cosine read their
-/// angle, which costs their evaluation.
+/// Leaves have a way that costs nothing; sines read their angle, which costs their evaluation.
 #[derive(Clone, Copy, Default)]
 struct Step {
     cost: u64,
     reads: [u32; 2],
-    /// The way in the e-graph.
     way: Option<Way>,
 }
 
 pub(super) struct Extraction<'a> {
     classes: &'a Classes,
-    /// The ways of all classes, class after class, and where each class's begin.
     steps: Vec<Step>,
     starts: Vec<u32>,
     outputs: Vec<u32>,
     /// The chosen way of each class, an index into `steps`.
     chosen: Vec<u32>,
-    /// The readers of each class among chosen ways of live classes.
     uses: Vec<u32>,
-    /// Live classes with a choice, in no order, and the place of each.
     live: Vec<u32>,
     place: Vec<u32>,
     pub(super) cost: u64,
@@ -138,8 +132,6 @@ impl<'a> Extraction<'a> {
         search
     }
 
-    /// Chooses the seed's ways, then, until nothing changes, ways of other classes that read what
-    /// has one.
     fn seed(&mut self, seed: &Choice, places: &[u32]) {
         for (&own, way) in places.iter().zip(seed) {
             if own != NONE && way.is_some() {
@@ -166,7 +158,6 @@ impl<'a> Extraction<'a> {
         self.starts[id as usize]..self.starts[id as usize + 1]
     }
 
-    /// Returns whether all that a way reads can be computed.
     fn is_ready(&self, way: u32) -> bool {
         let reads = self.steps[way as usize].reads;
         reads
@@ -198,7 +189,7 @@ impl<'a> Extraction<'a> {
         }
     }
 
-    /// Counts one use more. A class that comes to life has the way that it had last.
+    /// A class that comes to life has the way that it had last.
     fn acquire(&mut self, id: u32) {
         self.uses[id as usize] += 1;
         if self.uses[id as usize] > 1 {
@@ -214,7 +205,7 @@ impl<'a> Extraction<'a> {
         }
     }
 
-    /// Counts one use less. An unused class frees what it reads.
+    /// An unused class frees what it reads.
     fn release(&mut self, id: u32) {
         self.uses[id as usize] -= 1;
         if self.uses[id as usize] > 0 {
@@ -233,8 +224,6 @@ impl<'a> Extraction<'a> {
         }
     }
 
-    /// Gives a live class another way, if nothing that it reads depends on the class; returns
-    /// whether it did.
     fn switch(&mut self, id: u32, way: u32) -> bool {
         if !self.is_ready(way) || !self.admits(id, way) {
             return false;
@@ -249,8 +238,6 @@ impl<'a> Extraction<'a> {
         true
     }
 
-    /// Sweeps over the live classes, taking every change that lowers the cost, until a sweep saves
-    /// nothing.
     pub(super) fn climb(&mut self) {
         loop {
             let before = self.cost;
@@ -271,7 +258,6 @@ impl<'a> Extraction<'a> {
         }
     }
 
-    /// Anneals; ends with the best program seen.
     pub(super) fn anneal(&mut self, schedule: Schedule, random: &mut Random) {
         let mut best = (self.cost, self.chosen.clone());
         let ratio = schedule.cold / schedule.hot;
@@ -307,7 +293,6 @@ impl<'a> Extraction<'a> {
         self.revive();
     }
 
-    /// Returns the chosen ways.
     pub(super) fn choice(&self) -> Choice {
         let mut choice: Choice = vec![None; self.classes.bound()];
         for (at, &id) in self.classes.ids().iter().enumerate() {

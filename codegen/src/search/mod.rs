@@ -120,13 +120,10 @@ pub fn search(
     })
 }
 
-/// Estimates what the search would make of a program, by one short round.
 pub(crate) fn glance(program: &Dag) -> Dag {
     round(0, program, &[], &Limits::GLANCE, &mut Random::new(1))
 }
 
-/// Runs one round from a program: what rules, other graphs and the fingerprints offer, then
-/// extraction.
 fn round(
     number: usize,
     program: &Dag,

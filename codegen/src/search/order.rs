@@ -4,7 +4,6 @@
 //! and not of everything below.
 
 const NONE: u32 = u32::MAX;
-/// The distance of labels that are given anew.
 const SPACE: u64 = 1 << 32;
 
 /// All classes in a linked list, labelled ascending.
@@ -30,7 +29,6 @@ impl Order {
         }
     }
 
-    /// Orders all classes anew by what each reads.
     pub(super) fn sort(&mut self, reads: impl Fn(u32) -> [u32; 2]) {
         self.stamp += 2;
         // Half-way: what it reads is above it on the stack. Done: it is in the list.
@@ -74,8 +72,7 @@ impl Order {
         }
     }
 
-    /// Returns whether a class may read these: none of them depends on it. Then they come before
-    /// it from now on.
+    /// If none of these depends on the class, they come before it from now on.
     pub(super) fn admits(
         &mut self,
         class: u32,
@@ -123,7 +120,6 @@ impl Order {
         true
     }
 
-    /// Returns the distance of a class's label from the one before it.
     fn room(&self, class: u32) -> u64 {
         self.labels[class as usize] - self.labels[self.before[class as usize] as usize]
     }

@@ -10,7 +10,6 @@ const ADD: u64 = 100;
 const DIV: u64 = 500;
 pub(super) const SINCOS: u64 = 2000;
 
-/// Returns the price of an operation.
 pub(super) fn operation(operation: Operation) -> u64 {
     match operation {
         Operation::Mul | Operation::Fused => MUL,
@@ -19,8 +18,7 @@ pub(super) fn operation(operation: Operation) -> u64 {
     }
 }
 
-/// Returns the price of what is counted. A fused operation is the product and the sum that it
-/// stands for.
+/// Returns the price of counts; a fused operation costs as much as its product and its sum.
 pub fn price(counts: &Counts) -> u64 {
     let [mul, add] = [counts.mul, counts.add].map(|n| (n + counts.fma) as u64);
     MUL * mul + ADD * add + DIV * counts.div as u64 + SINCOS * counts.sincos as u64

@@ -17,7 +17,6 @@ pub(super) const RULES: &[(&str, &str, Kind, Kind)] = &[
     ("add-associates", "(± (± ?a ?b) ?c)", SUM, SUM),
 ];
 
-/// Returns a left side with every choice of signs.
 pub(super) fn signed(left: &str) -> Vec<String> {
     let mut texts = vec![left.to_owned()];
     for _ in left.matches('±') {
@@ -27,7 +26,6 @@ pub(super) fn signed(left: &str) -> Vec<String> {
     texts
 }
 
-/// The rows with every choice of signs and every order of operands on the left.
 static READ: LazyLock<Vec<(Pattern<ENode>, Kind, Kind)>> = LazyLock::new(|| {
     let mut read = Vec::new();
     for &(name, left, outer, inner) in RULES {
@@ -51,8 +49,7 @@ static READ: LazyLock<Vec<(Pattern<ENode>, Kind, Kind)>> = LazyLock::new(|| {
     read
 });
 
-/// Applies every rule to everything there is, `iterations` times or until the e-graph has grown to
-/// `growth` times its size.
+/// Stops after `iterations`, or when the e-graph has grown to `growth` times its size.
 pub(super) fn saturate(classes: &mut Classes, iterations: usize, growth: usize) {
     let [a, b, c] = ["?a", "?b", "?c"].map(|name| {
         let variable = name.parse::<Var>();

@@ -30,7 +30,6 @@ fn ways_of(classes: &Classes, class: Class) -> Vec<Way> {
     ways.map(|(_, way)| way).collect()
 }
 
-/// A formula's other form is a way of the same class, with whatever sign.
 #[test]
 fn equal_and_opposite_values_are_one_class() {
     let classes = begun(&["(* ?a (+ ?b ?c))", "(+ (* ?a ?b) (* ?a ?c))"]);
@@ -58,7 +57,6 @@ fn a_class_takes_no_way_through_itself_and_none_twice() {
     assert_eq!(classes.bound(), size + 1, "the sum alone is new");
 }
 
-/// By fingerprint, every combination of ways gives the values of the formulas.
 #[test]
 fn every_choice_of_ways_gives_the_same_values() {
     let dag = graph(&[
@@ -85,7 +83,6 @@ fn every_choice_of_ways_gives_the_same_values() {
     assert!(count >= 4, "several programs: {count}");
 }
 
-/// Returns every choice of a way for each class.
 fn choices(classes: &Classes) -> impl Iterator<Item = Choice> {
     let ways = classes.ids().iter().map(|&id| (id, ways_of(classes, id)));
     let ways: Vec<(Class, Vec<Way>)> = ways.collect();
@@ -101,8 +98,6 @@ fn choices(classes: &Classes) -> impl Iterator<Item = Choice> {
     })
 }
 
-/// Each rule adds a way with its outer operation, whatever the signs and the order of operands on
-/// its left, and every way that it adds is one.
 #[test]
 fn every_rule_adds_its_right_side() {
     for (name, left, outer, _) in RULES {
@@ -130,7 +125,6 @@ fn every_rule_adds_its_right_side() {
     }
 }
 
-/// Pairs and nested pairs that no formula shows are found, and are ways.
 #[test]
 fn finds_every_kind_of_hidden_way() {
     for (is_pair, formula, operation) in [
@@ -154,7 +148,6 @@ fn finds_every_kind_of_hidden_way() {
             .into_iter()
             .filter(|way| !known.contains(way))
             .collect();
-        // Up to sign, sums and differences are one kind.
         let is_kind = |way: &Way| (way.0 == Mul) == (operation == Mul);
         assert!(new.iter().any(is_kind), "{formula}: {new:?}");
         for way in new {
@@ -166,7 +159,6 @@ fn finds_every_kind_of_hidden_way() {
 
 const SCHEDULE: Schedule = Schedule::hot(2_000);
 
-/// Formulas of the same values, the first ones the outputs.
 fn classes(outputs: &[&str], others: &[&str]) -> (Classes, Choice) {
     let mut classes = Classes::default();
     let (_, choice) = classes.begin(&graph(outputs));
@@ -174,7 +166,6 @@ fn classes(outputs: &[&str], others: &[&str]) -> (Classes, Choice) {
     (classes, choice)
 }
 
-/// Returns the cost of the outputs by a choice; none where it goes in a circle.
 fn cost_of(classes: &Classes, choice: &Choice) -> Option<u64> {
     fn visit(classes: &Classes, choice: &Choice, id: Class, state: &mut [u8]) -> Option<u64> {
         let place = usize::from(id);
@@ -254,7 +245,6 @@ fn a_way_in_a_circle_is_never_taken() {
     assert_eq!(extraction.cost, least);
 }
 
-/// The order says of a way the same as a search of everything below.
 #[test]
 fn order_agrees_with_a_search_of_everything() {
     const CLASSES: usize = 40;
@@ -277,7 +267,6 @@ fn order_agrees_with_a_search_of_everything() {
         let mut draw = || 1 + random.below(CLASSES - 1) as u32;
         let (class, reads) = (draw(), [draw(), draw()]);
         if round % 7 == 0 {
-            // Few ways, so that most of those that are asked for are none.
             chosen[class as usize] = [0; 2];
             continue;
         }

@@ -69,7 +69,6 @@ pub fn trace_chain(
     for &quantity in function.quantities() {
         let (rows, values) = match quantity.regrouped(&regrouped) {
             Some(values) => (rows.clone(), values),
-            // By the recursion in link axes.
             None => {
                 let arm = moving(setup, gravity.as_ref(), &whole);
                 let values = quantity.written(&textbook(&arm, &arm.at(&whole.q), &whole));
@@ -85,7 +84,6 @@ pub fn trace_chain(
     (builder.finish(outputs), traced)
 }
 
-/// Returns the whole arm in motion.
 fn moving(setup: &Setup, gravity: Option<&Vector<Symbol>>, motion: &Motion<Symbol>) -> Arm<Symbol> {
     let arm = setup.arm(Symbol::constant);
     let arm = match gravity {
@@ -95,7 +93,6 @@ fn moving(setup: &Setup, gravity: Option<&Vector<Symbol>>, motion: &Motion<Symbo
     arm.at_speeds(&motion.per_speed)
 }
 
-/// Returns the arguments of the recursion in link axes.
 fn textbook<'a>(
     arm: &'a Arm<Symbol>,
     at: &'a [DhVariables<Symbol>],
@@ -106,7 +103,6 @@ fn textbook<'a>(
         arm,
         at,
         motion,
-        // Regressors the chain formulas give.
         columns: &[],
     }
 }
@@ -144,12 +140,10 @@ fn with_columns(setup: &Setup, columns: &[Column<Exact>]) -> Skeleton<Exact> {
     skeleton
 }
 
-/// The most graphs that a search is offered.
 const MAX_SEEDS: usize = 16;
 
-/// Returns a function in its regrouping in the chain forms, in the chain's own axes and in others:
-/// what is dear in one choice of axes may be cheap in another, and the search mixes them. Where
-/// there are too many, the forms are told in the chain's own axes, and the cheapest in others.
+/// Forms that are dear in one choice of axes may be cheap in another, and the search mixes them. If
+/// there are too many, only the cheapest form is told in other axes than the chain's own.
 pub(crate) fn regrouped(task: Task<'_>, forms: &[Form], tuned: &Tuned) -> Vec<Seed> {
     let mut chain = Chain::new(&skeleton_for(task), &tuned.regrouping);
     let axes = axes(&chain);
@@ -179,7 +173,6 @@ pub(crate) fn regrouped(task: Task<'_>, forms: &[Form], tuned: &Tuned) -> Vec<Se
     seeds
 }
 
-/// Returns a function in a regrouping and a form, merged by fingerprint.
 pub(crate) fn in_regrouping(task: Task<'_>, regrouping: &Regrouping<Exact>, form: Form) -> Dag {
     merged(task, &Chain::new(&skeleton_for(task), regrouping), form)
 }

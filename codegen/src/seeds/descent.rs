@@ -26,7 +26,6 @@ pub(crate) type Limit<'a> = &'a dyn Fn(&Dag, f64) -> f64;
 /// its error, so that a descent from there first goes where it is admitted.
 const REFUSED: u64 = 1 << 48;
 
-/// Returns the price of a program under a limit; `below` is the price to beat.
 fn price(graph: &Dag, limit: Option<Limit<'_>>, below: u64) -> u64 {
     let cost = cost(graph);
     let Some(limit) = limit.filter(|_| cost < below) else {
@@ -43,8 +42,6 @@ fn price(graph: &Dag, limit: Option<Limit<'_>>, below: u64) -> u64 {
     }
 }
 
-/// Returns the regrouping that is cheapest for a function in one of these forms within a limit,
-/// if there is one; the best so far where the watch is over.
 pub(crate) fn tuned(problem: &Problem<'_>, forms: &[Form]) -> Tuned {
     let (task, effort, limit) = (problem.task, problem.effort, problem.limit);
     let Task { setup, function } = task;
@@ -125,8 +122,7 @@ pub(crate) fn tuned(problem: &Problem<'_>, forms: &[Form]) -> Tuned {
     tuned
 }
 
-/// Axes that a descent starts from: each link's own; the last link's before
-/// it turns; those before each group.
+/// Each link's own axes; the last link's before it turns; those before each group.
 fn starts(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
     let n = chain.links.len();
     let freedoms = chain.freedoms();

@@ -19,10 +19,8 @@ use crate::search::Effort;
 use crate::setup::load::Unknowns;
 use crate::setup::{Setup, Task};
 
-/// Returns the robot in its scene with the load's numbers, if a payload is an argument:
-/// those of the regrouping in which torques cost least, as far as torques depend on them. No
-/// other quantity that takes a load depends on more. The same for every request, so that
-/// whoever has the parameters has the load.
+/// The load's numbers are those of the regrouping in which torques cost least. Every request gets
+/// these, so that whoever has the parameters has the load.
 #[must_use]
 pub(crate) fn chosen(setup: Setup) -> Setup {
     if !setup.has(RuntimeParameter::Payload) {
@@ -38,14 +36,12 @@ pub(crate) fn chosen(setup: Setup) -> Setup {
         let entry = Node::Input(Input::Entry(Argument::Load, index));
         graph.live().any(|(_, node)| *node == entry)
     };
-    // As the trace meets them.
     let met = met(&chain, &full.unknowns()).into_iter().enumerate();
     let read = met.filter(|(index, _)| is_read(*index));
     let read = read.map(|(_, number)| number).collect();
     setup.with_load(read, best.regrouping)
 }
 
-/// Returns the numbers of a chain that depend on a payload, each once, as they are met.
 fn met(chain: &Chain<Exact>, unknowns: &Unknowns) -> Vec<Exact> {
     let mut met: Vec<Exact> = Vec::new();
     chain.map(|number| {
@@ -56,7 +52,6 @@ fn met(chain: &Chain<Exact>, unknowns: &Unknowns) -> Vec<Exact> {
     met
 }
 
-/// Returns the index of a number in a list, and whether it is negated there.
 fn place(numbers: &[Exact], number: &Exact) -> Option<(usize, bool)> {
     let is_negative = number.leads_negative();
     let size = signed(number, is_negative);
@@ -64,8 +59,7 @@ fn place(numbers: &[Exact], number: &Exact) -> Option<(usize, bool)> {
     Some((at, is_negative))
 }
 
-/// Returns a chain of symbols: numbers that depend on a payload are entries of the load, all that
-/// are met as long as none are chosen.
+/// Numbers that depend on a payload become entries of the load.
 pub(super) fn symbols(
     task: Task<'_>,
     chain: &Chain<Exact>,

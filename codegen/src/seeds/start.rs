@@ -13,8 +13,7 @@ use crate::setup::Task;
 use crate::watch::FunctionWatch;
 use crate::words::Word;
 
-/// The formulations that can be asked for by name. Of the recursion in link axes it is
-/// the one that is cheapest.
+/// The formulations by name, with the cheapest of the recursion in link axes.
 pub(super) const TEXTBOOK: [Formulation; 3] = [
     Formulation::LagrangeEuler,
     Formulation::Dalembert,
@@ -41,8 +40,6 @@ impl Start {
         }
     }
 
-    /// Returns the approaches, each searched by itself: the cheapest program that is found is
-    /// taken.
     pub(crate) fn approaches(self, problem: &Problem<'_>) -> Vec<Approach> {
         let task = problem.task;
         let function = task.function;
@@ -71,9 +68,7 @@ impl Word for Start {
     }
 }
 
-/// One start of a search.
 pub(crate) struct Approach {
-    /// The regrouping that was chosen, if one was.
     pub tuned: Option<Tuned>,
     /// The graphs, of which the cheapest is the first program.
     pub seeds: Vec<Seed>,
@@ -91,20 +86,16 @@ impl Approach {
     }
 }
 
-/// The problem that a search is to solve.
 #[derive(Clone, Copy)]
 pub(crate) struct Problem<'a> {
     pub task: Task<'a>,
     pub effort: Effort,
-    /// The error that a program may have, if there is a limit.
     pub limit: Option<Limit<'a>>,
-    /// Regroupings to start from, besides those that every robot has.
     pub from: &'a [Regrouping<Exact>],
     pub watch: FunctionWatch<'a>,
 }
 
 impl<'a> Problem<'a> {
-    /// Creates a problem without a limit, which nobody watches.
     pub(crate) fn new(task: Task<'a>, effort: Effort) -> Problem<'a> {
         Problem {
             task,
@@ -116,10 +107,8 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Starts functions that the chain formulas lack: from the recursion or Lagrange–Euler, whichever
-/// is cheaper, and from forms that turn fewer axes or see levers in the joints' axes, each with
-/// Lagrange–Euler's values and those of products of axes at hand. These are small, and what is
-/// dearer by itself often ends lower: all are searched from.
+/// From the recursion or Lagrange–Euler, whichever is cheaper, and from other forms: these are
+/// small, and a form that is dearer by itself often ends lower.
 fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
     let textbook = |form| trace(problem.task, form);
     let recursion = textbook(Formulation::NewtonEulerLink);
@@ -141,8 +130,6 @@ fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
     [both].into_iter().chain(others).collect()
 }
 
-/// Returns the chain formulas in all of their forms, in the regrouping that is cheapest, with the
-/// recursion's values at hand.
 fn by_chain(problem: &Problem<'_>) -> Approach {
     let task = problem.task;
     let Task { setup, function } = task;

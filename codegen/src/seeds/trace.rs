@@ -13,8 +13,7 @@ use crate::function::Argument;
 use crate::program::Input;
 use crate::setup::Task;
 
-/// Reads inputs of a state or of these arguments as symbols, others as zero: a search pairs
-/// whatever a graph has, and what nothing reads would only be in its way.
+/// Other inputs are zero: a search pairs all that a graph has, and they would be in its way.
 pub(crate) fn reader(
     arguments: &[Argument],
     builder: &Rc<RefCell<Builder>>,
@@ -26,8 +25,6 @@ pub(crate) fn reader(
     }
 }
 
-/// Returns whether a function of a robot in its scene depends on what Coulomb friction reads of
-/// speeds.
 pub(crate) fn depends_on_coulomb(task: Task<'_>) -> bool {
     if !task.setup.has_coulomb() {
         return false;

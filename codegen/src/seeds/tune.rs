@@ -1,9 +1,8 @@
 //! The cheapest regrouping of a chain: coordinate descent.
 //!
-//! Each candidate is traced and merged by fingerprint, about a millisecond.
-//! The candidates for a link come from what its parameters and its parent's
-//! would become: nothing kept, everything kept, or just as much as makes an
-//! entry vanish that would cost operations.
+//! Each candidate is traced and merged by fingerprint, about a millisecond. The candidates for a
+//! link come from what its parameters and its parent's would become: nothing kept, everything kept,
+//! or just as much as makes an entry vanish that would cost operations.
 
 use dalembert_model::equations::chain::body::entry;
 use dalembert_model::equations::chain::{
@@ -18,12 +17,10 @@ use super::{Form, MAX_QUICK_LINKS, skeleton_for};
 use crate::dag::signed;
 use crate::setup::Task;
 
-/// Constants of a tuned chain with more monomials than this are not formed:
-/// regrouping through many different odd angles would multiply them.
+/// Regrouping through many different odd angles would multiply the monomials of constants.
 const MAX_TERMS: usize = 100;
 
-/// The links of longer chains are not tuned one by one: a price takes time in
-/// proportion to their number, and so does the number of prices.
+/// A price takes time in proportion to the links, and so does the number of prices.
 const MAX_TUNED: usize = 16;
 
 /// The result of a descent.
@@ -62,8 +59,7 @@ pub fn start(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
     regrouping
 }
 
-/// Descends from a regrouping. `price` must not depend on anything else; above the
-/// last argument, which is the best price so far, it need not be exact.
+/// `price` must not depend on anything else; above its last argument it need not be exact.
 pub(crate) fn tune(
     arm: &Skeleton<Exact>,
     from: Regrouping<Exact>,
@@ -116,8 +112,7 @@ impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
         }
     }
 
-    /// The forms that see the hand as the best does, then those that differ from the best
-    /// in that alone.
+    /// First the forms that see the hand as the best does, then those that differ in that alone.
     fn forms(&mut self, forms: &[Form]) {
         let chain = Chain::new(self.arm, &self.best.regrouping);
         let mut among = |is_tried: &dyn Fn(Form, Form) -> bool| {
@@ -171,8 +166,6 @@ impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
     }
 }
 
-/// Returns the regroupings that differ from one in one link; none of chains too long to look at
-/// each.
 pub(crate) fn neighbours(task: Task<'_>, regrouping: &Regrouping<Exact>) -> Vec<Regrouping<Exact>> {
     let arm = skeleton_for(task);
     let mut found: Vec<Regrouping<Exact>> = Vec::new();
@@ -192,7 +185,6 @@ pub(crate) fn neighbours(task: Task<'_>, regrouping: &Regrouping<Exact>) -> Vec<
     found
 }
 
-/// Returns the regroupings in which link i keeps other moments, or its frame lies or turns otherwise.
 fn alternatives(
     arm: &Skeleton<Exact>,
     regrouping: &Regrouping<Exact>,
@@ -212,7 +204,6 @@ fn alternatives(
     links
 }
 
-/// Returns a link's regrouping with a change.
 fn changed(
     now: &LinkRegrouping<Exact>,
     change: impl FnOnce(&mut LinkRegrouping<Exact>),
@@ -226,7 +217,6 @@ fn is_large(chain: &Chain<Exact>) -> bool {
     chain.links.iter().any(|link| terms(link) > MAX_TERMS)
 }
 
-/// Returns the most monomials of a constant of the link.
 fn terms(link: &ChainLink<Exact>) -> usize {
     let second = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
     let second = second.map(|(i, j)| entry(&link.body.second, i, j));
@@ -234,7 +224,6 @@ fn terms(link: &ChainLink<Exact>) -> usize {
     constants.map(Exact::terms).max().unwrap_or(0)
 }
 
-/// Returns a / b for rational b.
 fn quotient(a: &Exact, b: &Exact) -> Option<Exact> {
     a.divide(b.as_rational()?)
 }
@@ -333,7 +322,6 @@ fn prismatic(
     origins.chain(kept).collect()
 }
 
-/// Returns the entries of a body that cost operations in every regrouping.
 fn costly(body: &Body<Exact>) -> Vec<Exact> {
     let second = &body.second;
     let [x, y, _] = &body.first;

@@ -8,7 +8,6 @@ use super::Setup;
 use crate::program::Speed;
 
 impl Setup {
-    /// Returns the width of a joint's friction; none of a joint without.
     fn width(&self, joint: usize) -> Option<&Rational> {
         let joint = self.robot().joints.get(joint)?;
         joint.has_coulomb().then_some(&joint.coulomb_width)
@@ -29,13 +28,11 @@ impl Setup {
         self.robot().joints.iter().any(|joint| joint.has_coulomb())
     }
 
-    /// Returns 1/w of a joint that does not move, exactly.
     pub(super) fn per_speed_at_rest(&self, joint: usize) -> Option<Exact> {
         self.width(joint).map(|width| Exact::from(width.recip()))
     }
 
-    /// Returns 1/√(q̇² + w²) of a joint in a scalar that has roots; zero of one without
-    /// friction, which nothing reads.
+    /// Returns 1/√(q̇² + w²) of a joint in a scalar that has roots; zero without friction.
     pub fn per_speed<S: Divide>(
         &self,
         joint: usize,

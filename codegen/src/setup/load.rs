@@ -1,12 +1,11 @@
 //! The load that a payload is: the numbers of a regrouped chain that a body changes
 //! which is fixed to the last link.
 //!
-//! Masses and moments that regrouping leaves are linear in the body's mass, first
-//! moments and tensor. While these are unknown, an indeterminate of exact numbers
-//! stands for each: the sine of an angle that the robot has nowhere, of which, as
-//! of every constant angle, no relation to others is known. So a payload goes
-//! through regrouping like any other body, and what comes out says what the load's
-//! numbers are.
+//! Masses and moments that regrouping leaves are linear in the body's mass, first moments and
+//! tensor. While these are unknown, an indeterminate of exact numbers stands for each: the sine of
+//! an angle that the robot has nowhere, of which, as of every constant angle, no relation to others
+//! is known. So a payload goes through regrouping like any other body, and what comes out says what
+//! the load's numbers are.
 
 use dalembert_model::equations::chain::Regrouping;
 use dalembert_model::equations::load::LoadRow;
@@ -64,7 +63,6 @@ impl Setup {
         }
     }
 
-    /// Returns the angles of the table, the frames and the locks, with their opposites.
     fn constant_angles(&self) -> Vec<Angle> {
         let robot = self.robot();
         let rows = robot.rows().into_iter();
@@ -104,7 +102,6 @@ impl Unknowns {
         found
     }
 
-    /// Returns a number that is linear in them, by its coefficients.
     fn row(&self, number: &Exact) -> LoadRow<Exact> {
         let own = self.where_one_is(number, None);
         let parameters = LinkParameter::ALL.into_iter().zip(&self.angles);
@@ -118,7 +115,6 @@ impl Unknowns {
         }
     }
 
-    /// Returns a number where one of them is one and the others are zero.
     fn where_one_is(&self, number: &Exact, one: Option<&Angle>) -> Exact {
         let value = number.map(
             &mut |x| Some(Exact::from(x.clone())),
@@ -133,7 +129,6 @@ impl Unknowns {
                 },
             },
         );
-        // Every rational is an exact number.
         value.unwrap_or_else(Exact::zero)
     }
 }

@@ -10,14 +10,12 @@
 //! - joints that nobody asks for are results that are left out
 //!   ([`Setup::select`]), and what only they needed is dead.
 //!
-//! Gravity and a payload may also be arguments ([`Setup::taking`]): then
-//! [`Task::posed`] has the arm with them, and [`load`] the parameters that a
-//! payload changes.
+//! Gravity and a payload may also be arguments ([`Setup::taking`]): then [`Task::posed`] has the
+//! arm with them, and [`load`] the parameters that a payload changes.
 //!
-//! Arguments keep an entry for every joint, so that callers need not repack
-//! their state; entries of locked joints are not read. Results are over the
-//! [`rows`](Setup::rows), in the order of the scene: τ, h and c have an
-//! entry a row, D is rows × rows (symmetric and, unlike rows × n,
+//! Arguments keep an entry for every joint, so that callers need not repack their state; entries of
+//! locked joints are not read. Results are over the [`rows`](Setup::rows), in the order of the
+//! scene: τ, h and c have an entry a row, D is rows × rows (symmetric and, unlike rows × n,
 //! invertible), h_ikm rows × rows × rows.
 
 pub(crate) mod base;
@@ -58,31 +56,22 @@ pub struct Setup {
     /// The joints that a chain needs: those that move, and locked ones whose torque is asked for
     /// (what their brakes hold).
     chained: Vec<usize>,
-    /// An entry a joint.
     locks: Vec<Option<JointPosition<Exact>>>,
-    /// The parameters that are arguments of functions instead of constants.
     parameters: Vec<RuntimeParameter>,
-    /// Found where a quantity is over them.
     base: Bases,
-    /// Chosen where a payload is an argument.
     load: Option<LoadParameters>,
-    /// The links that the joints of the chain move in place of the robot's.
     fitted: Option<Vec<FittedLink>>,
 }
 
-/// A body that a joint of the chain moves in place of the robot's link: a search chose it, and
-/// it need not be physical.
+/// A search chose it, and it need not be physical.
 #[derive(Clone, Debug)]
 pub(crate) struct FittedLink {
     /// About the origin and in the axes of the joint's segment.
     pub body: Body<Exact>,
-    /// The rotor's inertia.
     pub armature: Exact,
-    /// Viscous friction.
     pub viscous: Exact,
 }
 
-/// The base parameters, an entry a quantity: there where one is over them.
 type Bases = [OnceLock<Result<BaseParameters, Complaint>>; Quantity::ALL.len()];
 
 impl Setup {
@@ -141,8 +130,7 @@ impl Setup {
         }
     }
 
-    /// Returns the robot with other links in its chain, one a segment, and results over
-    /// these joints. The textbook formulations do not know of them.
+    /// The textbook formulations do not know of these links.
     #[must_use]
     pub(crate) fn fitted(&self, links: Vec<FittedLink>, rows: &[usize]) -> Setup {
         Setup {
@@ -153,7 +141,6 @@ impl Setup {
         }
     }
 
-    /// Returns the links in place of the robot's, if a search chose any.
     pub(crate) fn fitted_links(&self) -> Option<&[FittedLink]> {
         self.fitted.as_deref()
     }
@@ -196,8 +183,7 @@ impl Setup {
         self.scene.as_ref()
     }
 
-    /// Returns whether the equations are the whole robot's: no scene, or one that only gives a
-    /// box and a tolerance.
+    /// Returns true without a scene, and with one that gives only a box and a tolerance.
     pub fn has_whole_model(&self) -> bool {
         let changes = |scene: &Scene| {
             let still = scene.velocity_zero || scene.acceleration_zero;
@@ -223,8 +209,7 @@ impl Setup {
         Following::of(&self.robot, &mut scalar)
     }
 
-    /// Returns the rows of the table that a chain needs: those of its joints, and of what follows
-    /// them.
+    /// Returns the rows that a chain needs: those of its joints, and of what follows them.
     pub fn chained_rows(&self) -> Vec<usize> {
         let rows = 0..self.robot.rows().len();
         rows.filter(|&row| self.chained.contains(&self.robot.mover_of(row)))
@@ -265,7 +250,6 @@ impl Setup {
         own
     }
 
-    /// Returns whether the scene holds an argument at zero.
     fn has_zero(&self, argument: Argument) -> bool {
         self.scene.as_ref().is_some_and(|scene| match argument {
             Argument::Velocity => scene.velocity_zero,
@@ -274,8 +258,7 @@ impl Setup {
         })
     }
 
-    /// Returns the motion of all rows from the values of a program's inputs, with the scene's
-    /// constants in their places.
+    /// Returns the motion of all rows from a program's inputs, with the scene's constants.
     pub fn motion<S: Scalar>(
         &self,
         input: impl FnMut(Input) -> S,
@@ -331,14 +314,12 @@ impl Setup {
         }
     }
 
-    /// Returns the numbers of the regrouped chain that a payload changes; none before they
-    /// are chosen.
+    /// Returns the numbers of the regrouped chain that a payload changes, once they are chosen.
     pub fn load(&self) -> Option<&LoadParameters> {
         self.load.as_ref()
     }
 
-    /// Returns the columns of a function's regressor; empty for other functions and where there
-    /// are no base parameters.
+    /// Returns the columns of a function's regressor; none for others, and without base parameters.
     pub fn columns<S: Scalar>(
         &self,
         function: Function,
@@ -368,8 +349,8 @@ impl Setup {
         }
     }
 
-    /// Returns the entries of one quantity over the scene's joints, from those over these rows. Loads
-    /// of joints that follow are gathered.
+    /// Returns one quantity's entries over the scene's joints. Loads of joints that follow are
+    /// gathered.
     pub fn select<S: Scalar>(
         &self,
         quantity: Quantity,
@@ -388,7 +369,6 @@ fn no_bases() -> Bases {
     [const { OnceLock::new() }; Quantity::ALL.len()]
 }
 
-/// Returns the motion of a robot's joints from the values of a program's inputs.
 fn motion<S>(robot: &Robot, mut input: impl FnMut(Input) -> S) -> Motion<S> {
     let joints = || robot.joints.iter().enumerate();
     let q = joints().map(|(i, joint)| match joint.kind {

@@ -15,9 +15,8 @@ use crate::states::{JointState, seeded};
 const PARAMETERS: u64 = 0x7061_7261;
 
 impl Setup {
-    /// States inside the limits of the scene's robot, the same on every machine;
-    /// with gravity in any direction and a body in the hand where these are
-    /// arguments.
+    /// States inside the limits of the scene's robot, the same on every machine; with gravity in
+    /// any direction and a body in the hand where these are arguments.
     pub fn states(&self, count: usize, seed: u64) -> Vec<JointState> {
         let mut states = seeded(self.robot(), count, seed);
         let mut random = Random::new(seed ^ PARAMETERS);
@@ -36,7 +35,6 @@ impl Setup {
         states
     }
 
-    /// Returns an input at a state, in doubles.
     pub(crate) fn input_at(&self, input: Input, state: &JointState) -> f64 {
         match input {
             Input::Sin(joint) => libm::sin(state.q[joint]),
@@ -63,14 +61,12 @@ impl Setup {
         load.iter().map(f64::nearest).collect()
     }
 
-    /// Returns the largest mass of a link, or a kilogram.
     fn heaviest(&self) -> f64 {
         let masses = self.robot().joints.iter();
         let masses = masses.map(|joint| f64::nearest_rational(&joint.mass));
         positive(masses.fold(0.0, f64::max))
     }
 
-    /// Returns the largest length of the table, or a metre.
     fn longest(&self) -> f64 {
         let joints = self.robot().joints.iter();
         let lengths = joints.flat_map(|joint| [&joint.a, &joint.d]);
@@ -83,9 +79,8 @@ fn positive(x: f64) -> f64 {
     if x > 0.0 { x } else { 1.0 }
 }
 
-/// Returns a body of at most this mass, a quarter of the length away at most. Moments of
-/// which the least is at least half the largest, and products of inertia of a
-/// tenth of that, are those of a body.
+/// Moments of which the least is at least half the largest, and products of inertia of a tenth of
+/// that, are those of a body.
 fn body(draw: &mut impl FnMut(f64) -> f64, mass: f64, length: f64) -> Vec<f64> {
     let mass = draw(mass).abs();
     let centre = [(); 3].map(|()| draw(length / 4.0));

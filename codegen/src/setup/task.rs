@@ -72,8 +72,6 @@ impl<'a> Task<'a> {
         self.posed_over(arm, leaves, columns)
     }
 
-    /// Returns the arm and its motion as the function takes them, with these columns for a
-    /// regressor.
     pub(super) fn posed_over<L: Leaves>(
         &self,
         mut arm: Arm<L::Value>,
@@ -124,7 +122,6 @@ impl Setup {
         Arm::from_robot(self.robot(), &mut constant)
     }
 
-    /// Returns a payload, and what turns it into a load.
     pub(crate) fn loading<S: Scalar>(
         &self,
         input: impl FnMut(Input) -> S,
@@ -138,14 +135,12 @@ impl Setup {
         }
     }
 
-    /// Returns the frame that payloads are given in, in the last link's, where it is another.
     fn payload_frame<S>(&self, constant: impl FnMut(&Exact) -> S) -> Option<Columns<S>> {
         let frame = self.robot().payload_frame.as_ref()?;
         Some(exact_pose(frame).map(constant))
     }
 }
 
-/// Returns the numbers of a payload.
 fn payload<S>(mut input: impl FnMut(Input) -> S) -> Vec<S> {
     let entry = |index| input(Input::Entry(Argument::Payload, index));
     (0..PAYLOAD).map(entry).collect()
@@ -167,8 +162,6 @@ impl<S: Divide> Posed<'_, S> {
         }
     }
 
-    /// Returns the scene's rows of a regressor over these columns; what joints that follow have is
-    /// gathered at their leaders.
     pub(crate) fn regressor(
         &self,
         by: Formulation,

@@ -21,13 +21,11 @@ pub struct Choice {
     pub errors: Errors,
 }
 
-/// The most that angles are halved.
 const MAX_HALVINGS: u32 = 3;
 
-/// Degrees above say nothing that floats can hold.
+/// Higher degrees are below the resolution of f64.
 const MAX_DEGREE: usize = 27;
 
-/// Beyond this, whole turns are taken off.
 const MAX_UNREDUCED: f64 = 16.0;
 
 /// How much better than its estimate a form is given the chance to be: sums
@@ -80,7 +78,7 @@ impl Candidates {
         candidates
     }
 
-    /// Adds the forms of one centre: of those with one number of operations only the best.
+    /// Keeps only the best of the forms with the same number of operations.
     fn add(&mut self, reduced: bool, centre: Centre, radius: f64) {
         let (most, offset, step, start) = match centre {
             Centre::Quarter(_) => (MAX_HALVINGS, 0.0, 2, [1, 0]),
@@ -118,9 +116,8 @@ impl Candidates {
         }
     }
 
-    /// Returns each kernel that is more accurate than all cheaper ones, from cheap to
-    /// dear, until one errs no more than `enough`. Those that are thought to
-    /// err more than `most` are left out.
+    /// Returns each kernel that is more accurate than all cheaper ones, from cheap to dear, until
+    /// one errs no more than `enough`. Those that are thought to err more than `most` are left out.
     pub fn front(&self, most: f64, enough: f64) -> Vec<Choice> {
         // Far below what rounding costs, degrees bring nothing.
         let floor = self.scalar.unit_roundoff() / 16.0;
@@ -155,8 +152,7 @@ impl Candidates {
         front
     }
 
-    /// Returns the cheapest kernel that errs no more than `enough`; else the most
-    /// accurate one, if there is any.
+    /// Returns the cheapest kernel that errs no more than `enough`, else the most accurate one.
     pub fn cheapest(&self, enough: f64) -> Option<Choice> {
         let fit = |choice: &Choice| choice.errors.worst() <= enough;
         let found = self.front(enough, enough).pop().filter(fit);

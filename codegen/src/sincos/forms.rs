@@ -1,10 +1,9 @@
 //! The kernels to choose from.
 //!
-//! About a multiple of π/2 a sine is odd or even, so every other coefficient
-//! vanishes; about the middle of a narrow range, of few terms, the whole
-//! polynomial may be shorter. Halving the angle h times shrinks the range:
-//! with s_h = λ_h·sin(x/2^h), c_h = λ_h·cos(x/2^h), λ_0 = 1 and
-//! λ_h = √(2·λ_(h−1)),
+//! About a multiple of π/2 a sine is odd or even, so every other coefficient vanishes; about the
+//! middle of a narrow range, of few terms, the whole polynomial may be shorter. Halving the angle h
+//! times shrinks the range: with s_h = λ_h·sin(x/2^h), c_h = λ_h·cos(x/2^h), λ_0 = 1 and λ_h =
+//! √(2·λ_(h−1)),
 //!
 //! s_(h−1) = s_h·c_h, c_(h−1) = λ_(h−1) − s_h²,
 //!
@@ -126,8 +125,7 @@ impl Form {
         kernel.kernel(need, results)
     }
 
-    /// Estimates how far the form is from sine and cosine: the fits' errors through the
-    /// doublings.
+    /// Estimates the error of the form: the fits' errors through the doublings.
     pub fn estimate(&self, fit: &Fit, need: Need) -> f64 {
         let [mut s, mut c] = [
             fit.tail(Wave::Sin, self.degrees[0]),

@@ -60,7 +60,6 @@ impl SinCos {
         match self {
             SinCos::Auto => auto,
             SinCos::Together => Library::Together,
-            // Polynomials call nothing.
             SinCos::Libm | SinCos::Polynomial => Library::Libm,
         }
     }
@@ -90,8 +89,7 @@ pub fn stated(scalar: ScalarType) -> f64 {
     scalar.of(1e6, 1e3)
 }
 
-/// Returns the positions of a robot's joints: their limits, or what is
-/// [`stated`] where there are none. Joints that slide have no angle.
+/// The limits, or what is [`stated`] where there are none. Joints that slide have no angle.
 pub(crate) fn positions(robot: &Robot, scalar: ScalarType) -> Vec<Interval> {
     let joints = robot.joints.iter();
     let ranges = joints.map(|joint| match (&joint.limits.position, joint.kind) {
@@ -103,16 +101,10 @@ pub(crate) fn positions(robot: &Robot, scalar: ScalarType) -> Vec<Interval> {
         .collect()
 }
 
-/// Returns the positions that a joint takes.
 pub(crate) fn range_of(joint: usize, positions: &[Interval]) -> Interval {
     positions.get(joint).copied().unwrap_or(Interval::ALL)
 }
 
-/// Returns the cheapest polynomials for a program whose every sine and cosine errs
-/// by no more than `error`, proved. `positions` are the joints' ranges.
-///
-/// # Errors
-/// The first angle for which there are none.
 pub(crate) fn polynomials(
     program: &Program,
     scalar: ScalarType,
@@ -122,7 +114,6 @@ pub(crate) fn polynomials(
     let mut sines: Sines = Vec::new();
     for trig in &program.trig() {
         let range = range_of(trig.joint, positions);
-        // Joints with the same limits share the search.
         let is_same = |own: &&AngleKernel| own.range == range && own.kernel.need == trig.need;
         let known = sines.iter().find(is_same);
         let kernel = match known {

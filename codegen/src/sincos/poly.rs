@@ -1,8 +1,7 @@
 //! Polynomials with dyadic coefficients, exactly, and their Chebyshev form.
 //!
-//! Every float is an integer over a power of two, so sums, products and
-//! changes of variable need neither division nor rounding: the bounds found
-//! with them are proofs.
+//! Every float is an integer over a power of two, so sums, products and changes of variable need
+//! neither division nor rounding: the bounds found with them are proofs.
 
 use num_bigint::BigInt;
 use num_traits::float::FloatCore;
@@ -18,12 +17,10 @@ pub(crate) struct Poly {
 }
 
 impl Poly {
-    /// Makes a polynomial from integer coefficients.
     pub(crate) fn integers(coefficients: Vec<BigInt>) -> Poly {
         Poly::new(coefficients, 0)
     }
 
-    /// Returns a float; `None` if it is not finite.
     pub(crate) fn constant(value: f64) -> Option<Poly> {
         if !value.is_finite() {
             return None;
@@ -34,29 +31,24 @@ impl Poly {
         Some(Poly::new(vec![mantissa], exponent.into()))
     }
 
-    /// Returns x
     pub(crate) fn variable() -> Poly {
         Poly::integers(vec![BigInt::zero(), BigInt::one()])
     }
 
-    /// Returns the degree; zero for zero.
     pub(crate) fn degree(&self) -> usize {
         self.coefficients.len().saturating_sub(1)
     }
 
-    /// Bits of the largest numerator and of the denominator.
     pub(crate) fn bits(&self) -> u64 {
         let numerators = self.coefficients.iter().map(BigInt::bits).max();
         numerators.unwrap_or(0) + self.exponent
     }
 
-    /// Returns c_k
     pub(crate) fn coefficient(&self, k: usize) -> Rational {
         let numerator = self.coefficients.get(k).cloned().unwrap_or_default();
         Rational::new(numerator, BigInt::one() << self.exponent)
     }
 
-    /// Returns self + other
     #[must_use]
     pub(crate) fn add(&self, other: &Poly) -> Poly {
         let exponent = self.exponent.max(other.exponent);
@@ -67,13 +59,11 @@ impl Poly {
         Poly::new(coefficients.collect(), exponent)
     }
 
-    /// Returns self − other
     #[must_use]
     pub(crate) fn sub(&self, other: &Poly) -> Poly {
         self.add(&other.scaled(&BigInt::from(-1)))
     }
 
-    /// Returns self·other
     #[must_use]
     pub(crate) fn mul(&self, other: &Poly) -> Poly {
         let len = self.coefficients.len() + other.coefficients.len();
@@ -86,14 +76,12 @@ impl Poly {
         Poly::new(coefficients, self.exponent + other.exponent)
     }
 
-    /// Returns self·factor
     #[must_use]
     pub(crate) fn scaled(&self, factor: &BigInt) -> Poly {
         let coefficients = self.coefficients.iter().map(|c| c * factor);
         Poly::new(coefficients.collect(), self.exponent)
     }
 
-    /// Returns the polynomial p(inner(x)).
     #[must_use]
     pub(crate) fn compose(&self, inner: &Poly) -> Poly {
         let mut sum = Poly::integers(Vec::new());
@@ -104,12 +92,11 @@ impl Poly {
         sum
     }
 
-    /// Divides by a divisor with coefficients cut to few bits, and says what that changes at most
-    /// where |x| is up to a reach.
+    /// Cuts the coefficients to few bits. The number is the most that this changes where |x| is up
+    /// to `reach`.
     #[must_use]
     pub(crate) fn divided(&self, divisor: &BigInt, reach: f64) -> (Poly, f64) {
         const BITS: u64 = 100;
-        // 2^digit is at least the reach.
         let digit = libm::ceil(libm::log2(reach.max(1.0))) as u64 + 1;
         let exponent = BITS + digit * self.degree() as u64;
         let divisor = divisor << self.exponent;
@@ -147,9 +134,8 @@ impl Poly {
         }
     }
 
-    /// Returns the same polynomial as Σ a_k·T_k(x): the coefficients a_k.
-    ///
-    /// Horner's scheme with x·T_0 = T_1 and 2x·T_k = T_(k+1) + T_(k−1).
+    /// Returns the a_k of Σ a_k·T_k(x), by Horner's scheme with x·T_0 = T_1 and 2x·T_k = T_(k+1) +
+    /// T_(k−1).
     #[must_use]
     pub(crate) fn chebyshev(&self) -> Poly {
         let mut sum: Vec<BigInt> = Vec::new();
@@ -186,12 +172,8 @@ impl Poly {
         Poly::new(sum.coefficients, sum.exponent + self.exponent)
     }
 
-    /// Returns Σ |c_k| over the coefficients from the k-th on, over a divisor,
-    /// rounded up.
-    ///
-    /// Of the Chebyshev form this bounds |p| on \[−1, 1\], where no |T_k|
-    /// exceeds one; for what is left of a near-minimax fit, which has one
-    /// large coefficient, it is close.
+    /// Returns Σ |c_k| from the k-th coefficient on, over a divisor, rounded up. In the Chebyshev
+    /// form this bounds |p| on \[−1, 1\], where no |T_k| exceeds one.
     pub(crate) fn sum_from(&self, k: usize, divisor: &BigInt) -> f64 {
         let sum: BigInt = self.coefficients.iter().skip(k).map(Signed::abs).sum();
         if sum.is_zero() {
@@ -200,14 +182,11 @@ impl Poly {
         f64::nearest_rational(&Rational::new(sum, divisor << self.exponent)).next_up()
     }
 
-    /// Returns the numerators at a larger exponent.
     fn at(&self, exponent: u64) -> Vec<BigInt> {
         let by = exponent - self.exponent;
         self.coefficients.iter().map(|c| c << by).collect()
     }
 
-    /// Makes a polynomial without leading zeros and without a common power of two, which is no
-    /// information.
     fn new(mut coefficients: Vec<BigInt>, exponent: u64) -> Poly {
         while coefficients.last().is_some_and(Zero::is_zero) {
             coefficients.pop();
@@ -266,7 +245,6 @@ mod tests {
         let p = of(&[0.1, -3.0, 0.5, 7.0, -0.3, 2.0]);
         let t = p.chebyshev();
         assert_eq!(t.in_powers(5), p);
-        // x³ = (3 T_1 + T_3)/4, and on [−1, 1] it is at most one.
         let cube = of(&[0.0, 0.0, 0.0, 1.0]).chebyshev();
         assert_eq!(cube.coefficient(1), Rational::new(3.into(), 4.into()));
         assert_eq!(cube.coefficient(3), Rational::new(1.into(), 4.into()));

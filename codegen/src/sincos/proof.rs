@@ -1,13 +1,11 @@
 //! How far a kernel is from sine and cosine: proved from its operations alone.
 //!
-//! **Approximation.** With exact arithmetic a kernel is a polynomial whose
-//! coefficients are integers over powers of two. Its difference from Taylor's
-//! polynomial is written in Chebyshev polynomials on pieces of the range, in
-//! integers: the sum of the coefficients' magnitudes bounds it, and what
-//! Taylor leaves out is added.
+//! **Approximation.** With exact arithmetic a kernel is a polynomial whose coefficients are
+//! integers over powers of two. Its difference from Taylor's polynomial is written in Chebyshev
+//! polynomials on pieces of the range, in integers: the sum of the coefficients' magnitudes bounds
+//! it, and what Taylor leaves out is added.
 //!
-//! **Rounding.** As of every other code ([`crate::interval::rounding`]), over
-//! sub-ranges.
+//! **Rounding.** As of every other code ([`crate::interval::rounding`]), over sub-ranges.
 //!
 //! **Reduction.** Where whole turns are taken off first, both hold for what
 //! is left of the angle, and a sine moves no more than its angle.
@@ -40,7 +38,6 @@ impl Errors {
         self.sin.max(self.cos)
     }
 
-    /// Returns sums from above of what is wanted.
     fn and(self, other: Errors, need: Need) -> Errors {
         let sum = |is_wanted: bool, own: f64, other: f64| match is_wanted {
             true => (own + other).next_up(),
@@ -53,19 +50,14 @@ impl Errors {
     }
 }
 
-/// A kernel of more operations, or of a higher degree, is not looked at.
 const MAX_OPERATIONS: usize = 128;
 const MAX_DEGREE: usize = 160;
 const MAX_BITS: u64 = 1 << 18;
 
-/// The widest piece of a range.
 const PIECE: f64 = 0.5;
 
-/// Sub-ranges for rounding.
 const CELLS: usize = 48;
 
-/// Bounds for every float of the scalar in the range; `None` if the kernel is
-/// nothing that can be bounded.
 pub(crate) fn prove(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Option<Errors> {
     if kernel.operations() > MAX_OPERATIONS {
         return None;
@@ -85,7 +77,6 @@ fn polynomial(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Option<Er
     errors.worst().is_finite().then_some(errors)
 }
 
-/// Returns what a kernel is off with exact arithmetic.
 fn approximations(kernel: &Kernel, range: Interval) -> Option<Errors> {
     if range.magnitude().is_nan() || range.magnitude() > FARTHEST {
         return None;
@@ -106,7 +97,6 @@ fn approximations(kernel: &Kernel, range: Interval) -> Option<Errors> {
     })
 }
 
-/// Returns the polynomial of each node.
 fn expand(kernel: &Kernel) -> Option<Vec<Poly>> {
     let mut values: Vec<Poly> = Vec::with_capacity(kernel.dag.nodes.len());
     for node in &kernel.dag.nodes {
@@ -138,8 +128,7 @@ fn expand(kernel: &Kernel) -> Option<Vec<Poly>> {
     Some(values)
 }
 
-/// |p − wave| over a range, from above: over the whole, or the worst of
-/// pieces, whichever is less.
+/// |p − wave| over a range, from above: over the whole, or the worst of pieces, whichever is less.
 fn approximation(poly: &Poly, wave: Wave, range: Interval) -> Option<f64> {
     let taylor = Taylor::up_to(range.magnitude() + 1.0)?;
     let difference = taylor.waves[wave as usize].sub(&poly.scaled(&taylor.factorial));
@@ -165,7 +154,6 @@ fn approximation(poly: &Poly, wave: Wave, range: Interval) -> Option<f64> {
     Some(((most + taylor.remainder).next_up() + cut).next_up())
 }
 
-/// Bounds the rounding errors of both results, the worst of the sub-ranges.
 fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
     let mut worst = Errors::default();
     let width = range.width() / CELLS as f64;
@@ -185,7 +173,6 @@ fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
     worst
 }
 
-/// Returns what each node is, and what it rounds.
 fn ranges(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> Forward {
     let u = scalar.unit_roundoff();
     let leaf = |_, node: &Node<Literal, Angle>| match node {

@@ -8,30 +8,22 @@ use crate::figures::{above, bound_of};
 use crate::interval::Interval;
 use crate::program::{Need, ScalarType};
 
-/// An angle whose sine no polynomial gives as exactly as was wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct OutOfReach {
-    /// The scalar of the polynomials.
     pub(super) scalar: ScalarType,
-    /// The joint whose angle it is.
     pub(super) joint: usize,
-    /// The functions of the angle that are wanted.
     pub(super) need: Need,
-    /// The range of the angle.
     pub(super) range: Interval,
-    /// The error that was wanted.
     pub(crate) wanted: f64,
     /// The least error that is proved; infinite if no polynomial is known.
     pub(crate) least: f64,
 }
 
 impl OutOfReach {
-    /// Returns the least error of two digits that can be had; `None` if no polynomial is known.
     pub(crate) fn reachable(&self) -> Option<f64> {
         self.least.is_finite().then(|| above(self.least, 2))
     }
 
-    /// Returns the likely fixes. Those that may not be enough are tried.
     pub(crate) fn help(&self) -> String {
         let joint = self.joint + 1;
         let Some(error) = self.reachable() else {
@@ -75,7 +67,6 @@ impl fmt::Display for OutOfReach {
     }
 }
 
-/// Writes an angle, a multiple of π as such.
 fn angle(x: f64) -> String {
     match x / PI {
         1.0 => "π".to_owned(),

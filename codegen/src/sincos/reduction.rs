@@ -13,26 +13,21 @@ use crate::program::kernel::{Kernel, KernelWriter};
 use crate::program::scalar_type::underflow;
 use crate::program::{Literal, Operation, ScalarType};
 
-/// What is left of an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rest {
-    /// The values that it takes as computed.
     pub range: Interval,
     /// How far it is from the angle less whole turns.
     pub error: f64,
 }
 
-/// Returns the significand bits.
 fn digits(scalar: ScalarType) -> i32 {
     scalar.of(f64::MANTISSA_DIGITS, f32::MANTISSA_DIGITS) as i32
 }
 
-/// Returns 1.5·2^(p−1)
 fn magic(scalar: ScalarType) -> f64 {
     1.5 * libm::exp2(f64::from(digits(scalar) - 1))
 }
 
-/// Returns 2π to 120 digits.
 fn turn() -> Rational {
     Angle::right_angles(4).radians()
 }
@@ -48,7 +43,6 @@ pub(crate) fn constants(scalar: ScalarType) -> [f64; 3] {
     [round(&whole.recip()), coarse, round(&(whole - exact))]
 }
 
-/// Writes the reduction with ι, A and B into an empty kernel; returns the rest.
 pub(crate) fn write(
     kernel: &mut KernelWriter,
     [inverse, much, little]: [f64; 3],
@@ -67,8 +61,6 @@ pub(crate) fn write(
     kernel.apply(Operation::Sub, [rest, little])
 }
 
-/// Returns the reduction that a kernel begins with, as (ι, A, B), and the kernel of
-/// what is left; `None` if it begins with none.
 pub(crate) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Kernel)> {
     let dag = &kernel.dag;
     let literal = |place: usize| match dag.operations().nth(place)?.2 {
@@ -77,7 +69,6 @@ pub(crate) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Ke
             _ => None,
         },
     };
-    // The products with ι, A and B.
     let constants = [literal(0)?, literal(3)?, literal(5)?];
     let mut expected = KernelWriter::default();
     let rest = write(&mut expected, constants, scalar);
@@ -106,8 +97,6 @@ pub(crate) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Ke
     Some((constants, left))
 }
 
-/// Returns what is left of angles in a range; `None` if there are too many turns for
-/// the way they are counted.
 pub(crate) fn rest(
     [inverse, much, little]: [f64; 3],
     scalar: ScalarType,
@@ -121,7 +110,6 @@ pub(crate) fn rest(
     let whole = turn();
     let exact = |x: f64| Rational::from_float(x);
     let off = |x: &Rational| point(Interval::rational(x).magnitude());
-    // q·ι against q/2π.
     let wrong = off(&(exact(inverse)? - whole.recip()));
     let scaled = reach * point(inverse.abs());
     let counted = reach * wrong + u * scaled + eta;
@@ -153,7 +141,6 @@ pub(crate) fn rest(
     })
 }
 
-/// Returns whether a float times any integer up to `turns` is a float.
 fn is_exact(x: f64, turns: f64, scalar: ScalarType) -> bool {
     let (mantissa, exponent, _) = FloatCore::integer_decode(x);
     let bits = 64 - (mantissa >> mantissa.trailing_zeros().min(63)).leading_zeros() as i32;
@@ -194,7 +181,6 @@ mod tests {
                     ScalarType::F32 => (f64::from(q as f32), kernel.run(q as f32).0.into()),
                 };
                 assert!(rest.range.contains(r), "{q} {r}");
-                // Against exact arithmetic.
                 let exact = |x| Rational::from_float(x).unwrap();
                 let turns = ((exact(q) - exact(r)) / turn()).round();
                 let off = exact(q) - turns * turn() - exact(r);
@@ -219,7 +205,6 @@ mod tests {
         let (mut constants, _) = split(&kernel, ScalarType::F64).unwrap();
         let range = Interval::symmetric(100.0);
         assert!(rest(constants, ScalarType::F64, Interval::symmetric(1e17)).is_none());
-        // A wrong constant shows in the error.
         constants[2] *= 1.5;
         assert!(rest(constants, ScalarType::F64, range).unwrap().error > 1e-9);
     }

@@ -9,10 +9,8 @@ use crate::dag::{Edge, Id};
 use crate::program::kernel::{Kernel, KernelWriter, Need};
 use crate::program::{Operation, ScalarType};
 
-/// A number that records the operations on it.
 #[derive(Clone, Copy)]
 struct Recorded<'t> {
-    /// The operations so far.
     tape: &'t RefCell<KernelWriter>,
     id: Id,
 }

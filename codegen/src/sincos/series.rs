@@ -1,9 +1,8 @@
 //! Taylor's series of sine and cosine, and near-minimax fits to them.
 //!
-//! A fit is the Chebyshev series on the range, cut off: its error is within a
-//! few per cent of the least that a polynomial of its degree can have, since
-//! the first term left out is far larger than the rest. It is computed in
-//! integers from Taylor's series and rounded once, coefficient by
+//! A fit is the Chebyshev series on the range, cut off: its error is within a few per cent of the
+//! least that a polynomial of its degree can have, since the first term left out is far larger than
+//! the rest. It is computed in integers from Taylor's series and rounded once, coefficient by
 //! coefficient, so it is the same on every machine.
 
 use num_bigint::BigInt;
@@ -14,10 +13,8 @@ use dalembert_model::number::Rational;
 use super::poly::Poly;
 use crate::program::ScalarType;
 
-/// Beyond this |angle| Taylor's series is no way to prove anything.
 pub(crate) const FARTHEST: f64 = 40.0;
 
-/// What Taylor's polynomials may leave out.
 const NEGLIGIBLE: f64 = 1e-26;
 
 /// Which of the two.
@@ -32,19 +29,15 @@ pub enum Wave {
 /// Taylor's polynomials about zero, times n!, so that they are integers.
 #[derive(Clone, Debug)]
 pub(crate) struct Taylor {
-    /// One a [`Wave`].
     pub waves: [Poly; 2],
-    /// n!
     pub factorial: BigInt,
     /// What either leaves out at most, before the factor n!.
     pub remainder: f64,
 }
 
 impl Taylor {
-    /// Makes the series for |angle| up to a reach; `None` beyond [`FARTHEST`].
-    ///
-    /// Every derivative of a sine is at most one, so what degree n leaves out
-    /// is at most reach^(n+1)/(n+1)!.
+    /// Every derivative of a sine is at most one, so degree n leaves out at most
+    /// reach^(n+1)/(n+1)!.
     pub(crate) fn up_to(reach: f64) -> Option<Taylor> {
         if reach.is_nan() || reach > FARTHEST {
             return None;
@@ -54,7 +47,6 @@ impl Taylor {
             degree += 1;
             remainder = (remainder * (reach / f64::from(degree + 1)).next_up()).next_up();
         }
-        // n!/k!, from k = n down.
         let mut falling = vec![BigInt::one()];
         for k in (0..degree).rev() {
             falling.push(&falling[falling.len() - 1] * (k + 1));
@@ -76,8 +68,7 @@ impl Taylor {
     }
 }
 
-/// The Chebyshev series of sin and cos of (centre + x/2^halvings) for |x| up
-/// to a radius.
+/// The Chebyshev series of sin and cos of (centre + x/2^halvings) for |x| up to a radius.
 #[derive(Clone, Debug)]
 pub struct Fit {
     waves: [Poly; 2],
@@ -128,7 +119,7 @@ impl Fit {
     }
 }
 
-/// Returns up to the next multiple of 2^−20: few bits make short integers.
+/// Rounds up to a multiple of 2^−20: few bits make short integers.
 pub(crate) fn coarse(x: f64) -> f64 {
     const GRID: f64 = 1_048_576.0;
     (libm::floor(x.abs() * GRID) + 1.0) / GRID
@@ -155,7 +146,6 @@ mod tests {
         assert!(Taylor::up_to(1e3).is_none() && Taylor::up_to(f64::NAN).is_none());
     }
 
-    /// The tail of a fit against the error of its rounded polynomial.
     #[test]
     fn a_fit_errs_as_much_as_its_tail() {
         let (centre, radius) = (0.75, 1.5);

@@ -13,7 +13,6 @@ const BOTH: Need = Need {
     cos: true,
 };
 
-/// Returns the kernel whose sine is this value, as it stands.
 pub(super) fn alone(kernel: KernelWriter, node: Id) -> Kernel {
     let need = Need {
         sin: true,
@@ -22,8 +21,6 @@ pub(super) fn alone(kernel: KernelWriter, node: Id) -> Kernel {
     kernel.kernel(need, [Edge::from(node); 2])
 }
 
-/// Returns the largest errors seen: at the ends and at random floats of the range,
-/// against a sine in double precision.
 fn seen(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
     let mut random = Random::new(11);
     let mut worst = Errors::default();
@@ -77,8 +74,7 @@ const CASES: [(ScalarType, f64, f64, f64); 10] = [
     (ScalarType::F32, -1e3, 1e3, 1e-5),
 ];
 
-/// What is proved holds at every sample, and is at most four times what is
-/// seen: loose bounds would cost operations.
+/// A proved error is at most four times what is seen: loose bounds would cost operations.
 #[test]
 fn errors_are_as_proved_and_not_far_below() {
     for (scalar, low, high, error) in CASES {
@@ -97,7 +93,6 @@ fn errors_are_as_proved_and_not_far_below() {
     }
 }
 
-/// A changed literal gives another bound, and never one that does not hold.
 #[test]
 fn a_changed_literal_shows() {
     for (scalar, low, high, error) in [CASES[1], CASES[3], CASES[7], CASES[9]] {
@@ -124,7 +119,6 @@ fn a_changed_literal_shows() {
     }
 }
 
-/// Fewer operations than libm's sine has by far, and fewer for less.
 #[test]
 fn operations_follow_from_error_and_range() {
     let cost = |need, low, high, error| {
@@ -138,12 +132,10 @@ fn operations_follow_from_error_and_range() {
     let only = |sin| Need { sin, cos: !sin };
     assert!(cost(only(true), -PI, PI, 1e-8) < cost(BOTH, -PI, PI, 1e-8));
     assert!(cost(only(false), -1.0, 1.0, 1e-8) < cost(BOTH, -1.0, 1.0, 1e-8));
-    // Whole turns are taken off only where there are some.
     let reduced = cost(BOTH, -100.0, 100.0, 1e-8) - cost(BOTH, -PI, PI, 1e-8);
     assert!((1..=8).contains(&reduced), "{reduced}");
 }
 
-/// The error that is offered instead, and each other way out, can be had.
 #[test]
 fn what_cannot_be_reached_is_said() {
     let sines = |half: f64, error| {
@@ -164,7 +156,6 @@ fn what_cannot_be_reached_is_said() {
     let wide = sines(2.0 * PI, 1e-6).unwrap_err();
     assert!(wide.help().ends_with(", or limit q2 to ±π"));
     assert!(sines(PI, 1e-6).is_ok());
-    // f64 has none either.
     let help = sines(1.5, 1e-30).unwrap_err().help();
     assert!(help.ends_with("` or `sincos: libm`") && !help.contains("f64"));
     for bad in [0.0, -1.0, f64::NAN] {
@@ -172,7 +163,6 @@ fn what_cannot_be_reached_is_said() {
     }
 }
 
-/// The proof looks at no kernel that would take it for ever.
 #[test]
 fn nothing_unbounded_is_proved() {
     let mut kernel = KernelWriter::default();

@@ -40,8 +40,6 @@ impl<'a> Job<'a> {
         self.setup.scene()?.tolerance.as_ref()
     }
 
-    /// Returns the program that is emitted for one that was found: with its products fused, where that
-    /// was asked for.
     pub(crate) fn finished(&self, program: &Program) -> Program {
         match self.request.fma {
             true => program.fused(),

@@ -28,7 +28,6 @@ pub struct OptionRow {
     pub words: fn() -> Vec<&'static str>,
     /// `true` if it takes several items.
     pub is_list: bool,
-    /// Takes an item.
     set: fn(&mut Draft, &str) -> Result<(), Complaint>,
 }
 
@@ -62,7 +61,6 @@ impl fmt::Display for Problem {
 
 impl std::error::Error for Problem {}
 
-/// The options that were read so far.
 #[derive(Default)]
 struct Draft {
     outputs: Option<Vec<Function>>,
@@ -71,7 +69,6 @@ struct Draft {
     request: Request,
 }
 
-/// Adds to a list what is not in it.
 fn add<T>(
     list: &mut Vec<T>,
     item: T,
@@ -95,10 +92,6 @@ fn output(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
     add(outputs, function, |a, b| a.is_namesake(*b), name)
 }
 
-/// Returns the scene of a name.
-///
-/// # Errors
-/// The name that was probably meant.
 fn find<'s>(scenes: &'s [Scene], name: &str) -> Result<&'s Scene, Complaint> {
     let found = scenes.iter().find(|scene| scene.name == name);
     found.ok_or_else(|| {
@@ -347,7 +340,6 @@ impl Request {
             ("plan", word(!self.has_no_plan)),
             ("name", self.module.as_deref().unwrap_or("")),
         ] {
-            // All of them are options.
             let _ = asked.set(option, value);
         }
         asked
@@ -362,8 +354,6 @@ mod tests {
         Request::parse(&text.parse().unwrap(), &ScalarType::ALL, &[], &[])
     }
 
-    /// Each row sets what it says and refuses what it does not know; the table's names and
-    /// defaults are those of the text.
     #[test]
     fn every_option_sets_and_refuses() {
         let names = OPTIONS.each_ref().map(|row| row.name);
@@ -376,7 +366,6 @@ mod tests {
             let mut requests = Vec::new();
             for word in &words {
                 let request = read(&format!("{}: {word}", row.name)).unwrap();
-                // What is asked for asks for it again, but that scalars are named.
                 let mut again = Request::parse(&request.asked(), &[], &[], &[]).unwrap();
                 again.is_scalar_open = request.is_scalar_open;
                 assert_eq!(format!("{again:?}"), format!("{request:?}"), "{word}");

@@ -61,8 +61,8 @@ pub struct Request {
     pub language: Language,
     /// Programs to replay instead of searching.
     pub plan: Option<Plan>,
-    /// Programs that a search goes on from: what it finds is no dearer. Those of another robot or
-    /// scene, and those that are not the function's, are left aside.
+    /// Programs that a search goes on from; those of another robot, scene or function are left
+    /// aside.
     pub renewed: Option<Plan>,
     /// `true` if a plan beside the robot file is not used.
     pub has_no_plan: bool,
@@ -78,12 +78,11 @@ pub struct Request {
     /// `true` if nobody chose a scalar. Then a tolerance takes the cheapest of the scalars that it
     /// admits, and f32 is left out where it cannot hold a constant.
     pub is_scalar_open: bool,
-    /// The options that chose the robot's chain in a model, each with its value, for the first lines
-    /// of files; none for a robot file.
+    /// The options that chose the robot's chain in a model, with their values; none for a robot
+    /// file.
     pub chain: Vec<(String, String)>,
-    /// Units of work that the search for what a tolerance allows may take; it
-    /// is refused where that is not enough. They are counted, never timed: the
-    /// same everywhere. No limit if `None`.
+    /// Units of work that the search for what a tolerance allows may take; it is refused where that
+    /// is not enough. They are counted, never timed: the same everywhere. No limit if `None`.
     pub work: Option<u64>,
 }
 
@@ -129,9 +128,8 @@ impl Request {
         self.sincos.library(self.auto)
     }
 
-    /// Returns the units of [`work`](Request::work) of the ways in that keep a compiler
-    /// waiting, `dynamics!` and build scripts; no limit for who asks for a
-    /// thorough search there.
+    /// Returns the units of [`work`](Request::work) of the ways in that keep a compiler waiting,
+    /// `dynamics!` and build scripts; no limit for who asks for a thorough search there.
     pub fn work_while_compiling(effort: Effort) -> Option<u64> {
         match effort {
             Effort::Quick => Some(WORK_WHILE_COMPILING),
@@ -171,9 +169,8 @@ impl Request {
         }
     }
 
-    /// Returns the request with the outputs and scalars that somebody chose, if any, and
-    /// in a scene, if any: it takes the scene's outputs where none were chosen,
-    /// and the same for its scalar. With a tolerance and no scalar chosen, the
+    /// Returns the request with the outputs and scalars that somebody chose, in a scene, if any,
+    /// whose outputs and scalar are the defaults. With a tolerance and no scalar chosen, the
     /// cheapest that it admits is taken.
     #[must_use]
     pub fn choose(

@@ -22,8 +22,7 @@ const MAX_MEASURED: usize = 16;
 /// The most joints for which h_ikm is held against Lagrange–Euler.
 const MAX_WRITTEN: usize = 7;
 
-/// A program that takes fewer operations than the one taken, and costs more
-/// digits than are allowed.
+/// A program with fewer operations than the one taken, and a larger error than is allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Refused {
     /// Its counts.
@@ -34,20 +33,17 @@ pub struct Refused {
     pub taken: f64,
 }
 
-/// Accepts a program of a function that costs no more than [`WORSE`] times
-/// the error of a textbook form.
 #[derive(Clone, Debug)]
 pub(crate) struct AccuracyFilter<'a> {
     task: Task<'a>,
-    /// The textbook form's error; none where whatever a program costs is admitted.
     reference: Option<Rounding>,
     /// The chunk of states that refused the last program: it may refuse the next one, too.
     worst_states: Cell<usize>,
 }
 
 impl<'a> AccuracyFilter<'a> {
-    /// Measures the textbook form, unless programs are admitted whatever they cost: the link-frame
-    /// recursion; for h_ikm, which it gives only by differences, Lagrange–Euler.
+    /// The textbook form is the link-frame recursion; for h_ikm, which it gives only by
+    /// differences, Lagrange–Euler.
     pub(crate) fn new(task: Task<'a>, is_lenient: bool) -> Self {
         let mut quantities = task.function.quantities().iter();
         let (most, by) = match quantities.any(|quantity| quantity.facts().by_differences) {
@@ -63,13 +59,11 @@ impl<'a> AccuracyFilter<'a> {
         }
     }
 
-    /// Returns whether the program is accurate enough.
     pub(crate) fn accepts(&self, graph: &Dag) -> bool {
         self.excess(graph, 1.0_f64.next_up()) <= 1.0
     }
 
-    /// Returns the program's error over the largest that is accepted; zero where
-    /// nothing is measured. An error at or above the bound need not be exact.
+    /// Relative to the largest error that is accepted. At or above the bound it need not be exact.
     pub(crate) fn excess(&self, graph: &Dag, bound: f64) -> f64 {
         let Some(reference) = &self.reference else {
             return 0.0;

@@ -1,13 +1,11 @@
 //! The condition of a symmetric positive semidefinite matrix.
 
-/// Returns the condition of a matrix given row by row: its largest over its least eigenvalue,
-/// infinite where the least is not positive.
+/// `d` is row by row. Infinite where the least eigenvalue is not positive.
 pub(crate) fn condition(d: &[f64]) -> f64 {
     ratio(rows(d))
 }
 
-/// Returns the condition of D_ik / √(D_ii D_kk), from which units and sizes of the joints are taken
-/// out.
+/// For D_ik / √(D_ii D_kk), from which units and sizes of the joints are taken out.
 pub(crate) fn scaled_condition(d: &[f64]) -> f64 {
     let matrix = rows(d);
     let entry = |i: usize, k: usize| match (matrix[i][i] * matrix[k][k]).sqrt() {
@@ -35,8 +33,7 @@ fn ratio(matrix: Vec<Vec<f64>>) -> f64 {
     }
 }
 
-/// Returns Jacobi's rotations: on a matrix with a unit diagonal they find small
-/// eigenvalues to relative accuracy.
+/// Jacobi's rotations find small eigenvalues of a matrix with a unit diagonal to relative accuracy.
 fn eigenvalues(mut m: Vec<Vec<f64>>) -> Vec<f64> {
     let n = m.len();
     for _ in 0..30 {
@@ -62,7 +59,6 @@ fn eigenvalues(mut m: Vec<Vec<f64>>) -> Vec<f64> {
     (0..n).map(|i| m[i][i]).collect()
 }
 
-/// Rotates rows and columns p < q.
 fn rotate(m: &mut [Vec<f64>], p: usize, q: usize, c: f64, s: f64) {
     for row in m.iter_mut() {
         let (a, b) = (row[p], row[q]);

@@ -37,7 +37,6 @@ impl Degree {
         }
     }
 
-    /// Returns each divisor of either value with its power in both.
     fn powers(&self, other: &Degree) -> Vec<(Rc<f64>, f64, f64)> {
         let own = self.under.iter().map(|(d, e)| (d.clone(), *e, 0.0));
         let others = other.under.iter().map(|(d, e)| (d.clone(), 0.0, *e));
@@ -115,13 +114,11 @@ impl Divide for Degree {
     }
 }
 
-/// Degrees of inputs and constants; collects the constant angles that are read.
 #[derive(Debug, Default)]
 pub(super) struct Degrees(RefCell<Vec<Angle>>);
 
 impl Degrees {
-    /// Refuses two lists of values of an arm of `joints` joints if the degree of a difference in the
-    /// parameters that are drawn is so large that a miss is not unlikely.
+    /// A large degree of a difference in the drawn parameters makes a miss too likely.
     pub(super) fn bound(
         &self,
         own: &[Sparse<Degree>],
@@ -166,7 +163,6 @@ impl Leaves for Degrees {
 mod tests {
     use super::*;
 
-    /// x/y + z/y has one y, x/y + z/w both; a divisor that is divided by again goes back up.
     #[test]
     fn a_divisor_counts_once() {
         let [x, y, z, w] = [1.0; 4].map(Degree::new);
@@ -180,7 +176,6 @@ mod tests {
         assert_eq!(nested.add(&Degree::one()).top, 2.0);
     }
 
-    /// Whatever grows beyond counting has an infinite degree.
     #[test]
     fn powers_without_end_are_infinite() {
         let mut power = Degree::one().div(&Degree::new(1.0));

@@ -31,11 +31,9 @@ use crate::program::{Input, Program};
 use crate::setup::Setup;
 use dalembert_model::number::Exact;
 
-/// The most joints for which Lagrange–Euler itself is the reference: its cost
-/// grows with n⁴ to n⁵.
+/// The cost of Lagrange–Euler grows with n⁴ to n⁵.
 const WRITTEN_LIMIT: usize = 10;
 
-/// Returns the formulation that is the reference for an arm.
 pub(super) fn reference_formulation(setup: &Setup) -> Formulation {
     match setup.robot().rows().len() <= WRITTEN_LIMIT {
         true => Formulation::LagrangeEuler,
@@ -46,8 +44,7 @@ pub(super) fn reference_formulation(setup: &Setup) -> Formulation {
 /// A successful proof.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Proof {
-    /// The formulation that the program equals; none of a load, which has its
-    /// definition.
+    /// The formulation that the program equals; none of a load, which has its definition.
     pub reference_formulation: Option<Formulation>,
 }
 
@@ -63,8 +60,7 @@ pub enum Disproof {
     Output(String),
     /// The formula does not solve its own equation of motion: a defect of this library.
     Equation,
-    /// The base parameters do not give what a parameter takes of torque: a
-    /// defect of this library.
+    /// The base parameters do not give what a parameter takes of torque: a defect of this library.
     Dependence {
         /// The parameter's name.
         parameter: String,
@@ -131,7 +127,6 @@ pub fn prove(setup: &Setup, program: &Program) -> Result<Proof, Disproof> {
         |point| {
             let posed = task.posed(point);
             let all = posed.all(formulation);
-            // Of the equations that the results solve, such as D D⁻¹ − 1; none if they solve none.
             let residuals = function.residual(formulation, &posed.arm, &posed.motion, &all);
             match integers(&residuals) {
                 None => Ok(None),
@@ -173,8 +168,7 @@ pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
     degrees.bound(&own, &others, a.joints.max(b.joints))
 }
 
-/// Compares values with the expected ones at [`POINTS`] points where both exist; `differs` names
-/// a value by its place.
+/// `differs` names a value by its place.
 pub(super) fn compare(
     statement: &[&str],
     expected: impl Fn(&Point) -> Result<Option<Vec<Residue>>, Disproof>,
@@ -205,8 +199,7 @@ pub(super) fn compare(
     Err(Disproof::Unfit)
 }
 
-/// Returns a program's outputs; `None` if a step reads a later one. Where a robot is given, a load
-/// that the program takes is that of a payload, whose ten numbers are variables of the proof.
+/// With a robot, the load is that of a payload whose ten numbers are variables of the proof.
 pub(super) fn run<L: Leaves>(
     setup: Option<&Setup>,
     program: &Program,

@@ -66,8 +66,8 @@ impl Runtime {
         Runtime::in_scene(Setup::whole(robot))
     }
 
-    /// Creates the runtime of a robot in a scene: the same recursion over all its joints, with
-    /// the scene's constants in place of the state's.
+    /// Creates the runtime of a robot in a scene, with the scene's constants in place of the
+    /// state's.
     pub fn in_scene(setup: Setup) -> Runtime {
         let whole = setup.arm(Exact::clone);
         Runtime {
@@ -101,7 +101,6 @@ impl Runtime {
         Granted(factors.collect())
     }
 
-    /// Returns the arm and its motion at a state.
     fn posed(&self, function: Function, state: &JointState) -> Posed<'_, Sparse<f64>> {
         let input = |input: Input| Sparse::Value(self.setup.input_at(input, state));
         let mut quantities = function.quantities().iter();
@@ -120,7 +119,6 @@ impl Runtime {
     }
 }
 
-/// Returns a constant rounded once.
 fn constant(exact: &Exact) -> Sparse<f64> {
     Sparse::constant(exact, f64::nearest(exact))
 }
@@ -146,8 +144,7 @@ impl Emitted {
         }
     }
 
-    /// Returns, for each result, whether it was proved to vanish: these are compared with zero,
-    /// not with the rounding noise that a runtime leaves there.
+    /// True for each result that was proved to vanish, which is compared with zero.
     pub fn vanishing(&self) -> impl Iterator<Item = bool> {
         let dag = &self.text.dag;
         let outputs = dag.outputs.iter();
@@ -171,7 +168,6 @@ impl Emitted {
     }
 }
 
-/// Returns the distance of an angle's polynomials from libm at a state.
 fn off<T: Machine>(pair: &Pair, kernel: &Kernel, state: &JointState) -> f64 {
     let angle = T::literal(state.q[pair.joint]);
     let (sin, cos) = kernel.run(angle);

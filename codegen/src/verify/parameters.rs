@@ -62,7 +62,6 @@ pub fn prove_base(task: Task<'_>, base: &BaseParameters) -> Result<(), Disproof>
     degrees.bound(&differences, &zeros, setup.joints())
 }
 
-/// Returns all parameters of a robot file, in the order of the full columns.
 fn parameters(robot: &Robot) -> Vec<Parameter> {
     let links = (0..robot.rows().len()).flat_map(|joint| {
         let all = LinkParameter::ALL.into_iter();

@@ -1,8 +1,7 @@
 //! Points of the field at which proofs evaluate, drawn from the statement that is proved.
 //!
-//! The SHA-256 of a statement (robot, scene, programs) is the seed of its points, so that
-//! another digit of the statement gives other points, and the statement gives its own on every
-//! machine.
+//! The SHA-256 of a statement (robot, scene, programs) is the seed of its points, so that another
+//! digit of the statement gives other points, and the statement gives its own on every machine.
 
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::RuntimeParameter;
@@ -16,7 +15,6 @@ use crate::dag::{Leaves, Points};
 use crate::program::Input;
 use crate::setup::Setup;
 
-/// The number of points at which a statement is proved.
 pub(super) const POINTS: usize = 4;
 
 /// The number of points drawn before a statement is given up because values are missing.
@@ -26,14 +24,12 @@ const MAX_DRAWS: usize = 16;
 /// because its prime divides a difference, is not equal here.
 pub(super) type Residue = Sparse<ProofField>;
 
-/// A point: a residue for every input and for every constant angle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
     points: Points,
     index: usize,
 }
 
-/// Returns the points of a statement, given as texts.
 pub(super) fn points(statement: &[&str]) -> impl Iterator<Item = Point> {
     let mut hash = Hash::new();
     for text in statement {
@@ -47,7 +43,6 @@ pub(super) fn points(statement: &[&str]) -> impl Iterator<Item = Point> {
     (0..MAX_DRAWS).map(move |index| Point { points, index })
 }
 
-/// Writes a robot in its scene: parameters, rows and arguments.
 pub(super) fn written(setup: &Setup) -> String {
     format!(
         "{}\n{}\n{:?}\n{:?}",
@@ -65,8 +60,7 @@ impl Leaves for Point {
         Sparse::Value(self.points.input_at(input, self.index))
     }
 
-    /// Returns a constant's residue, lost where 2⁶¹ − 45 divides a coefficient or a denominator:
-    /// the field cannot tell it from zero.
+    /// Lost where 2⁶¹ − 45 divides a coefficient or a denominator.
     fn constant(&self, constant: &Exact) -> Residue {
         match self.points.constant_at(constant, self.index) {
             Some(value) if !Points::lose::<{ ProofField::P }>(constant) => {
@@ -77,7 +71,6 @@ impl Leaves for Point {
     }
 }
 
-/// Returns the residues as integers, `None` if any is lost.
 pub(super) fn integers(values: &[Residue]) -> Option<Vec<ProofField>> {
     values.iter().map(Sparse::value).collect()
 }

@@ -1,11 +1,10 @@
 //! The rounding error of a program: an estimate that no single digit decides.
 //!
-//! Every rounded operation and every rounded constant is an independent error
-//! of at most u of its value; its effect on an output is the derivative of the
-//! output by that value, found by one backward pass. The root of the sum of
-//! squares is what the sum of such errors is of the size of. It depends
-//! smoothly on the robot, whereas errors that are observed at some states
-//! depend on how the last digits of its parameters happen to fall.
+//! Every rounded operation and every rounded constant is an independent error of at most u of its
+//! value; its effect on an output is the derivative of the output by that value, found by one
+//! backward pass. The root of the sum of squares is what the sum of such errors is of the size of.
+//! It depends smoothly on the robot, whereas errors that are observed at some states depend on how
+//! the last digits of its parameters happen to fall.
 
 use std::cell::Cell;
 use std::ops::Range;
@@ -20,10 +19,8 @@ use crate::program::{Input, Operation, Program};
 use crate::setup::Setup;
 use crate::states::JointState;
 
-/// The number of states.
 const STATES: usize = 64;
 
-/// A seed of its own.
 const SEED: u64 = 0xacc;
 
 /// The largest estimated errors over the states, in units of u, one a quantity.
@@ -41,8 +38,7 @@ impl Rounding {
         Rounding::until(setup, program, &Cell::default(), |_| false)
     }
 
-    /// Estimates the rounding error until `is_enough` says so of the states so far: more states only
-    /// make it larger. It begins with the chunk of states `first`, which is then the last one.
+    /// Begins with the chunk `first`, set to the last one: more states only make the error larger.
     pub(crate) fn until(
         setup: &Setup,
         program: &Program,
@@ -119,8 +115,7 @@ impl Rounding {
     }
 }
 
-/// A number of which what is zero stays zero, whatever it is multiplied by: an error that does not
-/// arrive is none, however large what it would be multiplied with.
+/// Zero stays zero, whatever it is multiplied by: an error that does not arrive is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Sticky(f64);
 
@@ -208,8 +203,7 @@ fn error(
     squares.0.map(|square| libm::sqrt(square.0))
 }
 
-/// Returns whether a node loses no digit: a power of two, a product with one, a fused product, an
-/// entry of an argument. Sines are rounded.
+/// Powers of two, products with one, fused products and entries are exact; sines are rounded.
 fn is_exact(dag: &Dag, node: &Node) -> bool {
     let is_power = |id: &Id| matches!(dag.node(*id), Node::Constant(c) if is_power_of_two(c));
     match node {

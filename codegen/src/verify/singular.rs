@@ -1,9 +1,8 @@
 //! Decides exactly whether D has an inverse in almost every state.
 //!
-//! D of the joints that move is factorised from the hand inward at random
-//! points, as proofs draw them. A pivot that is zero at every one of them is
-//! zero in every state but for the chance of a miss, and says which joint
-//! moves no inertia while the joints beyond it are free.
+//! D of the joints that move is factorised from the hand inward at random points, as proofs draw
+//! them. A pivot that is zero at every one of them is zero in every state but for the chance of a
+//! miss, and says which joint moves no inertia while the joints beyond it are free.
 
 use dalembert_model::equations::factor::{Factor, submatrix};
 use dalembert_model::equations::forward::free;
@@ -13,8 +12,7 @@ use super::exact::reference_formulation;
 use super::points::{POINTS, Point, points, written};
 use crate::setup::Task;
 
-/// Returns the joint nearest to the hand that moves no inertia in any state; none if
-/// D has an inverse almost everywhere.
+/// The joint nearest to the hand; none if D has an inverse almost everywhere.
 pub(crate) fn without_inertia(task: Task<'_>) -> Option<usize> {
     let Task { setup, function: _ } = task;
     let mut found = None;
@@ -27,8 +25,7 @@ pub(crate) fn without_inertia(task: Task<'_>) -> Option<usize> {
     found
 }
 
-/// Returns the joint of the first zero pivot from the hand inward, if there is one; nothing at a
-/// point without values.
+/// Counts from the hand inward; the outer option is none at a point without values.
 fn zero_pivot(task: Task<'_>, point: &Point) -> Option<Option<usize>> {
     let posed = task.posed(point);
     let (arm, motion) = (&posed.arm, &posed.motion);

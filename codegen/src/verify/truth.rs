@@ -29,16 +29,14 @@ const LOST: f64 = 6.3e-61;
 pub struct Reference {
     setup: Setup,
     arm: Arm<TrueValue>,
-    /// The pairs of angles already computed, by their bits: several functions are run at the
-    /// same states.
+    /// By an angle's bits: several functions are run at the same states.
     pairs: RefCell<FxHashMap<u64, SinCosPair<Wide>>>,
 }
 
 /// Pairs that are kept, about a megabyte.
 const MAX_PAIRS: usize = 1 << 13;
 
-/// A true value, and how far it may be off, by Wilkinson's running error analysis: what the operands
-/// are off, carried through the operation, and what that rounds itself.
+/// A true value, with a bound of its error by Wilkinson's running error analysis.
 #[derive(Clone, Debug)]
 pub struct TrueValue {
     value: Wide,
@@ -55,8 +53,7 @@ impl TrueValue {
         (off - self.lost * LOST - other.lost * LOST).max(0.0)
     }
 
-    /// |x − value| and no less, less what the reference itself may be off;
-    /// infinite if `x` is no number.
+    /// A lower bound of |x − truth|: |x − value| less the reference's own error; infinite for NaN.
     pub fn error(&self, x: f64) -> f64 {
         match Wide::from_f64(x) {
             Some(x) => (x.sub(&self.value).magnitude() - self.lost * LOST).max(0.0),
@@ -98,17 +95,14 @@ impl Reference {
         &self.setup
     }
 
-    /// Returns the results of a function over the scene's rows at a state of finite
-    /// numbers, flat.
+    /// Returns the results of a function over the scene's rows at a state of finite numbers, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<TrueValue> {
         let task = self.setup.task(function);
         let posed = task.posed_arm(self.arm.clone(), &self.leaves(state));
         posed.results(Formulation::NewtonEulerLink)
     }
 
-    /// Returns the results of a program with its exact constants at a state of finite numbers,
-    /// flat, by the rules of the exact proof; a load that it takes is that of the state's payload.
-    /// None if it reads what is not there.
+    /// A load is that of the state's payload; none if the program reads what is not there.
     pub(crate) fn run_program(
         &self,
         program: &Program,
@@ -138,7 +132,6 @@ impl Reference {
     }
 }
 
-/// A state, with the sines of its angles.
 struct AtState<'r> {
     setup: &'r Setup,
     pairs: Vec<SinCosPair<Wide>>,
@@ -180,7 +173,6 @@ impl TrueValue {
         }
     }
 
-    /// Returns it rounded itself, with what its operands' errors make of it.
     fn rounded(value: Wide, carried: f64) -> TrueValue {
         let size = value.magnitude();
         TrueValue {
@@ -199,8 +191,7 @@ impl TrueValue {
         value.unwrap_or_else(|| TrueValue::rounded(Wide::from_exact(constant), f64::INFINITY))
     }
 
-    /// Returns the root of what is above zero: what x is off moves it by Δx/(2 √x); the
-    /// whole Δx/√x, since x is off itself.
+    /// For x above zero. Δx moves √x by Δx/(2 √x); the whole Δx/√x, since x is off itself.
     fn sqrt(&self) -> TrueValue {
         let value = self.value.sqrt();
         let carried = match value.magnitude() {
@@ -299,7 +290,6 @@ mod tests {
         Rational::from_integer(n.into())
     }
 
-    /// The bound holds of what is exact, and grows with what cancels.
     #[test]
     fn what_cancels_is_known_less_well() {
         let known = |n: Rational| TrueValue::constant(&Exact::from(n.recip()));

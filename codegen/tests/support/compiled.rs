@@ -9,27 +9,22 @@ use dalembert_codegen::{Function, Generated, Language, ScalarType};
 
 use super::Case;
 
-/// The most entries of an argument here.
 const MOST: usize = 16;
 /// The states of a batch: more than there are threads of a kernel, and no multiple.
 const STATES: usize = 5;
-/// The states that a program is given in one run: batches, whole.
 const AT_ONCE: usize = 200 * STATES;
 
-/// What a CUDA compiler for the device knows, for a processor: no qualifiers, and threads
-/// that take turns.
+/// A CUDA compiler's words for a processor: no qualifiers, and threads that take turns.
 const DEVICE: &str = "#define __host__\n#define __device__\n#define __global__\n\
     static struct { unsigned x; } gridDim = {2}, blockDim = {2}, blockIdx, threadIdx;\n\
     #define THREADS for (blockIdx.x = 0; blockIdx.x < gridDim.x; ++blockIdx.x) \
     for (threadIdx.x = 0; threadIdx.x < blockDim.x; ++threadIdx.x)\n";
 
-/// Takes an argument of `STATES` states from `in`, and puts a result of as many into `out`.
 const MACROS: &str = "#define IN(real, name, length, from) real name[(length) * STATES]; \
     for (i = 0; i < (length) * STATES; ++i) name[i] = (real)in[i % STATES][(from) + i / STATES];\n\
     #define PUT(name, length) for (i = 0; i < (length) * STATES; ++i) \
     out[i % STATES][at[i % STATES]++] = (double)name[i];\n";
 
-/// Returns those of these programs that are there.
 pub fn there(names: &[&'static str]) -> Vec<&'static str> {
     let is_there = |name: &&&str| {
         let run = Command::new(name)
@@ -45,14 +40,12 @@ pub fn there(names: &[&'static str]) -> Vec<&'static str> {
     found
 }
 
-/// Returns a folder of this name, which is there.
 pub fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("compiled_{name}"));
     fs::create_dir_all(&folder).unwrap();
     folder
 }
 
-/// Runs a program in a folder, which must succeed, and returns what it says.
 pub fn run<'a>(program: &str, flags: impl IntoIterator<Item = &'a str>, folder: &Path) -> String {
     let mut command = Command::new(program);
     command.args(flags).current_dir(folder);
@@ -63,7 +56,6 @@ pub fn run<'a>(program: &str, flags: impl IntoIterator<Item = &'a str>, folder: 
     said
 }
 
-/// Returns a call of a function on `STATES` states or one; what it gives is put aside.
 fn call(case: &Case, generated: &Generated, emitted: &Emitted) -> String {
     let (function, batch) = (emitted.function, case.request.batch);
     let float = match emitted.scalar {
@@ -118,8 +110,6 @@ fn call(case: &Case, generated: &Generated, emitted: &Emitted) -> String {
     format!("{{\n{body}{threads}{returned}{name}({passed});\n{results}}}\n")
 }
 
-/// Returns a program that reads states and writes what every function of a header gives, all in
-/// doubles, state by state.
 fn main_of(case: &Case, generated: &Generated) -> String {
     let all = &generated.emitted;
     let calls: String = all.iter().map(|own| call(case, generated, own)).collect();
@@ -141,14 +131,12 @@ fn main_of(case: &Case, generated: &Generated) -> String {
     )
 }
 
-/// Lists states whose entries are anywhere, without an end.
 fn states() -> impl Iterator<Item = Vec<f64>> {
     let mut random = Random::new(1);
     let mut next = move || (random.unit() - 0.5) * 6.0;
     std::iter::repeat_with(move || (0..Argument::COUNT * MOST).map(|_| next()).collect())
 }
 
-/// Returns what the proved programs give.
 fn expected(generated: &Generated, state: &[f64]) -> Vec<u64> {
     let mut all = Vec::new();
     for emitted in &generated.emitted {
@@ -162,9 +150,7 @@ fn expected(generated: &Generated, state: &[f64]) -> Vec<u64> {
     all
 }
 
-/// Compiles and runs it on so many states, and compares bits with the proved programs. `what`
-/// names a folder; the program there is made by every compiler that is there with each of these
-/// flags.
+/// `what` names a folder; every compiler that is there makes the program with each of these flags.
 pub fn same_bits(what: &str, case: &Case, count: usize, flags: &[&str]) {
     let (generated, language) = (case.generated(), case.request.language);
     let batch = if case.request.batch {

@@ -4,7 +4,6 @@ use dalembert_codegen::workspace::Random;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Robot};
 
-/// Draws the parts of a robot.
 pub struct Draw(pub Random);
 
 impl Draw {
@@ -12,13 +11,11 @@ impl Draw {
         self.0.below(one_in) == 0
     }
 
-    /// Returns a number of thousandths in [low, high).
     pub fn milli(&mut self, low: i64, high: i64) -> Rational {
         let value = low + self.0.below((high - low) as usize) as i64;
         Rational::new(value.into(), 1000.into())
     }
 
-    /// Returns a drawn value, or once in so many times the default one.
     fn unless<T: Default>(&mut self, one_in: usize, drawn: impl Fn(&mut Draw) -> T) -> T {
         match self.chance(one_in) {
             true => T::default(),
@@ -26,12 +23,11 @@ impl Draw {
         }
     }
 
-    /// Returns a length; now and then none.
     pub fn length(&mut self) -> Rational {
         self.unless(4, |draw| draw.milli(-600, 600))
     }
 
-    /// Returns a right angle as often as not; else a fraction of π, or radians.
+    /// A right angle as often as not; else a fraction of π, or radians.
     pub fn angle(&mut self) -> Angle {
         let over = self.0.below(9) as i64 - 4;
         let turns = |under: i64| Angle::PiTimes(Rational::new(over.into(), under.into()));
@@ -84,7 +80,6 @@ impl Draw {
     }
 }
 
-/// Robots of 1 to 8 joints, in turn, each with its seed.
 pub fn robots(count: usize, seed: u64) -> impl Iterator<Item = (u64, Robot, Draw)> {
     (0..count).map(move |index| {
         let seed = seed + index as u64;

@@ -50,12 +50,10 @@ macro_rules! daily_and_campaign {
 }
 pub(crate) use daily_and_campaign;
 
-/// Returns true for the first of every `N` places.
 pub fn one_in<const N: usize>(place: usize) -> bool {
     place.is_multiple_of(N)
 }
 
-/// Returns true for all places but the first of every `N`.
 pub fn all_but_one_in<const N: usize>(place: usize) -> bool {
     !one_in::<N>(place)
 }
@@ -63,7 +61,6 @@ pub fn all_but_one_in<const N: usize>(place: usize) -> bool {
 /// The error that is granted to every quantity, in units of u.
 pub const BOUND: f64 = 100.0;
 
-/// The folders of robot files in the workspace.
 const FOLDERS: [&str; 4] = [
     "generated/robots",
     "codegen/tests/data",
@@ -79,13 +76,11 @@ fn root() -> &'static Path {
     root.expect("a checkout has robots")
 }
 
-/// Returns the path of a file of the workspace from the folder of the crate.
 pub fn path(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
 }
 
-/// Returns the text of a robot file, with more at its end, such as scenes; `frames/NAME` is a robot
-/// with the frames of the file that it is compared with.
+/// `frames/NAME` is a robot with the frames of the file that it is compared with.
 pub fn source(name: &str, more: &str) -> String {
     if let Some(name) = name.strip_prefix("frames/") {
         return with_frames(name) + more;
@@ -96,32 +91,26 @@ pub fn source(name: &str, more: &str) -> String {
     std::fs::read_to_string(file).unwrap() + more
 }
 
-/// Reads the text of a robot file.
 pub fn read(source: &str) -> Reading {
     read::parse(source).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-/// Reads the text of a robot file without its scenes.
 pub fn read_robot(source: &str) -> Robot {
     read(source).robot
 }
 
-/// Returns a robot by the name of its file.
 pub fn robot(name: &str) -> Robot {
     reading_with(name, "").robot
 }
 
-/// Returns a robot with its scenes, with more in its file.
 pub fn reading_with(name: &str, more: &str) -> Reading {
     read(&source(name, more))
 }
 
-/// Returns a file of values that others gave.
 pub fn json(file: &str) -> Value {
     serde_json::from_str(&std::fs::read_to_string(path(file)).unwrap()).unwrap()
 }
 
-/// Returns the file of a robot with the frames of the file of values at them.
 fn with_frames(name: &str) -> String {
     let table = |frame: &Value| {
         let lines = ["name", "link", "xyz", "rpy"].map(|key| format!("{key} = {}\n", frame[key]));
@@ -134,7 +123,6 @@ fn with_frames(name: &str) -> String {
     rows.to_owned() + &tables.collect::<String>()
 }
 
-/// Returns the numbers of lists in lists.
 pub fn numbers(value: &Value) -> Vec<f64> {
     match value {
         Value::Array(list) => list.iter().flat_map(numbers).collect(),
@@ -142,7 +130,6 @@ pub fn numbers(value: &Value) -> Vec<f64> {
     }
 }
 
-/// Returns a state of a file that has some of the arguments.
 pub fn given(json: &Value) -> JointState {
     JointState::new(|argument| {
         let given = argument.given().and_then(|key| json.get(key));
@@ -150,7 +137,6 @@ pub fn given(json: &Value) -> JointState {
     })
 }
 
-/// Returns the largest magnitude.
 pub fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, x| most.max(x.abs()))
 }
@@ -184,8 +170,6 @@ pub fn changes(table: &str) -> Vec<[String; 2]> {
     pairs.map(|(from, to)| [from, to].map(read)).collect()
 }
 
-/// Asserts that a text is refused with one of its lines changed: each into each of its others, of
-/// which those at some places are tried. Returns how many were.
 #[track_caller]
 pub fn every_line_counts(
     text: &str,
@@ -210,7 +194,6 @@ pub fn every_line_counts(
     count
 }
 
-/// Returns one function in f64.
 pub fn one(robot: &Robot, function: Function) -> GeneratedFunction {
     let request = Request {
         scalars: vec![ScalarType::F64],
@@ -220,7 +203,6 @@ pub fn one(robot: &Robot, function: Function) -> GeneratedFunction {
     generated.functions.into_iter().next().unwrap()
 }
 
-/// Returns the names of all outputs.
 pub fn every_output() -> String {
     Function::ALL.map(|function| function.name()).join(", ")
 }
@@ -237,32 +219,26 @@ pub fn in_scene(name: &str, lines: &str, asked: &str) -> (String, String) {
     (source(name, &more), format!("{scene}outputs: {asked}"))
 }
 
-/// A robot with its scenes, and a request.
 pub struct Case {
     pub reading: Reading,
     pub request: Request,
 }
 
 impl Case {
-    /// Reads a robot file by its name, with more at its end, and what is asked.
     pub fn new(name: &str, more: &str, asked: &str) -> Case {
         Case::read(&source(name, more), asked)
     }
 
-    /// Reads the text of a robot file, and what is asked.
     pub fn read(source: &str, asked: &str) -> Case {
         Case::parse(source, asked).unwrap_or_else(|problems| panic!("{asked}: {problems}"))
     }
 
-    /// Reads a robot file by its name, and outputs with options, in a scene with these lines, which
-    /// `;` parts; in none if there are none.
     pub fn in_scene(name: &str, lines: &str, asked: &str) -> Case {
         let (source, asked) = in_scene(name, lines, asked);
         Case::read(&source, &asked)
     }
 
-    /// Reads outputs with options of the arm in the plane. The programs of its outputs are searched
-    /// for once for all tests.
+    /// The programs of its outputs are searched for once for all tests.
     pub fn planar2r(asked: &str) -> Case {
         static PLAN: LazyLock<Plan> = LazyLock::new(|| {
             let case = Case::in_scene("planar2r", "", &every_output());
@@ -273,14 +249,11 @@ impl Case {
         case
     }
 
-    /// Returns the refusal of outputs with options in a scene.
     pub fn refused(name: &str, lines: &str, asked: &str) -> String {
         let (source, asked) = in_scene(name, lines, asked);
         Case::parse(&source, &asked).map_or_else(|said| said, |case| case.refusal())
     }
 
-    /// Reads the text of a robot file, and what is asked, in Rust unless it ends in `; language: c`
-    /// or another; or returns what is said of what is asked.
     fn parse(source: &str, asked: &str) -> Result<Case, String> {
         let reading = read(source);
         let (asked, language) = asked.split_once("; language: ").unwrap_or((asked, "rust"));
@@ -299,19 +272,16 @@ impl Case {
         &self.reading.robot
     }
 
-    /// Generates what is asked.
     pub fn generated(&self) -> Generated {
         generate(self.robot(), &self.request).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    /// Generates what is asked by a plan.
     pub fn by(&self, plan: &Plan) -> Generated {
         let mut request = self.request.clone();
         request.plan = Some(plan.clone());
         generate(self.robot(), &request).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    /// Returns the refusal of the request.
     pub fn refusal(&self) -> String {
         match generate(self.robot(), &self.request) {
             Ok(_) => panic!("generated"),
@@ -319,8 +289,7 @@ impl Case {
         }
     }
 
-    /// Returns the runtime of the robot in its scene, and states of it. Where there is Coulomb
-    /// friction it has its full force at some, is within its width at others, and at rest.
+    /// Coulomb friction has its full force at some states and is within its width at others.
     pub fn runtime(&self, count: usize, seed: u64) -> (Runtime, Vec<JointState>) {
         let setup = self.request.setup(self.robot()).unwrap();
         let mut states = setup.states(count, seed);
@@ -336,8 +305,6 @@ impl Case {
         (Runtime::in_scene(setup), states)
     }
 
-    /// Holds the code, which was proved and read back, in its scalars against the runtime of the
-    /// robot in its scene at so many states.
     #[track_caller]
     pub fn rounds_well(&self, count: usize, what: &str) -> Generated {
         let (generated, (runtime, states)) = (self.generated(), self.runtime(count, 11));
@@ -346,7 +313,6 @@ impl Case {
     }
 }
 
-/// Holds each quantity of these against the runtime; of what errs more it says of what it is.
 /// Something errs, or nothing was run.
 #[track_caller]
 pub fn rounds_well(own: &Generated, runtime: &Runtime, states: &[JointState], what: &str) {
@@ -363,9 +329,8 @@ pub fn rounds_well(own: &Generated, runtime: &Runtime, states: &[JointState], wh
 /// Results of code at a state, the expected ones, and what is granted to the quantities.
 pub type Compared = (Vec<f64>, Vec<f64>, Granted);
 
-/// Runs code beside the runtime, at states that its scalar holds. Sines are libm's on both sides: how
-/// far polynomials are from them is measured apart. What was proved to vanish is compared with zero,
-/// not with the rounding noise that a runtime leaves there.
+/// Sines are libm's on both sides: how far polynomials are from them is measured apart. A result
+/// that was proved to vanish is compared with zero, not with rounding noise.
 pub fn with_runtime(own: &Emitted, runtime: &Runtime, states: &[JointState]) -> Vec<Compared> {
     let own = own.with_libm();
     let compared = states.iter().map(|state| {
@@ -407,7 +372,6 @@ pub fn errors(emitted: &Emitted, compared: &[Compared]) -> Vec<f64> {
     errors.collect()
 }
 
-/// Holds each quantity of these against what is expected, by the rule of every function.
 #[track_caller]
 pub fn hold(emitted: &Emitted, compared: &[Compared], what: &str) {
     for (error, quantity) in errors(emitted, compared)
@@ -418,7 +382,6 @@ pub fn hold(emitted: &Emitted, compared: &[Compared], what: &str) {
     }
 }
 
-/// Returns whether numbers are within so much of others.
 pub fn is_close(found: &[f64], expected: &[f64], most: f64) -> bool {
     let mut pairs = found.iter().zip(expected);
     found.len() == expected.len() && pairs.all(|(a, b)| (a - b).abs() <= most)

@@ -5,7 +5,6 @@ use core::array::from_fn;
 use crate::Vector;
 use crate::vector::BLOCK;
 
-/// A block of states: of each argument, each entry's numbers.
 pub(crate) struct Block<'a, T, const A: usize, const N: usize>([[&'a [T; BLOCK]; N]; A]);
 
 impl<'a, T: Copy, const A: usize, const N: usize> Block<'a, T, A, N> {
@@ -27,7 +26,6 @@ impl<'a, T: Copy, const A: usize, const N: usize> Block<'a, T, A, N> {
         Some(Block(block))
     }
 
-    /// Returns the vectors of all arguments that stand after so many others.
     #[inline(always)]
     pub(crate) fn vectors<V: Vector<T>>(&self, token: V::Token, after: usize) -> [[V; N]; A] {
         let mut vectors = [[V::load(token, self.0[0][0], after); N]; A];
@@ -43,7 +41,6 @@ impl<'a, T: Copy, const A: usize, const N: usize> Block<'a, T, A, N> {
         vectors
     }
 
-    /// Returns the arguments of a state.
     pub(crate) fn state(&self, state: usize) -> [[T; N]; A] {
         self.0.map(|argument| argument.map(|column| column[state]))
     }

@@ -84,7 +84,6 @@ where
     Ok(())
 }
 
-/// Computes the function at fewer states than a block has, at the end of one.
 #[inline(never)]
 fn few_columns<F, const A: usize, const N: usize, const M: usize, const K: usize>(
     vectors: Vectors,
@@ -107,7 +106,6 @@ fn few_columns<F, const A: usize, const N: usize, const M: usize, const K: usize
     }
 }
 
-/// Runs a function over columns in vectors, in code that is compiled for them.
 fn run<F, const A: usize, const N: usize, const M: usize, const K: usize>(
     vectors: Vectors,
     arguments: [&[&[F::Scalar]; N]; A],
@@ -144,7 +142,6 @@ fn run<F, const A: usize, const N: usize, const M: usize, const K: usize>(
     run_columns::<F, <F::Scalar as Float>::Portable, A, N, M, K>((), arguments, results, from);
 }
 
-/// What [`run_columns`] takes, in one kind of vectors.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 struct Columns<'a, 'c, 'r, F, V, const A: usize, const N: usize, const M: usize, const K: usize>
 where

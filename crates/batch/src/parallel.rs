@@ -57,8 +57,7 @@ where
     )
 }
 
-/// Returns the states of a task, whole blocks; `None` where so many states are not worth a second
-/// thread, or there is none.
+/// Whole blocks; `None` where the states are not worth a second thread, or there is none.
 fn task<F, const A: usize, const N: usize, const M: usize, const K: usize>(
     states: usize,
 ) -> Option<usize>
@@ -70,7 +69,6 @@ where
     is_much.then(|| (TASK / bytes).next_multiple_of(BLOCK))
 }
 
-/// Runs the tasks that work is split into until nothing is left, on all threads.
 fn share<W: Send, T>(
     work: W,
     split: impl Fn(&mut W) -> Option<T> + Sync,

@@ -12,7 +12,6 @@ use crate::block::Block;
 use crate::vector::BLOCK;
 use crate::{Function, Slice, Unequal, Vector};
 
-/// Checks that all columns are of one length.
 pub(crate) fn check_columns<T, const N: usize>(
     arguments: &[&[&[T]; N]],
     results: &[&mut [T]],
@@ -33,10 +32,8 @@ pub(crate) fn check_columns<T, const N: usize>(
 #[repr(align(64))]
 struct Aligned<T>(T);
 
-/// The sines or cosines of a block.
 type Sines<T, const K: usize> = Aligned<[[T; BLOCK]; K]>;
 
-/// Runs a function over columns of one length, of at least a block, from a state on.
 #[inline(always)]
 pub(crate) fn run_columns<F, V, const A: usize, const N: usize, const M: usize, const K: usize>(
     token: V::Token,
@@ -74,7 +71,6 @@ pub(crate) fn run_columns<F, V, const A: usize, const N: usize, const M: usize, 
     }
 }
 
-/// Computes the sines of vectors of a block.
 #[inline(always)]
 fn take_sines<F, V, const A: usize, const N: usize, const M: usize, const K: usize>(
     token: V::Token,
@@ -108,7 +104,6 @@ fn take_sines<F, V, const A: usize, const N: usize, const M: usize, const K: usi
     }
 }
 
-/// Returns the results of the vector of a block that stands after so many others.
 #[inline(always)]
 fn at<F, V, const A: usize, const N: usize, const M: usize, const K: usize>(
     token: V::Token,

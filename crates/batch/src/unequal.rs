@@ -23,7 +23,6 @@ pub struct Unequal {
 }
 
 impl Unequal {
-    /// Checks that a slice is as long as the results are.
     pub(crate) fn check(slice: Slice, found: usize, expected: usize) -> Result<(), Unequal> {
         match found == expected {
             true => Ok(()),

@@ -56,7 +56,6 @@ pub fn sqrtf<V: Vector<f32>>(vector: V) -> V {
     vector.sqrt()
 }
 
-/// Implements the methods of [`Vector`] that need only conversions from and to an array.
 macro_rules! lanes {
     ($float:ident, $lanes:literal, |$vector:ident| $array:expr, |$own:ident| $shown:expr,
      |$token:ident, $from:ident| $made:expr) => {

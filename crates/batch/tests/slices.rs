@@ -5,8 +5,7 @@ use std::array::from_fn;
 
 use dalembert_batch::{Floats, Function, Unequal, Vector, Vectors, columns_in};
 
-/// x y, x − 2 y and x/y of the first entry of one argument and the second of the
-/// other.
+/// x y, x − 2 y and x/y of the first entry of one argument and the second of the other.
 struct Three;
 
 impl Function<2, 2, 3, 0> for Three {
@@ -48,7 +47,6 @@ impl Function<1, 1, 8, 2> for Operations {
 
 const ALL: [Vectors; 3] = [Vectors::Portable, Vectors::Avx2, Vectors::Avx512];
 
-/// Computes a function of one argument in columns; returns the columns of its results.
 fn computed<F, const N: usize, const M: usize, const K: usize>(
     vectors: Vectors,
     x: &[Vec<F::Scalar>; N],
@@ -64,7 +62,6 @@ where
     found
 }
 
-/// All vectors compute what one number after the other does.
 #[test]
 fn every_operation_in_all_vectors() {
     let odd = [f64::NAN, f64::INFINITY, -0.0, 8192.1, 5e-324, -1e300];
@@ -156,7 +153,6 @@ fused!(
     fused_sines_of_floats_are_those_of_their_text
 );
 
-/// Checks a driver at so many states; what stands behind the results stays.
 fn check(
     count: usize,
     run: impl FnOnce([&[&[f32]; 2]; 2], &mut [&mut [f32]; 3]) -> Result<(), Unequal>,

@@ -4,11 +4,8 @@ use std::env;
 use std::fs;
 use std::path::Path;
 
-/// Makes cargo run the script again when the robot file changes, or its plan.
-///
-/// A plan that is not there yet cannot be named: cargo would run the script at
-/// every build and compile the crate anew. Then it watches the robot's folder,
-/// unless the build itself writes somewhere in it.
+/// A plan that is not there yet cannot be named: cargo would run the script at every build. Then
+/// the robot's folder is watched, unless the build itself writes somewhere in it.
 pub(crate) fn watch(robot: &Path, output: &Path) {
     tell(&format!("rerun-if-changed={}", robot.display()));
     let plan = robot.with_extension("plan");
@@ -19,7 +16,6 @@ pub(crate) fn watch(robot: &Path, output: &Path) {
     }
 }
 
-/// Returns the robot's folder, if no build writes into it or below.
 fn quiet_folder<'r>(robot: &'r Path, output: &Path) -> Option<&'r Path> {
     let folder = robot.parent().filter(|folder| folder.is_dir())?;
     let whole = fs::canonicalize(folder).ok()?;
@@ -34,7 +30,6 @@ fn quiet_folder<'r>(robot: &'r Path, output: &Path) -> Option<&'r Path> {
     (!busy).then_some(folder)
 }
 
-/// Prints a warning of cargo's, on one line as it wants it.
 #[cfg(feature = "search")]
 pub(crate) fn warn(message: &str) {
     let lines: Vec<&str> = message.lines().map(str::trim).collect();

@@ -74,7 +74,6 @@ use dalembert_stamp::{Comment, Stale, Stamp, hash};
 pub struct Generator {
     robot: PathBuf,
     asked: Asked,
-    /// Options that there are not.
     unknown: Vec<String>,
 }
 
@@ -88,8 +87,7 @@ impl fmt::Display for BuildError {
     }
 }
 
-/// As [`Display`](fmt::Display): `main` and `unwrap` print errors with this,
-/// and that is where a build script's errors end.
+/// As [`Display`](fmt::Display), since `main` and `unwrap` print a build script's errors with this.
 impl fmt::Debug for BuildError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "\n{self}")
@@ -177,7 +175,6 @@ impl Generator {
         Ok(())
     }
 
-    /// Returns the robot file's text, and makes cargo run the script again when it changes.
     fn source(&self, output: &Path) -> Result<String, BuildError> {
         if !self.unknown.is_empty() {
             return Err(BuildError(self.unknown.clone()));
@@ -196,7 +193,6 @@ impl Generator {
         }
     }
 
-    /// Refuses a stale file.
     #[cfg(not(feature = "search"))]
     fn renew(&self, path: &Path, file: &Path, why: Stale) -> Result<(), BuildError> {
         let (robot, own) = (self.robot.display().to_string(), file.display().to_string());
@@ -209,7 +205,6 @@ impl Generator {
         Err(one(format!("{message}\n  = help: {command}")))
     }
 
-    /// Writes the files anew.
     #[cfg(feature = "search")]
     fn renew(&self, path: &Path, _: &Path, _: Stale) -> Result<(), BuildError> {
         let generated = self.generated(path)?;
@@ -229,7 +224,6 @@ impl Generator {
         )))
     }
 
-    /// Generates what is asked; what is odd about the robot is said by cargo.
     #[cfg(feature = "search")]
     fn generated(&self, path: &Path) -> Result<Texts, BuildError> {
         use dalembert_codegen::{Language, RobotFile, ask};
@@ -259,7 +253,6 @@ impl Generator {
     }
 }
 
-/// Files by what their names end in, `_f32` or nothing.
 #[cfg_attr(not(feature = "search"), allow(dead_code))]
 struct Texts {
     texts: Vec<(&'static str, String)>,
@@ -268,7 +261,6 @@ struct Texts {
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Returns the path of a file whose name ends in this before its ending.
 fn beside(path: &Path, suffix: &str) -> PathBuf {
     let base = path.file_stem().unwrap_or_default().to_string_lossy();
     let ending = path.extension().unwrap_or_default().to_string_lossy();

@@ -4,8 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Writes a text beside the file, then renames: who reads at the same time sees the old file or the
-/// new one.
+/// Writes beside the file, then renames: a reader sees the old file or the new one.
 pub(crate) fn whole(path: &Path, text: &str) -> io::Result<()> {
     if let Some(folder) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
         fs::create_dir_all(folder)?;

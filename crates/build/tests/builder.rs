@@ -7,7 +7,6 @@ use std::time::SystemTime;
 use dalembert_build::Generator;
 use dalembert_codegen::{Language, RobotFile, ask};
 
-/// Returns an empty folder of one test, with the robot file of the planar arm.
 fn folder(test: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("builder/{test}"));
     let _ = fs::remove_dir_all(&folder);
@@ -23,7 +22,6 @@ fn generator(folder: &Path) -> Generator {
         .ask("scalar", "f32")
 }
 
-/// Returns the words in which a generator refuses to write a file.
 fn refused(generator: &Generator, path: &Path) -> String {
     generator.write_to(path).unwrap_err().to_string()
 }
@@ -52,7 +50,6 @@ fn writes_what_the_one_function_generates() {
         .generated
         .files(&made.request, "../../arm.toml", &robot.source);
     assert_eq!(fs::read_to_string(&path).unwrap(), files[0]);
-    // Nothing half-written is left behind.
     assert_eq!(fs::read_dir(folder.join("deep/er")).unwrap().count(), 1);
 }
 
@@ -72,7 +69,6 @@ fn writes_again_only_if_something_changed() {
     generator(&folder).write_to(&path).unwrap();
     assert_eq!(modified(&path), past);
 
-    // Another choice, and one that is the default.
     let unfused = generator(&folder).ask("fma", "off");
     unfused.write_to(&path).unwrap();
     assert_eq!(modified(&path), past);
@@ -81,12 +77,10 @@ fn writes_again_only_if_something_changed() {
     let text = fs::read_to_string(&path).unwrap();
     assert!(text.contains("dalembert_sines::sincosf(&["), "{text}");
 
-    // An edit by hand does not stay.
     fs::write(&path, first.replace("pub const N", "const N")).unwrap();
     generator(&folder).write_to(&path).unwrap();
     assert_eq!(fs::read_to_string(&path).unwrap(), first);
 
-    // Another robot.
     let past = age(&path);
     let robot = fs::read_to_string(folder.join("arm.toml")).unwrap();
     fs::write(folder.join("arm.toml"), robot.replace("9.81", "1.62")).unwrap();
@@ -95,7 +89,6 @@ fn writes_again_only_if_something_changed() {
     assert!(fs::read_to_string(&path).unwrap().contains("1.62"));
 }
 
-/// Two scalars are two files; a header is one.
 #[test]
 fn each_scalar_has_its_file() {
     let folder = folder("scalars");
@@ -131,7 +124,6 @@ fn says_what_is_wrong_and_leaves_the_file_alone() {
     assert!(error.contains("error: unknown key `mas`\n"), "{error}");
     assert!(error.contains(&place), "{error}");
     assert!(error.contains("did you mean `mass`?"), "{error}");
-    // Both joints lack it, and both are told.
     assert_eq!(error.matches("error: ").count(), 4, "{error}");
 
     let missing = Generator::new(folder.join("arn.toml"));
@@ -142,7 +134,6 @@ fn says_what_is_wrong_and_leaves_the_file_alone() {
     assert!(error.ends_with("arm.toml`?"), "{error}");
 
     fs::write(&robot, &text).unwrap();
-    // Every mistake at once, each with its option.
     let wrong = generator(&folder).ask("outputs", "gravty");
     let error = refused(&wrong.ask("fma", "onn"), &path);
     for said in [
@@ -156,7 +147,6 @@ fn says_what_is_wrong_and_leaves_the_file_alone() {
     assert!(error.contains(said), "{error}");
     assert_eq!(fs::read_to_string(&path).unwrap(), "as it was");
 
-    // A folder is in the way.
     let file = folder.join("folder.rs");
     fs::create_dir(&file).unwrap();
     let error = refused(&generator(&folder), &file);

@@ -16,7 +16,6 @@ use crate::read::number;
 use crate::rounding::Ranges;
 use crate::tolerance::BOX_SLACK;
 
-/// The type of an argument that is no list of joints.
 const TYPES: [&str; 2] = [
     "pub struct NAME(PUBLIC[REAL; COUNT]);",
     "impl ::core::ops::Deref for NAME {
@@ -27,40 +26,30 @@ fn deref(&self) -> &[REAL; COUNT] {
 }",
 ];
 const SCALARS: [&str; 2] = ["f64", "f32"];
-/// The arguments that a box bounds.
 const STATE: [&str; 3] = [ARGUMENTS[0].0, ARGUMENTS[1].0, ARGUMENTS[2].0];
-/// The beginning of the constant that says where functions hold.
 const BOX: &str = "pub const BOX: StateBox = StateBox {";
 
-/// The ends of the ranges of q, q̇ and q̈ that a box has, joint by joint; none where one is open, and
-/// none of an argument that it is not of.
+/// The ranges of q, q̇ and q̈ joint by joint; `None` where one is open or not bounded.
 type Ends = [Option<Vec<Option<[f64; 2]>>>; 3];
 
-/// The states that the functions of a module hold for.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Held {
-    /// The joints whose sines are polynomials.
     pub polynomials: HashSet<usize>,
     /// Which of q, q̇ and q̈ are bounded, by the functions under a tolerance.
     pub bounded: [bool; 3],
 }
 
-/// The facts that items beside functions follow from.
 pub(crate) struct Known<'k> {
-    /// The robot in its scene.
     setting: &'k Setting<'k>,
-    /// The box of states.
     ranges: &'k Ranges,
     /// The values of base parameters of functions that are shown, each with the name of its constant.
     pub values: Vec<(&'static str, Vec<Exact>)>,
     /// The items whose text is known, those of one module behind its name.
     pub items: HashSet<String>,
-    /// The states that functions hold for, module by module.
     pub held: HashMap<&'k str, Held>,
 }
 
 impl<'k> Known<'k> {
-    /// Returns the facts that follow from a robot, a load being so many numbers.
     pub(crate) fn new(setting: &'k Setting<'k>, ranges: &'k Ranges, load: usize) -> Known<'k> {
         let (joints, rows) = (setting.joints(), &setting.rows);
         let count = rows.len();
@@ -91,8 +80,6 @@ impl<'k> Known<'k> {
         }
     }
 
-    /// Adds what follows from the box of a module in Rust, if this is one: its type, and the function
-    /// that asks whether a state is inside.
     pub(crate) fn add_box(&mut self, item: &'k Found, is_single: bool) {
         let lines = trimmed(item);
         let Some((&BOX, behind)) = lines.split_first() else {
@@ -126,15 +113,10 @@ impl<'k> Known<'k> {
         }
     }
 
-    /// Adds an item of a module.
     fn add(&mut self, module: &str, item: String) {
         self.items.insert(format!("mod {module}\n{item}"));
     }
 
-    /// Checks an item in Rust.
-    ///
-    /// # Errors
-    /// It does not follow.
     pub(crate) fn follows(&self, item: &Found) -> Result<(), Fault> {
         let lines = trimmed(item);
         let mut values = self.values.iter();
@@ -149,8 +131,6 @@ impl<'k> Known<'k> {
             .ok_or_else(|| Fault::Text(item.line, why()))
     }
 
-    /// Returns true if a text in C is the function that says whether a state is inside of a box in
-    /// which the functions of its module hold.
     pub(crate) fn is_box(&self, item: &Found) -> bool {
         let (lines, macros) = (trimmed(item), &item.symbols.macros);
         let head = lines.first().unwrap_or(&"");
@@ -223,7 +203,6 @@ impl<'k> Known<'k> {
     }
 }
 
-/// Returns true if a text in C is the function that makes a payload.
 pub(crate) fn is_payload(item: &Found) -> bool {
     let (own, macros) = (&item.symbols.prefix, &item.symbols.macros);
     let is_single = item.text.contains("const float ");
@@ -231,13 +210,11 @@ pub(crate) fn is_payload(item: &Found) -> bool {
     text == trimmed(item).join("\n")
 }
 
-/// Returns the lines of an item without indentation.
 fn trimmed<'t>(item: &'t Found) -> Vec<&'t str> {
     let lines = item.text.lines().map(str::trim);
     lines.filter(|line| !line.is_empty()).collect()
 }
 
-/// Returns the ends of a box in Rust, given by these lines behind its head.
 fn ends(lines: &[&str], is_single: bool) -> Option<Ends> {
     let (mut ends, mut place) = (Ends::default(), None);
     for line in lines {
@@ -261,7 +238,6 @@ fn ends(lines: &[&str], is_single: bool) -> Option<Ends> {
     Some(ends)
 }
 
-/// Returns true if lines are a constant of a name with these values, each the nearest float.
 fn are(lines: &[&str], name: &str, values: &[Exact]) -> bool {
     let [head, lines @ .., "];"] = lines else {
         return false;

@@ -26,7 +26,6 @@ pub use crate::tolerance::Bounded;
 
 /// The most times that a function of a claim stands in a file: once for each scalar is usual.
 const MOST_TIMES: usize = 4;
-/// The most functions, and what stands beside them, of a file.
 const MOST_ITEMS: usize = 1 << 14;
 
 /// The findings about one function, or about what stands beside functions.
@@ -173,8 +172,7 @@ pub fn certify(
     })
 }
 
-/// Returns true for an item that is no function, or one that computes no dynamics: it gives
-/// constants, makes a payload, or says where a box is.
+/// Constants, payloads and boxes compute no dynamics.
 fn is_beside(found: &Found) -> bool {
     let name = found.name.strip_prefix(found.module);
     let is_box = found.name == "in_box" || name == Some("_in_box");
@@ -185,22 +183,17 @@ fn is_beside(found: &Found) -> bool {
 /// The finding that a program is the robot's, once it is asked for; how often its function came.
 type Identity = (Option<Result<(), Fault>>, usize);
 
-/// The findings so far.
 struct Seen<'w> {
     /// The finding about each function of the claim, since both scalars have one program.
     identities: HashMap<&'w str, Identity>,
-    /// The facts that follow from the functions that are shown.
     known: Known<'w>,
 }
 
-/// A file that is checked.
 struct Whole<'w> {
     /// The seed of all draws, from robot, claim and text.
     seed: String,
-    /// The claims about the scene.
     claim: &'w Claim,
     constants: Vec<Exact>,
-    /// The program that computes the load of a payload, if it is claimed.
     load: Result<Option<Program<Exact>>, Fault>,
     setting: &'w Setting<'w>,
     ranges: Ranges,
@@ -208,12 +201,10 @@ struct Whole<'w> {
     tolerance: Option<(Vec<f64>, Option<&'w str>)>,
     scene: Option<&'w str>,
     is_c: bool,
-    /// The modules in Rust whose scalar is f32.
     singles: HashSet<&'w str>,
 }
 
 impl<'w> Whole<'w> {
-    /// Returns true for a function in f32.
     fn is_single(&self, found: &Found) -> bool {
         match self.is_c {
             true => found.text.contains("float "),
@@ -221,7 +212,6 @@ impl<'w> Whole<'w> {
         }
     }
 
-    /// Returns the function that a text is claimed to be.
     fn claimed(&self, found: &Found) -> Option<&'w Claimed> {
         let is_own = |own: &&Claimed| match self.is_c {
             true => {
@@ -233,8 +223,6 @@ impl<'w> Whole<'w> {
         self.claim.functions.iter().find(is_own)
     }
 
-    /// Returns the name of a function; of a name in C that is short also the one that it is for, and
-    /// of one that is of nobody's table what it returns.
     fn name(&self, found: &Found) -> String {
         let mut name = found.name.to_owned();
         let Some(own) = self.claimed(found) else {
@@ -250,7 +238,6 @@ impl<'w> Whole<'w> {
         name
     }
 
-    /// Shows a function.
     fn shown(&self, found: &'w Found, seen: &mut Seen<'w>) -> Result<Shown, Fault> {
         let Some(claimed) = self.claimed(found) else {
             let scene = self.scene.map(|scene| format!(" in scene `{scene}`"));
@@ -373,8 +360,6 @@ impl<'w> Whole<'w> {
         })
     }
 
-    /// Returns the claim under a tolerance, and the tolerance of each joint; none of a function that
-    /// needs none.
     fn tolerated(&self, own: &'w Claimed) -> Result<Option<(&'w Tolerated, &[f64])>, String> {
         let why = match (&self.tolerance, &own.tolerated) {
             (None, None) => return Ok(None),
@@ -392,7 +377,6 @@ impl<'w> Whole<'w> {
         Err(why.into())
     }
 
-    /// Returns the head that a function must have.
     fn head<'h>(
         &self,
         claimed: &'h Claimed,
@@ -428,7 +412,6 @@ impl<'w> Whole<'w> {
         })
     }
 
-    /// Reads the text of a function.
     fn read(&self, head: &Head, found: &Found) -> Result<read::Function, Fault> {
         let text = &found.text;
         let read = match self.is_c {
@@ -465,7 +448,6 @@ impl<'w> Whole<'w> {
         self.load.as_ref().map(Option::as_ref).map_err(Fault::clone)
     }
 
-    /// Checks what stands beside functions.
     fn follows(&self, item: &Found, known: &Known) -> Result<(), Fault> {
         if !self.is_c {
             return known.follows(item);
@@ -484,11 +466,9 @@ impl<'w> Whole<'w> {
     }
 }
 
-/// The function that computes the load of a payload, and its result.
 const LOAD: &str = "load";
 
-/// Returns the function that is claimed. What computes a load means what others make of it: it has
-/// no results of its own.
+/// A load has no results of its own: the functions that take it give it its meaning.
 fn function(claimed: &Claimed) -> Result<Function, String> {
     let is_load = claimed.function == LOAD && claimed.results == [LOAD];
     if claimed.results.is_empty() {
@@ -506,7 +486,6 @@ fn function(claimed: &Claimed) -> Result<Function, String> {
     }
 }
 
-/// Returns the struct of a function's results in Rust; none if one number or array is returned.
 fn structure(head: &Head) -> Option<String> {
     let name = head.structure()?;
     let fields = head.fields.iter();

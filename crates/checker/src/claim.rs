@@ -230,7 +230,6 @@ impl Claim {
     }
 }
 
-/// Returns true for a name of a function: small letters, digits and underscores.
 fn is_name(name: &str) -> bool {
     let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     name.len() < 1 << 7
@@ -238,7 +237,6 @@ fn is_name(name: &str) -> bool {
         && name.chars().all(is_plain)
 }
 
-/// Returns the constant of a word: `#3`.
 fn constant<'c, C>(constants: &'c [C], word: &str) -> Option<&'c C> {
     constants.get(whole(word.strip_prefix('#')?)?)
 }
@@ -302,7 +300,6 @@ impl Claimed {
         Fault::Claim(format!("`{own}`: `{word:.40}` is not of a program"))
     }
 
-    /// Reads an operand before which so many operations stand.
     fn operand<C: Clone>(&self, word: &str, count: usize, constants: &[C]) -> Option<Operand<C>> {
         if let Some(constant) = constant(constants, word) {
             return Some(Operand::Constant(constant.clone()));
@@ -354,13 +351,11 @@ impl Claimed {
     }
 }
 
-/// Returns a whole number as it is printed.
 pub(crate) fn whole(word: &str) -> Option<usize> {
     let number = word.parse().ok()?;
     (word == format!("{number}")).then_some(number)
 }
 
-/// Returns the place of a parameter such as `Izz2` among those of links, rotors and friction.
 #[cfg(feature = "certify")]
 fn parameter(name: &str, links: usize) -> Option<usize> {
     const NAMES: [&str; 10] = [

@@ -5,10 +5,6 @@ use crate::identity::exact::Exact;
 use crate::program::{Operand, Program};
 use crate::read::number;
 
-/// Compares a text with an exact program.
-///
-/// # Errors
-/// The first operation or result that differs.
 pub fn compare(text: &Program<f64>, exact: &Program<Exact>, is_single: bool) -> Result<(), String> {
     let counts = |steps: usize, results: usize| format!("{steps} operations and {results} results");
     let own = counts(text.steps.len(), text.outputs.len());
@@ -31,7 +27,6 @@ pub fn compare(text: &Program<f64>, exact: &Program<Exact>, is_single: bool) -> 
     Err(format!("{what} {number} is not the one that is claimed"))
 }
 
-/// Returns true for the text of a literal that is the float nearest to a value.
 pub(crate) fn is_literal(text: &str, value: &Exact, is_single: bool) -> bool {
     number(text, is_single).is_some_and(|own| value.is_nearest(own, is_single))
 }

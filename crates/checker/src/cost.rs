@@ -17,8 +17,7 @@ pub const RATE: f64 = 10.0;
 const WRENCH: f64 = 100.0;
 const GRAVITY: f64 = 9.81;
 const DAMPING: [f64; 2] = [1e-3, 1e-1];
-/// The number of states at which bounds are asked for where none over the box says anything; and at
-/// which values are looked at where one does.
+/// The numbers of states where no bound over the box says anything, and where one does.
 pub(crate) const STATES: usize = 1000;
 const LOOKED_AT: usize = 100;
 /// An entry below this share of its result's largest counts as zero.
@@ -41,7 +40,6 @@ pub struct Shown {
     pub results: Vec<Bounded>,
 }
 
-/// Returns the values that a program computes for a load in a scalar, over the ranges of a payload.
 pub(crate) fn load(own: &Program<Exact>, ranges: &Ranges, is_single: bool) -> Option<Vec<Value>> {
     let operand = |own: &Operand<Exact>| {
         Some(match own {
@@ -64,8 +62,6 @@ pub(crate) fn load(own: &Program<Exact>, ranges: &Ranges, is_single: bool) -> Op
     Some(Rounding::new(&read, is_single, ranges).bounds(ranges, None))
 }
 
-/// Bounds what rounding costs a function of this head, over ranges, with the values of its load;
-/// states are drawn from these texts.
 pub(crate) fn cost(
     read: &Function,
     head: &Head,
@@ -78,8 +74,7 @@ pub(crate) fn cost(
     let mut draws = Draws::new(texts);
     let over_box = rounding.bounds(ranges, None);
     let count = over_box.len();
-    // Returns the cost over the box, or at so many states, and at how many it is bounded: near to
-    // where something divides by zero, it is not.
+    // Near to where something divides by zero, a state is not bounded.
     let mut look = |states: usize, over_box: Option<&[Value]>| {
         let (mut sizes, mut errors, mut bounded) = (vec![0.0; count], vec![0.0; count], 0);
         for _ in 0..states {
@@ -127,8 +122,7 @@ pub(crate) fn cost(
     }
 }
 
-/// Returns the cost that is too large for what does not divide: some seven digits, and all where
-/// polynomials are for sines.
+/// For what does not divide: some seven digits, and all where polynomials are for sines.
 pub(crate) fn most(read: &Function, is_single: bool) -> f64 {
     match polynomials(read).next() {
         Some(_) => 1.0,
@@ -136,7 +130,6 @@ pub(crate) fn most(read: &Function, is_single: bool) -> f64 {
     }
 }
 
-/// Returns the joints whose sine or cosine is a polynomial.
 pub(crate) fn polynomials(read: &Function) -> impl Iterator<Item = usize> {
     let is_polynomial = |own: &&read::Sines| matches!(own.source, Source::Polynomial(_));
     read.sines.iter().filter(is_polynomial).map(|own| own.joint)
@@ -151,7 +144,6 @@ fn worse(before: f64, own: f64) -> f64 {
     }
 }
 
-/// Returns the ranges of all arguments.
 pub(crate) fn ranges(setting: &Setting) -> Result<Ranges, String> {
     let sizes = [setting.joints(), setting.links()];
     let of = |&(name, axis): &(&str, char)| {
@@ -168,7 +160,6 @@ pub(crate) fn ranges(setting: &Setting) -> Result<Ranges, String> {
     ARGUMENTS.iter().map(of).collect()
 }
 
-/// Draws a state of the box, in numbers of the scalar.
 pub(crate) fn drawn(ranges: &Ranges, draws: &mut Draws, is_single: bool) -> Ranges {
     let lists = ranges.iter().map(|list| {
         let points = list.iter().map(|[low, high]| {

@@ -10,7 +10,6 @@ use std::collections::HashSet;
 use crate::fault::Fault;
 use crate::read::{self, Symbols, has_only, is_letter};
 
-/// The longest name of a module.
 const MOST_LETTERS: usize = 1 << 7;
 /// The most lines before a function's head that are looked past: directives and attributes.
 const MOST_AHEAD: usize = 8;
@@ -46,11 +45,9 @@ const ATTRIBUTES: [&str; 9] = [
 ];
 const LISTS: [&str; 2] = ["#[allow(", "#![allow("];
 
-/// Lines of code that are still to be read, with their numbers.
 pub(crate) type Lines<'l, 't> = &'l [(usize, &'t str)];
 
-/// Reads items up to where all is closed that the last one opens, without a name so far; which
-/// the last one is, its first line says.
+/// Reads up to where all is closed that the last item opens.
 pub(crate) fn item<'t>(
     lines: &mut Lines<'_, 't>,
     mut is_last: impl FnMut(&'t str) -> bool,
@@ -117,12 +114,10 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
     }
 }
 
-/// Returns a line that the generator would not print.
 pub(crate) fn fault((number, line): (usize, &str)) -> Fault {
     Fault::Text(number, format!("nothing that is generated: `{line}`"))
 }
 
-/// Returns the part of a text between its beginning and its end.
 pub(crate) fn between<'t>(text: &'t str, before: &str, behind: &str) -> Option<&'t str> {
     text.strip_prefix(before)?.strip_suffix(behind)
 }
@@ -132,7 +127,6 @@ fn is_attribute(words: &str) -> bool {
     ATTRIBUTES.contains(&words) || lists.any(|list| has_only(list, ":, "))
 }
 
-/// Returns the name of a module that begins.
 fn module_head(line: &str) -> Option<&str> {
     let name = between(line, "pub mod ", " {");
     name.filter(|name| has_only(name, "") && name.len() <= MOST_LETTERS)

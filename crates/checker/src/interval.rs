@@ -45,7 +45,6 @@ impl Interval {
         self.low.abs().max(self.high.abs())
     }
 
-    /// Returns the least magnitude in it.
     pub(crate) fn least(self) -> f64 {
         match self.low <= 0.0 && self.high >= 0.0 {
             true => 0.0,
@@ -53,7 +52,6 @@ impl Interval {
         }
     }
 
-    /// Returns the sine, or else the cosine, of its angles: of a point its own.
     pub(crate) fn sine(self, is_sine: bool) -> Interval {
         if self.low == self.high && self.magnitude() < FARTHEST {
             let (sin, cos) = sin_cos(self.low);

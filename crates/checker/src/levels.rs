@@ -11,13 +11,11 @@ use crate::ring::Ring;
 pub(crate) struct Level {
     pub(crate) degree: f64,
     pub(crate) range: Option<[f64; 2]>,
-    /// Powers of sin and cos that occur.
     powers: Vec<[u32; 2]>,
     /// The power of each coefficient, and its place among those of the next level.
     moves: Vec<(u32, u32)>,
 }
 
-/// Returns the distinct ones in order, and the place of each among them.
 fn distinct<T: Clone + Ord>(each: Vec<T>) -> (Vec<T>, Vec<u32>) {
     let mut all = each.clone();
     all.sort_unstable();
@@ -36,12 +34,10 @@ pub(crate) struct Search {
     factors: Vec<Option<[usize; 2]>>,
     /// The sum of the magnitudes of all terms, before they were added up.
     pub(crate) mass: f64,
-    /// Multiplications that may still be done.
     pub(crate) steps: u64,
 }
 
 impl Search {
-    /// Returns the coefficients of a polynomial's F, and the order of its angles.
     pub(crate) fn new(polynomial: &Polynomial, ring: &Ring, steps: u64) -> Search {
         // Groups by rates and errors; the first one is the sum of all at the middle.
         let mut groups: BTreeMap<(Key, Key), f64> = BTreeMap::new();
@@ -109,7 +105,6 @@ impl Search {
         search
     }
 
-    /// Puts an angle in.
     pub(crate) fn fix(&mut self, level: usize, angle: f64) {
         let (sin, cos) = sin_cos(angle);
         let Level { powers, moves, .. } = &self.levels[level];
@@ -153,9 +148,8 @@ impl Search {
     }
 }
 
-/// Returns the least and the largest sum of products of factors from −1 to 1, factor 0 being 1. It
-/// is linear in each of them, so that it is found where all are −1 or 1. `linear` is what
-/// those from `next` on are multiplied with, the others being in `sum`.
+/// The sum is linear in each factor, so that its ends are where all are −1 or 1; factor 0 is 1.
+/// Those from `next` on are multiplied with `linear`, the others are in `sum`.
 fn corners<const N: usize>(
     products: &[[f64; N]; N],
     next: usize,

@@ -24,8 +24,7 @@ use crate::levels::{Level, Search};
 use crate::polynomial::Polynomial;
 use crate::ring::Ring;
 
-/// The most multiplications for all results of a function, and for each B larger than the one that
-/// is wanted.
+/// The most multiplications: for all results of a function, and for each B above the wanted one.
 pub const MOST_STEPS: u64 = 1_500_000_000;
 const MOST_STEPS_MORE: u64 = 400_000_000;
 /// Cells narrower than this are not cut: what they would show is shown by a larger B.
@@ -33,22 +32,17 @@ const NARROWEST: f64 = 1e-3;
 /// The part of B that is lost in one of the first cells. Larger ones fail, and what was shown of
 /// the other angles was in vain.
 const FIRST_LOSS: f64 = 0.087;
-/// By how much B grows where it was not shown.
 const GROWTH: [f64; 7] = [1.002, 1.01, 1.05, 1.2, 1.5, 2.0, 4.0];
 
-/// The most cells that a range is cut into at first.
 const MOST_CELLS: f64 = 1e6;
 
-/// Why F is not known to be at most B.
 enum Unshown {
     /// F, or a bound of it that cannot be avoided, is so large somewhere.
     Larger(f64),
-    /// It takes too many steps.
     Steps,
 }
 
-/// Returns a bound of the magnitude of a polynomial over the box, at most `wanted` if that can be
-/// shown, else a little above the largest F; takes the multiplications from those that are left.
+/// At most `wanted` if that can be shown, else a little above the largest F.
 pub fn bound(polynomial: &Polynomial, ring: &Ring, wanted: f64, left: &mut u64) -> f64 {
     let mut search = Search::new(polynomial, ring, *left);
     let first = search.values.first().map(Vec::as_slice).unwrap_or_default();

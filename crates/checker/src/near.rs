@@ -17,11 +17,9 @@ use crate::program::{Operand, Program};
 use crate::read::{Function, Head};
 use crate::rounding::Ranges;
 
-/// The number of states.
 const STATES: usize = 8;
-/// The share of a field's largest entry that its errors are below, at more than half of the states.
+/// Errors are at most 1/SHARE of a field's largest entry, at more than half of the states.
 const SHARE: u32 = 8;
-/// Bits behind the point, and of a value.
 const BITS: u32 = 1280;
 const MOST_BITS: u64 = 1 << 13;
 
@@ -35,7 +33,6 @@ struct At {
     speeds: Vec<Long>,
 }
 
-/// Returns the double that is nearest.
 fn double(own: &BigInt) -> Option<f64> {
     Rational::new_raw(own.clone(), BigInt::one() << BITS).to_f64()
 }
@@ -85,7 +82,6 @@ impl At {
         }
     }
 
-    /// Returns the results of the exact program.
     fn exact(&self, program: &Program<Exact>) -> Option<Vec<Long>> {
         let leaf = |own: &Operand<Exact>| match own {
             Operand::Constant(own) => {
@@ -107,7 +103,6 @@ impl At {
         program.run(leaf, apply, |own: Long| own.map(|own| -own))
     }
 
-    /// Returns the results of the text in its scalar.
     fn found(&self, program: &Program<f64>, is_single: bool) -> Option<Vec<f64>> {
         let round = |own: f64| {
             if is_single {
@@ -132,8 +127,7 @@ impl At {
     }
 }
 
-/// Returns true if a text gives what the exact program does, at most of the states that are drawn
-/// from these texts.
+/// Asks for agreement at most of the states, which are drawn from these texts.
 pub(crate) fn is_near(
     read: &Function,
     exact: &Program<Exact>,

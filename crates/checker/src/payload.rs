@@ -4,7 +4,6 @@
 //! negative. ½ is a little more here, since moments that are rounded, as those of a thin plate, are
 //! a body's as well.
 
-/// The numbers, by their names.
 const NUMBERS: [&str; 10] = ["mass", "x", "y", "z", "xx", "yy", "zz", "xy", "yz", "xz"];
 
 /// The test, from its lines on; no number is infinite or NaN, and nothing without mass has moments.

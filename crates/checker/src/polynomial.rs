@@ -10,7 +10,6 @@
 use crate::fault::Fault;
 use crate::interval::UNIT;
 
-/// The most products of terms for the polynomials of one function.
 const MOST_WORK: u64 = 400_000_000;
 
 /// Counts products of terms, so that the work for a function is bounded.
@@ -32,7 +31,6 @@ const WIDTH: usize = 13;
 /// Where the exponents of a joint start, and how many bits they have, the highest of
 /// which must stay zero (but for sin, whose square is replaced).
 const FIELDS: [(usize, usize); 6] = [(0, 2), (2, 4), (6, 3), (9, 2), (11, 1), (12, 1)];
-/// The most terms of one polynomial.
 const MOST_TERMS: usize = 1 << 18;
 /// The factor that summing up `rest` in floating point may cost: far fewer than 2³⁰
 /// additions, each rounded by at most one part in 2⁵³.
@@ -99,7 +97,6 @@ impl Polynomial {
         Polynomial { terms, rest }
     }
 
-    /// Returns more than its magnitude anywhere in the box.
     fn norm(&self) -> f64 {
         let sum: f64 = self.terms.iter().map(|(_, c)| c.abs()).sum();
         (sum + self.rest) * SLACK
@@ -124,16 +121,11 @@ impl Polynomial {
         merged(terms, self.rest + other.rest)
     }
 
-    /// Returns the sum of two, and counts its terms.
-    ///
-    /// # Errors
-    /// More than is written out, or more work than is done.
     pub(crate) fn sum(&self, other: &Polynomial, work: &mut Work) -> Result<Polynomial, Fault> {
         work.spend(self.terms.len() + other.terms.len())?;
         self.plus(other).short()
     }
 
-    /// Refuses more terms than are written out.
     fn short(self) -> Result<Polynomial, Fault> {
         let is_short = self.terms.len() <= MOST_TERMS;
         is_short.then_some(self).ok_or(Fault::Large)

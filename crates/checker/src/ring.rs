@@ -18,11 +18,9 @@ use crate::rounding::Ranges;
 const WHOLE_TURN: f64 = std::f64::consts::TAU - 1e-9;
 const RATES: [Variable; 2] = [Variable::Velocity, Variable::Acceleration];
 
-/// The variables over a box.
 pub struct Ring {
     /// Sine, cosine and position of each joint, or what there is of them.
     positions: Vec<[Option<Polynomial>; 3]>,
-    /// The rates q̇ and q̈ of each joint.
     rates: [Vec<Polynomial>; 2],
     /// The range of each joint's angle φ; `None` where it goes all the way round, or
     /// stands for a position between two ends.
@@ -38,8 +36,7 @@ fn unit(size: f64) -> f64 {
     f64::from_bits((size.to_bits() + behind) & !behind)
 }
 
-/// Returns a position between two ends: their middle and a cosine's share of half their distance,
-/// whatever the angle.
+/// The middle and a cosine's share of half the distance, whatever the angle.
 fn between([low, high]: [f64; 2], joint: usize) -> Polynomial {
     let middle = 0.5 * low + 0.5 * high;
     let half = (high - middle).max(middle - low).next_up();
@@ -64,10 +61,6 @@ fn pair(joint: usize, sign: Option<f64>, work: &mut Work) -> Result<[Polynomial;
 }
 
 impl Ring {
-    /// Returns the variables of a robot's joints over a box, which has ranges of their q, q̇ and q̈.
-    ///
-    /// # Errors
-    /// More joints than there are variables of, or a robot that the equations do not have.
     pub fn new(setting: &Setting, ranges: &Ranges, work: &mut Work) -> Result<Ring, Fault> {
         let of_robot = |why| Fault::Robot("joint".into(), why);
         let count = setting.joints();
@@ -110,8 +103,7 @@ impl Ring {
         Ok(ring)
     }
 
-    /// Returns a sine, a position that slides or a rate as a polynomial; none of other operands, and of
-    /// a joint that is locked.
+    /// None for other operands, and for a joint that is locked.
     pub fn leaf<C>(&self, own: &Operand<C>) -> Option<Polynomial> {
         match own {
             Operand::Sine(joint, is_sine) => {
@@ -123,8 +115,7 @@ impl Ring {
         }
     }
 
-    /// Returns the values that the rates and errors of a monomial take over the box: the middle
-    /// of their range, and half its length.
+    /// The middle of the range over the box, and half its length.
     pub fn factor(&self, key: Key) -> (f64, f64) {
         let (mut low, mut high) = (1.0f64, 1.0f64);
         for joint in 0..MAX_JOINTS {
@@ -149,7 +140,6 @@ impl Ring {
         (0.5 * low + 0.5 * high, 0.5 * high - 0.5 * low)
     }
 
-    /// Returns at least the largest magnitude of a polynomial over the box.
     pub fn size(&self, polynomial: &Polynomial) -> f64 {
         let size = |&(key, c): &(Key, f64)| {
             let (middle, radius) = self.factor(key);

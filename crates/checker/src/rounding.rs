@@ -9,37 +9,29 @@ use crate::program::{Operand, argument};
 use crate::read::{Function, Source};
 use crate::sines::{self, Scalar};
 
-/// The ranges of the entries of every argument.
 pub type Ranges = Vec<Vec<[f64; 2]>>;
 
 /// All numbers that an exact value may be, and how far the float is from it at most.
 #[derive(Clone, Copy, Debug)]
 pub struct Value {
-    /// The exact value.
     pub exact: Interval,
-    /// The largest distance of the float from it.
     pub error: f64,
 }
 
 impl Value {
-    /// Returns a float that is the exact value.
     fn exact(exact: Interval) -> Value {
         Value { exact, error: 0.0 }
     }
 }
 
-/// A function in a scalar, whose bounds are asked for.
 pub struct Rounding<'f> {
     function: &'f Function,
     pub(crate) scalar: Scalar,
-    /// The largest errors of the polynomials for a joint's sine and cosine over the box.
     polynomials: HashMap<(usize, bool), f64>,
-    /// The load that the function is given, with the errors of what computes it.
     pub(crate) load: Vec<Value>,
 }
 
 impl<'f> Rounding<'f> {
-    /// Begins with a function, whose polynomials of sines are bounded over a box.
     pub fn new(function: &'f Function, is_single: bool, ranges: &Ranges) -> Rounding<'f> {
         let scalar = Scalar::new(is_single);
         let mut polynomials = HashMap::new();
@@ -62,15 +54,13 @@ impl<'f> Rounding<'f> {
         }
     }
 
-    /// Returns the largest error of the polynomial for the sine, or the cosine, of a joint's angle
-    /// over the box; none where a library gives it.
+    /// None where a library computes it.
     pub fn polynomial(&self, joint: usize, is_sine: bool) -> Option<f64> {
         self.polynomials.get(&(joint, is_sine)).copied()
     }
 
-    /// Returns bounds of the results over ranges: a box, or a state. Where sizes of all values are
-    /// known, one a step, the exact value is that of polynomials for sines, whose error is none of
-    /// rounding.
+    /// Where sizes of all values are known, one a step, the exact value is that of polynomials for
+    /// sines, whose error is none of rounding.
     pub fn bounds(&self, ranges: &Ranges, sizes: Option<&[f64]>) -> Vec<Value> {
         let steps = &self.function.program.steps;
         let is_exact = sizes.is_none();
@@ -144,7 +134,6 @@ impl<'f> Rounding<'f> {
         })
     }
 
-    /// Returns the sine, or the cosine, of a joint's angle, or else what polynomials return for it.
     fn sine(&self, joint: usize, ranges: &Ranges, is_sine: bool, is_exact: bool) -> Value {
         let angle = entry(ranges, 0, joint).unwrap_or(Interval::NOTHING_KNOWN);
         let exact = angle.sine(is_sine);
@@ -171,8 +160,7 @@ impl<'f> Rounding<'f> {
         Some(Value { exact, error })
     }
 
-    /// Returns the largest sum of two products of one angle's cosine and sine: |c x ± s y| is at
-    /// most √(x² + y²).
+    /// |c x ± s y| is at most √(x² + y²), c and s being of one angle.
     fn turned(&self, operands: &[Operand<f64>; 2], given: &Given) -> Option<f64> {
         let steps = &self.function.program.steps;
         let product = |own: &Operand<f64>| match own {
@@ -196,10 +184,8 @@ impl<'f> Rounding<'f> {
     }
 }
 
-/// The sines and arguments that a function is given over ranges, and its values so far.
 struct Given<'g> {
     ranges: &'g Ranges,
-    /// Sine and cosine of each joint.
     sines: Vec<[Value; 2]>,
     /// `false` if what polynomials return stands for the sine.
     is_exact: bool,
@@ -211,7 +197,6 @@ fn entry(ranges: &Ranges, place: usize, index: usize) -> Option<Interval> {
     Some(Interval::new(low, high))
 }
 
-/// Returns the error of a product by those of its factors.
 fn inherited(a: Value, b: Value) -> f64 {
     // Nothing times what is not known is nothing: so it is in products of zero.
     let part = |error: f64, size: f64| if error == 0.0 { 0.0 } else { error * size };

@@ -4,10 +4,8 @@ use crate::interval::{FARTHEST, Interval, SINE_ERROR, UNIT, sin_cos};
 use crate::polynomial::SLACK;
 use crate::program::{Operand, Program};
 
-/// Into how many cells the range of an angle is cut.
 const CELLS: usize = 1 << 14;
 
-/// The scalar that a text computes in.
 #[derive(Clone, Copy, Debug)]
 pub struct Scalar {
     /// The relative cost of rounding to nearest.
@@ -19,7 +17,6 @@ pub struct Scalar {
 }
 
 impl Scalar {
-    /// Returns f32, or else f64.
     pub fn new(is_single: bool) -> Scalar {
         let (unit, least, most) = match is_single {
             true => (f64::from(f32::EPSILON) / 2.0, 1e-45, 1e30),
@@ -28,7 +25,6 @@ impl Scalar {
         Scalar { unit, least, most }
     }
 
-    /// Returns how far the result of an operation is off: its operands' share, and rounding.
     pub fn rounded(self, size: f64, inherited: f64) -> f64 {
         let error = inherited + self.unit * (size + inherited) + self.least;
         match (size + error) * SLACK < self.most {
@@ -38,13 +34,9 @@ impl Scalar {
     }
 }
 
-/// Returns the largest difference of what polynomials of an angle return in floating point, at the
-/// angles of a range, from its sine (or cosine); infinite if nothing can be said. `result` says
-/// which of their results that is.
-///
-/// Let f be the polynomial in real numbers less the sine: the value at the middle of each cell
-/// and the slope over the cell are enclosed: |f| ≤ |f(m)| + max|f′|·w. What rounding
-/// costs on the way is added.
+/// Bounds f, the polynomials of an angle in real numbers less its sine or cosine: the value at the
+/// middle of each cell and the slope over the cell are enclosed, |f| ≤ |f(m)| + max|f′|·w. The
+/// rounding on the way is added; infinite if nothing can be said.
 pub fn error(
     polynomials: &Program<f64>,
     result: usize,
@@ -81,8 +73,7 @@ pub fn error(
     worst * (1.0 + 1e-12)
 }
 
-/// A value of polynomials and its derivative over a range of angles, and what rounding costs up
-/// to it.
+/// The value and the derivative over a range of angles, and the rounding error up to it.
 type Enclosed = ([Interval; 2], f64);
 
 fn evaluate(own: &Program<f64>, result: usize, angle: Interval, scalar: Scalar) -> Enclosed {

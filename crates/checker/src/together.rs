@@ -50,7 +50,6 @@ const SINGLE: &str = "x0*0.63661975 x1+12582912.0 x2-12582912.0 x3*1.5707855 x0-
     x18+-0.0013887301 x19*x12 x20+0.041666646 x12*0.5 1.0-x22 x11*x23 x7*x12 x25*x17
     x24+x26 x7-x27 1.0-x23 x29-x22 x13*x21 x7*x11 x31+x32 x30+x33 x23+x34";
 
-/// The function of one angle, which is told whether that may be far, with its struct.
 const ONE: &str = "typedef struct {
 REAL sin;
 REAL cos;

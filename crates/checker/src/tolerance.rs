@@ -23,9 +23,7 @@ use crate::written::{at, written};
 pub(crate) const BOX_SLACK: f64 = 1e-9;
 /// The share by which T may be above the value that is reached. The tolerance is relative to that.
 const SCALE_SLACK: f64 = 1e-4;
-/// The most operations and results, times results.
 const MOST_EVALUATED: usize = 1 << 24;
-/// The number of states that may refute an E that is not shown.
 const STATES: usize = 1000;
 /// The largest error of a result that is always zero, relative to the largest T: differences of
 /// programs are of doubles.
@@ -72,14 +70,11 @@ impl Bounded {
     }
 }
 
-/// A function whose text is to be near an exact program.
 pub(crate) struct Subject<'s> {
     pub(crate) setting: &'s Setting<'s>,
     pub(crate) function: &'s Function,
-    /// The exact program, and that of the text.
     pub(crate) exact: &'s Program<Exact>,
     pub(crate) emitted: &'s Program<Exact>,
-    /// The text.
     pub(crate) read: &'s read::Function,
     pub(crate) is_single: bool,
     pub(crate) own: &'s Tolerated,
@@ -91,10 +86,6 @@ pub(crate) struct Subject<'s> {
 type Entry<'s> = (&'s Field, Vec<usize>);
 
 impl Subject<'_> {
-    /// Bounds every result.
-    ///
-    /// # Errors
-    /// A claim that is not about this robot and function, or more work than is done.
     pub(crate) fn bounded(&self) -> Result<Vec<Bounded>, Fault> {
         let (own, count) = (self.own, self.emitted.outputs.len());
         let errors = if self.is_single { &own.f32 } else { &own.f64 };
@@ -162,7 +153,6 @@ impl Subject<'_> {
         Ok(found)
     }
 
-    /// Returns true for a result that is a number of the scalar.
     fn is_literal(&self, result: usize) -> bool {
         let text = self.read.program.outputs.get(result);
         match (text, self.emitted.outputs.get(result)) {
@@ -199,7 +189,6 @@ impl Subject<'_> {
         Ok(())
     }
 
-    /// Returns every result.
     fn results(&self) -> Vec<Entry<'_>> {
         let mut all = Vec::new();
         for field in &self.function.fields {
@@ -270,8 +259,7 @@ impl Subject<'_> {
         Ok([all, file])
     }
 
-    /// Returns the largest T of each result: the actuators' limits, or what it reaches at a state of
-    /// the claim. Refuses a T that is above it: E would look smaller than it is.
+    /// Refuses a T above the largest of each result: E would look smaller than it is.
     fn attainable(&self, results: &[Entry], file: &Ranges) -> Result<Vec<f64>, Fault> {
         let most = match self.own.relative_to.as_str() {
             "actuator" => self.actuator(results)?,
@@ -310,7 +298,6 @@ impl Subject<'_> {
         own.ok_or_else(|| Fault::Claim(why.into()))
     }
 
-    /// Returns the least size of each result at its state of the claim, which is one of the file's.
     fn reached(&self, file: &Ranges) -> Result<Vec<f64>, Fault> {
         let (states, count) = (&self.own.reached, self.setting.joints());
         let places = &self.function.arguments;
@@ -341,7 +328,6 @@ fn is_within([low, high]: [f64; 2], outer: [f64; 2], file: [f64; 2]) -> bool {
     outer[0] - slack <= low && high <= outer[1] + slack
 }
 
-/// Refuses a claim unless something holds.
 fn unless(holds: bool, why: &str) -> Result<(), Fault> {
     holds
         .then_some(())

@@ -8,7 +8,6 @@ use crate::program::{Operand, Program};
 use crate::ring::Ring;
 use crate::rounding::Rounding;
 
-/// Returns the results of a program at a state, each in an interval.
 pub(crate) fn at(program: &Program<Exact>, given: &[Vec<f64>]) -> Option<Vec<Interval>> {
     let leaf = |own: &Operand<Exact>| match own {
         Operand::Constant(constant) => {
@@ -31,8 +30,7 @@ pub(crate) fn at(program: &Program<Exact>, given: &[Vec<f64>]) -> Option<Vec<Int
     program.run(leaf, apply, |own: Interval| -own)
 }
 
-/// Writes a program out over a ring: the size of each of its values that a result reads, and its
-/// results. Sines by polynomials have an error that is a variable.
+/// Sines by polynomials have an error that is a variable.
 pub(crate) fn written(
     program: &Program<Exact>,
     ring: &Ring,
@@ -69,12 +67,10 @@ pub(crate) fn written(
     Ok((sizes, outputs))
 }
 
-/// The values of steps that are still to be read.
 struct Values<'v> {
     ring: &'v Ring,
     sines: Option<&'v Rounding<'v>>,
     values: Vec<Option<Polynomial>>,
-    /// The times that each is still read.
     left: Vec<usize>,
 }
 

@@ -9,7 +9,6 @@ fn data(name: &str) -> String {
     file(&format!("crates/checker/tests/data/attacks/{name}"))
 }
 
-/// Returns the bounds of the results of a variant, or why it is not shown.
 fn found(
     name: &str,
     [robot, scene]: [&str; 2],
@@ -61,7 +60,6 @@ fn variants_that_are_not_what_is_claimed() {
     }
 }
 
-/// What is within a tolerance of 0.1 is not within the scene's.
 #[test]
 fn a_tolerance_that_is_not_the_scenes() {
     let (name, scene) = ("scara_a4_too_loose", ["scara", "a4"]);
@@ -90,7 +88,6 @@ fn variants_without_the_planted_number() {
     assert!(report.is_shown(), "{report:?}");
 }
 
-/// The checked-in variants of the PUMA hold, every E of them.
 #[test]
 fn variants_that_are_checked_in() {
     let robot = file("generated/robots/puma560.toml");

@@ -12,7 +12,6 @@ use crate::support::{changed, file};
 
 const ROBOT: &str = "generated/robots/planar2r.toml";
 
-/// Changes of the robot file, and the refusals.
 const ROBOTS: &str = r#"
 mass = 1 | mass = nan | `nan` is no number
 "revolute" | "continuous" | joint 1: expected `kind`
@@ -63,8 +62,7 @@ fn words(text: &str) -> Vec<String> {
     text.split(' ').map(str::to_owned).collect()
 }
 
-/// Returns why a program of no steps, with one of these results, is not `arguments -> results`, over
-/// base parameters that add up these columns.
+/// The program has no steps and one of these results; base parameters add up these columns.
 fn refused(
     [scene, arguments, results]: [&str; 3],
     outputs: Vec<Operand<Exact>>,
@@ -91,8 +89,7 @@ fn refused(
     check(statement, &["no program"]).unwrap_err()
 }
 
-/// A program that reads an argument or a step that is not there, or has too few results. A frame
-/// that is not there has no results, and a regressor of no rows no columns. None is a panic.
+/// Each of these is refused, and none is a panic.
 #[test]
 fn programs_that_do_not_fit_are_refused() {
     let gravity = ["all", "q", "gravity.c"];
@@ -148,8 +145,7 @@ fn no_degree_hides_behind_another() {
     assert_eq!(degree(&outputs), f64::INFINITY);
 }
 
-/// Rows that stand for placed joints have frames on the links that the robot file has them on: at
-/// q = 0 another link may be in the same place.
+/// At q = 0 another link may be in the same place.
 #[test]
 fn rows_have_frames_on_their_links() {
     let source = file("crates/model/tests/data/puma560_placed.toml");

@@ -62,7 +62,6 @@ fn sines_are_within_their_error() {
     }
 }
 
-/// At exact numbers for the variables, a product is the exact one but for its rest.
 #[test]
 fn products_of_polynomials_are_within_their_rest() {
     let all = numbers(240);

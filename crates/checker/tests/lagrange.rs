@@ -20,7 +20,6 @@ const ROBOTS: [&str; 5] = [
     "codegen/tests/data/general6r.toml",
 ];
 
-/// Returns the first result of a function.
 fn value(arm: &Arm, state: &State, name: &str) -> Vec<Number> {
     let function = functions().iter().find(|own| own.name == name);
     result(arm, state, &function.unwrap().fields[0]).unwrap()

@@ -5,7 +5,6 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use dalembert_checker::identity::exact::{Angle, Exact, Point};
 use dalembert_checker::identity::number::{Draws, Number};
 
-/// A constant, the literal that is nearest to it, and whether that is of f32.
 #[test]
 fn the_nearest_float_is_told_from_its_neighbours() {
     let cases = [
@@ -65,7 +64,6 @@ fn what_is_no_constant_is_not_read() {
     }
 }
 
-/// An angle that robot files write in several ways has one pair, and other angles have others.
 #[test]
 fn equal_angles_have_equal_sines() {
     let point = Point::new(&["angles"]);

@@ -5,7 +5,6 @@ use dalembert_checker::read::{Argument, Head, Symbols, Text};
 const HEAD: &str = "static inline void arm_gravity(const double q[ARM_RESTRICT 2], \
                     double c[ARM_RESTRICT 1])\n{\nARM_UNFUSED\n";
 
-/// Reads a function of C with these lines, which returns `t1`; returns the reason if it is refused.
 fn read(lines: &str) -> Result<(), String> {
     let text = format!("{HEAD}{lines}\nc[0] = t1;\n}}\n");
     let head = Head {
@@ -30,7 +29,6 @@ fn read(lines: &str) -> Result<(), String> {
     read.map(|_| ()).map_err(|error| error.reason)
 }
 
-/// Changes a text that is read, and expects a reason.
 fn refused(good: &str, changes: &[(&str, &str, &str)]) {
     assert_eq!(read(good), Ok(()));
     for (from, to, why) in changes {
@@ -41,7 +39,6 @@ fn refused(good: &str, changes: &[(&str, &str, &str)]) {
     }
 }
 
-/// An angle's polynomials are its own: those of another one, of the same numbers, are not.
 #[test]
 fn polynomials_of_another_angle() {
     let own = "const double x1_1 = q[0] * q[0];\nconst double x1_2 = x1_1 * 0.5;\n";
@@ -64,7 +61,6 @@ fn polynomials_of_another_angle() {
     );
 }
 
-/// The sines of a call are of the angles that it was given, whatever list comes after.
 #[test]
 fn sines_of_a_list_behind_the_call() {
     let list = "const double angles[1] = {q[1]};\n";

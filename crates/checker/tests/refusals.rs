@@ -4,7 +4,6 @@ use dalembert_checker::certify::certify;
 
 use crate::support::{changed, file};
 
-/// Changes of a robot file, and the refusals.
 const ROBOTS: &str = r#"
 mass = 1 | &; springs = {} | unknown field `springs`
 mass = 1 | mass = true | is no number, text, list or table

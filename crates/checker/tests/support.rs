@@ -2,7 +2,6 @@
 
 use std::fs;
 
-/// Returns a file of the repository.
 pub fn file(path: &str) -> String {
     let path = format!("{}/../../{path}", env!("CARGO_MANIFEST_DIR"));
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
@@ -20,9 +19,8 @@ pub fn honest() -> [String; 3] {
     [text, claim.replace(planted[1], "0"), robot]
 }
 
-/// Returns a text with each change of a table, and what is expected of it. A line has words of the
-/// text, those in their place, with `&` for the words and `; ` for the end of a line, and what is
-/// expected.
+/// A line of a table has words of the text, those in their place, and what is expected; `&` stands
+/// for the words, and `; ` for the end of a line.
 pub fn changed<'t>(text: &str, table: &'t str) -> Vec<(String, &'t str)> {
     let change = |row: &'t str| {
         let mut cells = row.split(" | ");

@@ -38,7 +38,6 @@ pub struct CertifyArgs {
     chain: ChainArgs,
 }
 
-/// Runs the subcommand.
 pub(crate) fn run(args: &CertifyArgs, context: &Context) -> Outcome {
     let source = text(&args.file, MOST_BYTES as u64)?;
     let robot = Source::open(context, &args.robot, &args.chain)?;
@@ -50,10 +49,9 @@ pub(crate) fn run(args: &CertifyArgs, context: &Context) -> Outcome {
     Ok(done)
 }
 
-/// The columns of what is shown of the results of a function.
 const RESULTS: &str = "joint|T|real|rounding|bound|E|.tolerance|finding=";
 
-/// Returns the table row of a result, relative to T; absolute if T is zero.
+/// Values are relative to T; absolute if T is zero.
 fn row(own: &Bounded) -> Vec<Cell> {
     let cell = |x: f64| Cell::power(x / own.unit(), 3);
     let finding = match own.holds() {
@@ -74,7 +72,6 @@ fn row(own: &Bounded) -> Vec<Cell> {
     ]
 }
 
-/// Checks every function of a file.
 fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     let name = args.file.display();
     let stamp = Stamp::read(source);
@@ -148,7 +145,7 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     Ok(done)
 }
 
-/// Returns where the claim of a file is: both scalars in Rust have one.
+/// Both scalars in Rust have one claim.
 pub(crate) fn claim_of(file: &Path) -> PathBuf {
     let own = file.with_extension("claim.json");
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
@@ -158,7 +155,6 @@ pub(crate) fn claim_of(file: &Path) -> PathBuf {
     }
 }
 
-/// Formats the result of a function.
 fn words(line: &Line) -> String {
     match &line.result {
         Err(fault) => format!("not shown: {fault}"),
@@ -181,8 +177,7 @@ fn words(line: &Line) -> String {
     }
 }
 
-/// Refuses a file of another robot, or of another chain of its model; returns a note if the robot
-/// was edited since.
+/// Returns a note if the robot was edited since.
 ///
 /// # Errors
 /// The file names another robot, or other options for its chain.

@@ -25,7 +25,6 @@ pub struct Dot {
     pub dominated: bool,
 }
 
-/// The names of the kinds.
 const KINDS: [&str; 4] = [
     "f64, called sines",
     "f32, called sines",
@@ -109,21 +108,17 @@ pub fn svg(title: &str, relative_to: &str, dots: &[Dot]) -> String {
 
 /// The axis of errors: logarithmic, in parts, without the decades in which nothing is.
 struct Across {
-    /// The least and the largest exponent of ten of each part, ascending.
     parts: Vec<[f64; 2]>,
     /// Pixels per decade.
     scale: f64,
 }
 
 impl Across {
-    /// Decades beside a value.
     const MARGIN: f64 = 0.25;
-    /// The most decades without a value inside a part.
     const GAP: f64 = 1.0;
     /// The room between two parts, in pixels.
     const BREAK: f64 = 22.0;
 
-    /// Returns the axis of positive values. Each part has a power of ten.
     fn around(values: impl Iterator<Item = f64>) -> Across {
         let positive = values.filter(|x| *x > 0.0 && x.is_finite());
         let mut exponents: Vec<f64> = positive.map(libm::log10).collect();
@@ -147,7 +142,6 @@ impl Across {
         Across { parts, scale }
     }
 
-    /// Returns the place of a value.
     fn place(&self, value: f64) -> f64 {
         self.place_of_exponent(libm::log10(value))
     }
@@ -173,7 +167,6 @@ impl Across {
                 paper.text("i m", [x, BOTTOM + 19.0], &format!("1e{decade}"));
             }
             if index > 0 {
-                // Two strokes in the break before the part.
                 for aside in [-3.0, 3.0] {
                     let x = from - 0.5 * Across::BREAK + aside;
                     paper.line("w", [x - 3.0, BOTTOM + 5.0], [x + 3.0, BOTTOM - 5.0]);
@@ -183,7 +176,6 @@ impl Across {
     }
 }
 
-/// The axis of costs: linear, between two multiples of its step.
 struct Up {
     low: f64,
     high: f64,
@@ -191,7 +183,6 @@ struct Up {
 }
 
 impl Up {
-    /// The most steps between the least and the largest value.
     const STEPS: f64 = 6.0;
 
     fn around(values: impl Iterator<Item = f64> + Clone) -> Up {
@@ -261,8 +252,7 @@ mod tests {
         .collect()
     }
 
-    /// The charts that are shown are those of the tables beside them. What differs is drawn anew
-    /// before the test fails.
+    /// A chart that differs is drawn anew before the test fails.
     #[test]
     fn the_checked_in_charts_are_those_of_their_tables() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");

@@ -49,14 +49,12 @@ pub fn report(robot: &Robot, request: &Request, generated: &Generated, detail: D
     report
 }
 
-/// Returns the table of operations; everything adds depth, calls, origin and proof.
 fn operations(generated: &Generated, detail: Detail) -> Table {
     let more = match detail {
         Detail::Whole => "depth|calls|from|proof",
         Detail::Counts | Detail::Bounds => ".depth|.calls|.from|.proof",
     };
     let mut table = Table::keyed(&format!("function|{COUNTS}|{more}"));
-    // Of the first scalar that was emitted.
     let scalar = generated.emitted.first().map(|emitted| emitted.scalar);
     for function in &generated.functions {
         let own = scalar.map_or(function.counts(), |scalar| function.counts_in(scalar));
@@ -76,7 +74,6 @@ fn operations(generated: &Generated, detail: Detail) -> Table {
     table.without_zeros("fma|sqrt")
 }
 
-/// Returns the polynomials that give a function's sines, a row a scalar.
 fn sines(function: &GeneratedFunction) -> impl Iterator<Item = Vec<Cell>> {
     function.sines.iter().map(|(scalar, sines)| {
         let counts = function.counts_in(*scalar);
@@ -92,7 +89,6 @@ fn sines(function: &GeneratedFunction) -> impl Iterator<Item = Vec<Cell>> {
     })
 }
 
-/// Adds what only who asks for everything reads.
 fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Generated) {
     for refused in generated.functions.iter().filter_map(refused) {
         report.line(format!("\n{refused}"));
@@ -131,7 +127,6 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
     report.table("stages", "operations after each stage", stages);
 }
 
-/// Adds what a tolerance admitted: E by cause, and what was left out.
 fn tolerance(report: &mut Report, function: Function, admitted: &Admitted, ended: bool) {
     for own in &admitted.certificates {
         let scalar = own.scalar;
@@ -181,7 +176,6 @@ pub fn bounds(certificate: &Certificate) -> impl Iterator<Item = Vec<Cell>> {
     })
 }
 
-/// Says what the limit on rounding errors cost a function.
 fn refused(function: &GeneratedFunction) -> Option<String> {
     let refused = function.refused.filter(|_| function.admitted.is_none())?;
     let own = function.counts().operations();
@@ -198,8 +192,7 @@ fn refused(function: &GeneratedFunction) -> Option<String> {
     ))
 }
 
-/// Returns a number of states that takes seconds at most for any robot: the reference's
-/// work grows with the cube of the number of joints where it returns D.
+/// The reference's work grows with the cube of the number of joints where it returns D.
 fn affordable_states(joints: usize) -> usize {
     const STATES: usize = 100;
     const JOINTS: usize = 10;
@@ -209,8 +202,7 @@ fn affordable_states(joints: usize) -> usize {
     }
 }
 
-/// Returns the number of library calls of a function's code, in its first scalar: one for each
-/// angle and each root by libm, one for all angles together, none for polynomials.
+/// Polynomials need no call; with `Library::Together` one call serves all angles.
 fn calls(generated: &Generated, function: Function) -> usize {
     let mut emitted = generated.emitted.iter();
     let Some(emitted) = emitted.find(|emitted| emitted.function == function) else {

@@ -19,7 +19,6 @@ pub struct CountArgs {
     verbose: bool,
 }
 
-/// Runs the subcommand.
 pub(crate) fn run(args: &CountArgs, context: &Context) -> Outcome {
     let source = Source::open(context, &args.task.robot, &args.task.chain)?;
     let mut request = source.request(&args.task.options.0, &ScalarType::ALL)?;

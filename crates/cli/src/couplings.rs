@@ -103,7 +103,6 @@ pub fn summary(couplings: &[Coupling], quantity: Quantity) -> [usize; 3] {
     summary
 }
 
-/// Returns whether the last two indices of an entry ascend; symmetric entries are listed once.
 fn is_first(quantity: Quantity, index: usize, n: usize) -> bool {
     quantity == Quantity::Gravity || index / n % n <= index % n
 }

@@ -34,7 +34,6 @@ pub struct ExplainArgs {
     chain: ChainArgs,
 }
 
-/// The states that errors are measured at.
 const STATES: usize = 200;
 
 /// All that was found about one function of a robot.
@@ -124,7 +123,6 @@ impl Explanation {
     }
 }
 
-/// Returns a formulation over f64, its constants rounded once.
 fn formula(
     setup: &Setup,
     arm: &Arm<f64>,
@@ -146,7 +144,6 @@ fn formula(
     posed.results(formulation)
 }
 
-/// Runs the subcommand.
 pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
     let mut source = Source::open(context, &args.robot, &args.chain)?;
     source.outputs = vec![Function::InverseDynamics];
@@ -192,7 +189,6 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
     Ok(report.into())
 }
 
-/// Returns the table of steps.
 fn steps_of(own: &Explanation) -> Table {
     let mut table = Table::new(&format!("step|.key|{COUNTS}|vector|entry"));
     for (index, (row, rounding)) in own.rows.iter().zip(own.rounding(STATES)).enumerate() {
@@ -201,7 +197,6 @@ fn steps_of(own: &Explanation) -> Table {
         if is_emitted {
             title += &format!(", in {}", row.scalar());
         }
-        // Of several scalars each is.
         if is_emitted || index + 1 == own.rows.len() {
             title += ": generated";
         }
@@ -213,7 +208,6 @@ fn steps_of(own: &Explanation) -> Table {
     table.without_zeros("fma|div|sqrt|trig_mul|trig_add")
 }
 
-/// Adds how many coefficients vanish or repeat, and, if they are asked for, each of them.
 fn coefficients(report: &mut Report, couplings: &[Coupling], each: bool) {
     let mut table = Table::keyed("coefficients|total|zero|distinct up to sign");
     for (quantity, name) in [

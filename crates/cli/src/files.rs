@@ -13,19 +13,16 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::terminal::print;
 
-/// The path that stands for standard output.
 const STANDARD: &str = "-";
 
 /// Paths of this process's open files: output is appended to them, whatever they are.
 const OPEN: [&str; 4] = ["/dev/stdout", "/dev/stderr", "/dev/fd", "/proc/self/fd"];
 
-/// The longest file that dalembert may have written, bytes.
 const MAX_BYTES: u64 = 1 << 28;
 
 /// The destination of an output.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Target {
-    /// The path as the user gave it.
     name: PathBuf,
     place: Place,
 }
@@ -128,7 +125,6 @@ impl<'c> Files<'c> {
         }
         let path = into.join(name);
         let inside = folder(&path);
-        // The nearest folder that exists.
         let is_there = |folder: &&Path| fs::symlink_metadata(folder).is_ok();
         let there = inside.ancestors().find(is_there);
         let there = there.unwrap_or(Path::new("."));
@@ -214,7 +210,6 @@ fn folder(path: &Path) -> &Path {
     }
 }
 
-/// Makes a temporary file in a folder, with the permissions of any other new file.
 fn unfinished(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = Builder::new();
     #[cfg(unix)]
@@ -225,7 +220,6 @@ fn unfinished(folder: &Path) -> io::Result<NamedTempFile> {
     builder.tempfile_in(folder)
 }
 
-/// Returns the target of a path; the error is a reason with the likely fix.
 fn target(path: &Path) -> Result<Target, String> {
     const FOLDER: &str = "it is a folder\n  = help: give the name of a file in it";
     let of = |place| {
@@ -259,7 +253,7 @@ fn target(path: &Path) -> Result<Target, String> {
     }
 }
 
-/// Checks that a stream can be opened; a pipe is not opened, since that waits for its reader.
+/// A pipe is not opened, since that waits for its reader.
 fn enter(path: &Path) -> io::Result<()> {
     #[cfg(unix)]
     {

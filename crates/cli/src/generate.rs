@@ -33,17 +33,13 @@ pub struct GenerateArgs {
     save_plan: bool,
 }
 
-/// Where code, claim and plan go.
 struct Places {
-    /// One for each file.
     code: Vec<Target>,
-    /// Unless the code goes into a device or a pipe: what is claimed of it.
+    /// `None` if the code goes into a device or a pipe.
     claim: Option<Target>,
-    /// If it is to be kept.
     plan: Option<Target>,
 }
 
-/// Runs the subcommand.
 pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
     let language = language(args);
     let scalars = language.as_ref().map_or(&[][..], |own| own.scalars());
@@ -138,7 +134,6 @@ impl Places {
     }
 }
 
-/// Returns where the code goes: the second of two scalars in Rust beside the first.
 fn code(
     args: &GenerateArgs,
     files: &mut Files<'_>,

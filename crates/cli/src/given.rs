@@ -21,14 +21,11 @@ pub const BOUND: f64 = 1e-12;
 /// An error of every value below this is one of digits, not of units or signs.
 const FEW_DIGITS: f64 = 1e-4;
 
-/// The most mistakes of a file that are listed.
 const MOST: usize = 10;
 
-/// The torques that drive an arm, unlike those that a motion takes.
 const TORQUE: &str = "torque";
 
-/// A key that a state may have about itself: the condition of D, by which its source judged the
-/// results that need D⁻¹.
+/// The condition of D, by which the source of a state judged the results that need D⁻¹.
 const REMARK: &str = "condition";
 
 /// A state with what is known about it.
@@ -40,7 +37,6 @@ pub struct GivenState {
     pub known: BTreeMap<Quantity, Vec<f64>>,
 }
 
-/// A file of states.
 #[derive(Deserialize)]
 #[serde(expecting = "an object with a list `states`")]
 struct File {
@@ -97,7 +93,6 @@ pub fn read(text: &str, n: usize) -> Result<Vec<GivenState>, String> {
     }
 }
 
-/// Reads a state, and returns everything that is wrong with it.
 fn state(keys: &BTreeMap<String, Numbers>, n: usize) -> (GivenState, Vec<String>) {
     let mut wrong = Vec::new();
     let sizes = Sizes::whole(n);
@@ -153,7 +148,6 @@ fn state(keys: &BTreeMap<String, Numbers>, n: usize) -> (GivenState, Vec<String>
     (GivenState { state, known }, wrong)
 }
 
-/// Returns the keys of results, in the order of the list of outputs.
 fn results() -> impl Iterator<Item = (&'static str, Quantity)> {
     let all = Quantity::ALL.iter();
     all.filter_map(|&quantity| Some((quantity.facts().given?, quantity)))
@@ -192,8 +186,7 @@ pub struct Compared {
     pub worst: String,
 }
 
-/// Returns the quantities that can be compared with given states, from what a function
-/// returns: the symbols h_ikm are compared as the load h that they give.
+/// Returns the quantities to compare with given states: of h_ikm, the load h that they give.
 pub fn quantities(function: Function) -> impl Iterator<Item = Quantity> {
     let all = function.quantities().iter();
     all.map(|quantity| quantity.as_given(&[], &[]).0)
@@ -254,7 +247,6 @@ pub fn compare(
     all.into_values().collect()
 }
 
-/// Names an entry of a quantity.
 fn place(quantity: Quantity, entry: usize, robot: &Robot) -> String {
     let n = robot.joints.len().max(1);
     match quantity.shape() {
@@ -268,9 +260,7 @@ fn place(quantity: Quantity, entry: usize, robot: &Robot) -> String {
     }
 }
 
-/// Returns the entry with the largest error and that error, relative to the largest
-/// expected entry; absolute where all of those vanish, infinite where a value
-/// is not a number.
+/// Relative to the largest expected entry; absolute if all vanish, infinite for a NaN.
 fn worst(actual: &[f64], expected: &[f64]) -> (usize, f64) {
     let size = expected.iter().fold(0.0f64, |most, x| most.max(x.abs()));
     let size = if size > 0.0 { size } else { 1.0 };
@@ -287,7 +277,6 @@ fn worst(actual: &[f64], expected: &[f64]) -> (usize, f64) {
     worst
 }
 
-/// Describes the comparison with the states of a file, and what disagrees.
 pub(crate) fn describe(file: &str, states: &[GivenState], compared: &[Compared], done: &mut Done) {
     let heads = "function|result|states|error|bound|.disagreeing|.worst|verdict=";
     let mut table = Table::new(heads);

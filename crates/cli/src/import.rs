@@ -55,7 +55,6 @@ pub struct ImportArgs {
 }
 
 impl ImportArgs {
-    /// Returns the import options for the model.
     fn options(&self) -> Options {
         let defaults = defaults(&self.model);
         self.chain.choose(Options {
@@ -68,7 +67,6 @@ impl ImportArgs {
     }
 }
 
-/// Runs the subcommand.
 pub(crate) fn run(args: &ImportArgs, context: &Context) -> Outcome {
     let path = &args.model;
     let mut files = Files::new(context, &[path]);
@@ -116,7 +114,6 @@ pub(crate) fn run(args: &ImportArgs, context: &Context) -> Outcome {
     Ok(done)
 }
 
-/// Prints the notes and the replaced numbers, each once.
 fn say(args: &ImportArgs, context: &Context, made: &[Imported], source: &Text) {
     let mut said = BTreeSet::new();
     for note in made.iter().flat_map(|made| &made.notes) {
@@ -146,7 +143,6 @@ fn say(args: &ImportArgs, context: &Context, made: &[Imported], source: &Text) {
     }
 }
 
-/// Describes an imported chain, and how far replaced numbers change torques and hand.
 fn one(made: &Imported, path: &Path, source: &Text) -> Report {
     let mut report = values(made, path, source);
     let joints = counted(made.robot.joints.len(), "joint");
@@ -183,7 +179,6 @@ fn one(made: &Imported, path: &Path, source: &Text) -> Report {
     report
 }
 
-/// Describes every arm, and which of them move each other.
 fn all(made: &[Imported], shared: Vec<Shared>, path: &Path, source: &Text) -> Report {
     let mut report = Report::default();
     let arms = made.iter().map(|made| json!(values(made, path, source)));
@@ -211,7 +206,6 @@ fn all(made: &[Imported], shared: Vec<Shared>, path: &Path, source: &Text) -> Re
     report
 }
 
-/// Returns the JSON report of an imported chain.
 fn values(made: &Imported, path: &Path, source: &Text) -> Report {
     let robot = &made.robot;
     let notes = made.notes.iter().map(|note| {

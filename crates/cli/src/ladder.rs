@@ -22,10 +22,9 @@ pub struct Point {
     pub certified: f64,
     /// The largest error that was seen, if it was run at any state.
     pub observed: Option<f64>,
-    /// The error of operations and sines by themselves, in the same measure: the code
-    /// against its own program in double precision. Nothing in double.
+    /// The bound of the error of operations and sines alone: of the code against its own program.
     pub rounding: f64,
-    /// The largest such error that was seen.
+    /// The largest such error that was seen; only code in f32 is run for it.
     pub rounding_observed: Option<f64>,
     /// True if another one is neither dearer nor worse.
     pub dominated: bool,
@@ -100,15 +99,12 @@ const SHARE: f64 = 1.0 / 16.0;
 
 /// The variants of one function, tolerance by tolerance.
 pub struct Ladder<'a> {
-    /// States at which each variant is run.
     samples: usize,
     frame: &'a ErrorBudget<'a>,
     settings: PruneSettings,
-    /// The exact program in every scalar.
     exact: Admitted,
 }
 
-/// Climbs from the states to the largest error of each output.
 const CLIMBS: usize = 4;
 
 impl<'a> Ladder<'a> {
@@ -139,7 +135,6 @@ impl<'a> Ladder<'a> {
         Ok(points)
     }
 
-    /// Returns a variant with polynomials for its sines, if the tolerance admits any.
     fn polynomials(&self, tolerance: f64, certificate: &Certificate) -> Option<Certificate> {
         let tolerances = vec![tolerance; self.frame.scales.len()];
         let frame = self.frame;
@@ -147,7 +142,6 @@ impl<'a> Ladder<'a> {
         found.ok().filter(|found| !found.sines.is_empty())
     }
 
-    /// Returns the variants of one tolerance; `before` is one that a smaller tolerance admits.
     fn rung(
         &self,
         tolerance: f64,
@@ -180,8 +174,7 @@ impl<'a> Ladder<'a> {
         points.into_iter().collect()
     }
 
-    /// Returns the cheapest variants that a tolerance admits, in each scalar that can
-    /// be that exact at all; `before` is one that a smaller tolerance admits.
+    /// `before` is one that a smaller tolerance admits.
     fn variants(&self, tolerance: f64, before: Option<&Point>) -> Vec<Admitted> {
         let tolerances = vec![tolerance; self.frame.scales.len()];
         let able = self.exact.certificates.iter();
@@ -209,7 +202,6 @@ impl<'a> Ladder<'a> {
     }
 }
 
-/// Runs a variant at states that try to refute its claim.
 fn point(
     samples: usize,
     tolerance: f64,
@@ -237,7 +229,6 @@ fn point(
     })
 }
 
-/// Returns the largest error that is seen, and one above E.
 fn falsified(
     samples: usize,
     certificate: &Certificate,
@@ -256,7 +247,6 @@ fn falsified(
     Ok((observed, violation))
 }
 
-/// Returns the largest E of an output.
 fn worst(certificate: &Certificate) -> f64 {
     let totals = certificate.bounds.iter().map(|bound| bound.total());
     totals.fold(0.0, f64::max)

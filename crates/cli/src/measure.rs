@@ -85,7 +85,6 @@ pub struct Samples {
     states: Vec<JointState>,
     truths: Vec<Vec<TrueValue>>,
     granted: Vec<Granted>,
-    /// The largest value that is met of each result.
     sizes: Vec<f64>,
 }
 
@@ -211,7 +210,6 @@ impl Bench {
             .collect()
     }
 
-    /// Returns the errors of a quantity at a state: of the vector, and the largest of an entry.
     fn errors(
         &self,
         code: &Code<'_>,

@@ -9,7 +9,6 @@ use serde_json::json;
 use crate::output::Outcome;
 use crate::report::{Cell, Report, Table, WIDTH, broken, cells};
 
-/// Runs the subcommand.
 pub(crate) fn run() -> Outcome {
     let mut report = Report::default();
     let mut functions = Table::keyed("function|takes|returns|unit|meaning|results");
@@ -75,7 +74,6 @@ fn result(quantity: Quantity) -> [String; 3] {
         true => "1".to_owned(),
         false => shape.join("×"),
     };
-    // Two revolute joints.
     let robot = Robot {
         joints: vec![Joint::default(); 2],
         ..Robot::default()

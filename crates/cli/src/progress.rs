@@ -18,9 +18,7 @@ const INTERRUPTED: i32 = 130;
 /// A guard: searches are watched until it is dropped.
 pub struct Session(Arc<Seen>);
 
-/// The state of an observer.
 struct Seen {
-    /// The functions in the order of their searches.
     functions: Vec<Function>,
     stop: AtomicBool,
     /// Whether no search is left that Ctrl-C could end early.

@@ -16,7 +16,6 @@ use crate::output::{Context, Done, Failure, Outcome};
 use crate::report::{Cell, Report, Table, cells};
 use crate::source::{Source, text};
 
-/// The size of the longest file that is read, bytes.
 const MAX_BYTES: u64 = 1 << 28;
 
 /// Arguments of `renew`.
@@ -29,7 +28,6 @@ pub struct RenewArgs {
     check: bool,
 }
 
-/// A generated file.
 struct Found {
     path: PathBuf,
     text: String,
@@ -37,7 +35,6 @@ struct Found {
     language: Language,
 }
 
-/// The new text of a file: the code, or what stands beside it.
 struct New {
     path: PathBuf,
     text: String,
@@ -45,7 +42,6 @@ struct New {
     differs: Option<usize>,
 }
 
-/// Runs the subcommand.
 pub(crate) fn run(args: &RenewArgs, context: &Context) -> Outcome {
     let files = found(&args.files)?;
     let (mut texts, mut failed) = (Vec::new(), Vec::new());
@@ -101,7 +97,6 @@ pub(crate) fn run(args: &RenewArgs, context: &Context) -> Outcome {
     Ok(done)
 }
 
-/// Returns the named files, or all files with a stamp in this folder and below it.
 fn found(named: &[PathBuf]) -> Result<Vec<Found>, Failure> {
     let mut all = Vec::new();
     for path in named {
@@ -137,8 +132,7 @@ fn stamped(path: &Path, text: String) -> Option<Found> {
     })
 }
 
-/// Adds the generated files of a folder and its subfolders, in the order of their names; hidden
-/// folders, build folders and links are left out.
+/// Leaves out hidden folders, build folders and links.
 fn walk(folder: &Path, all: &mut Vec<Found>) -> Result<(), Failure> {
     let fail = |error| Failure::Input(format!("error: `{}`: {error}", folder.display()));
     let entries = fs::read_dir(folder).map_err(fail)?;
@@ -163,7 +157,6 @@ fn walk(folder: &Path, all: &mut Vec<Found>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Regenerates a file by its stamp.
 fn renewed(context: &Context, file: &Found) -> Result<Vec<New>, Failure> {
     let folder = file.path.parent().unwrap_or(Path::new(""));
     let chain = ChainArgs::from_pairs(&file.stamp.chain).ok_or_else(|| {

@@ -14,11 +14,8 @@ use serde_json::{Map, Value};
 pub struct Report(Vec<Part>);
 
 enum Part {
-    /// Lines for people.
     Text(String),
-    /// A value for programs.
     Value(String, Value),
-    /// For both.
     Table(String, Table),
 }
 
@@ -105,7 +102,6 @@ impl Serialize for Report {
 /// The columns that a table may take.
 pub const WIDTH: usize = 100;
 
-/// The columns that the last text of a row has at least, where it is broken.
 const LEAST: usize = 24;
 
 /// A table. Texts stand to the left, numbers to the right; the last text of a row is broken where it
@@ -115,15 +111,12 @@ pub struct Table {
     rows: Vec<Vec<Cell>>,
     /// Programs get an object by the first column's values instead of a list.
     is_keyed: bool,
-    /// The columns that it may take on paper or a terminal.
     width: usize,
 }
 
-/// A column: what programs and people call it.
 struct Column {
     key: String,
     title: String,
-    /// It is for programs alone.
     is_hidden: bool,
 }
 
@@ -177,7 +170,6 @@ impl From<usize> for Cell {
     }
 }
 
-/// Makes the cells of a row.
 macro_rules! cells {
     ($($cell:expr),* $(,)?) => { vec![$($crate::report::Cell::from($cell)),*] };
 }

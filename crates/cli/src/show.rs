@@ -39,7 +39,6 @@ pub struct ShowArgs {
     chain: ChainArgs,
 }
 
-/// Runs the subcommand.
 pub(crate) fn run(args: &ShowArgs, context: &Context) -> Outcome {
     let source = Source::open(context, &args.robot, &args.chain)?;
     let robot = &source.robot;
@@ -85,8 +84,7 @@ fn poses(robot: &Robot, at: &[f64]) -> Result<Report, WrongLength> {
     Ok(report)
 }
 
-/// Returns a warning if a joint position is beyond its limits or more than a turn. A number without
-/// a unit is in radians, but may have been meant in degrees.
+/// A number without a unit is in radians, but may have been meant in degrees.
 fn doubtful(robot: &Robot, index: usize, text: &str, q: f64) -> Option<String> {
     let joint = robot.joints.get(index)?;
     let limits = joint.limits.position.as_ref();
@@ -113,7 +111,6 @@ fn doubtful(robot: &Robot, index: usize, text: &str, q: f64) -> Option<String> {
     ))
 }
 
-/// Returns the joint positions of the arguments; zeros by default.
 fn position(args: &ShowArgs, robot: &Robot) -> Result<Vec<f64>, Failure> {
     if args.at.is_empty() {
         return Ok(vec![0.0; robot.joints.len()]);

@@ -28,7 +28,6 @@ pub struct Source {
     pub robot_file: String,
     /// Whether the file is a URDF or an MJCF.
     pub is_model: bool,
-    /// The options that chose the chain of a model.
     chain: ChainArgs,
 }
 
@@ -141,7 +140,6 @@ pub fn unopened(path: &Path, error: Unopened) -> Failure {
     }
 }
 
-/// Lists the mistakes in options, flag by flag.
 fn problems_of(problems: &[Problem]) -> String {
     let one = |problem: &Problem| {
         let flag = problem.option.replace('_', "-");
@@ -174,7 +172,6 @@ pub fn text(path: &Path, most: u64) -> Result<String, Failure> {
     String::from_utf8(bytes).map_err(no_text)
 }
 
-/// Returns the failure for a system error at a path, in the words of [`RobotFileError`].
 fn system(path: &Path, error: &std::io::Error) -> Failure {
     let shown = path.display().to_string();
     let said = RobotFileError::of_system(path, &shown, error).to_string();

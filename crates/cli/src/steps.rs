@@ -71,8 +71,7 @@ impl Row {
     }
 }
 
-/// The most joints for which Lagrange–Euler is written out: the graph grows
-/// with n⁴ to n⁵.
+/// The graph of Lagrange–Euler grows with n⁴ to n⁵.
 const MAX_WRITTEN: usize = 8;
 
 /// Takes all steps but what a tolerance admits; returns them, and the program that it is applied to.
@@ -110,7 +109,6 @@ pub(super) fn exact(
     Ok((steps.rows, program))
 }
 
-/// The steps of one function, as far as they were taken.
 struct Steps<'t> {
     job: &'t Job<'t>,
     function: Function,
@@ -131,8 +129,7 @@ impl Steps<'_> {
         self.program(step, program);
     }
 
-    /// Adds Lagrange–Euler: as written, traced, merged; then what the general machinery
-    /// makes of it alone.
+    /// As written, traced and merged; then what the general machinery makes of it alone.
     fn lagrange_euler(&mut self) {
         let (setup, request) = (self.job.setup, self.job.request);
         let trace = trace(setup.task(self.function), Formulation::LagrangeEuler);
@@ -159,7 +156,6 @@ impl Steps<'_> {
         }
     }
 
-    /// Adds Newton–Euler in link axes.
     fn newton_euler(&mut self) {
         let formulation = Formulation::NewtonEulerLink;
         let graph = trace(self.job.setup.task(self.function), formulation).graph;
@@ -191,8 +187,6 @@ impl Steps<'_> {
         }
     }
 
-    /// Adds what the search made of all forms, and what the plan keeps; returns the last of them: what
-    /// is generated, or what a tolerance is applied to.
     fn searched(&mut self, found: &Found) -> Result<Program, GenerateError> {
         let graph = &found.searched.graph;
         let mut last = self.job.setup.task(self.function).program(graph);
@@ -205,8 +199,7 @@ impl Steps<'_> {
     }
 }
 
-/// Returns the regrouping in which every link keeps what it has; origins as for base
-/// parameters.
+/// Every link keeps what it has; origins are as for base parameters.
 fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
     let mut regrouping = Regrouping::base(arm);
     for (segment, link) in arm.links.iter().zip(&mut regrouping.links) {
@@ -222,7 +215,6 @@ fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
     regrouping
 }
 
-/// Returns the program that a tolerance admits: one row per scalar, as it is emitted.
 pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> {
     let row = |certificate: &Certificate| {
         let (function, scalar) = (certificate.emitted.function, certificate.scalar);
@@ -238,7 +230,6 @@ pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> 
     admitted.certificates.iter().map(row).collect()
 }
 
-/// Refuses a function that regrouping does not reach.
 fn unexplained(function: Function) -> GenerateError {
     let message = format!(
         "`{function}` has no steps to explain: none of its results comes from regrouped \

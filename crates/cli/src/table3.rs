@@ -21,7 +21,6 @@ pub fn comparisons(robot: &Robot) -> [(&'static str, [u64; 4]); 3] {
     })
 }
 
-/// Returns the paper's multiplications and additions for n joints, by its polynomials.
 fn paper(formulation: Formulation, n: u64) -> [u64; 2] {
     let powers = |[n4, n3, n2, n1, n0]: [u64; 5], denominator: u64| {
         ((((n4 * n + n3) * n + n2) * n + n1) * n + n0) / denominator
@@ -39,7 +38,6 @@ fn paper(formulation: Formulation, n: u64) -> [u64; 2] {
     }
 }
 
-/// Counts multiplications and additions with a robot's numbers: zeros and ones cost nothing.
 fn as_written(formulation: Formulation, robot: &Robot) -> [u64; 2] {
     let counter = Counter::new();
     let arm = Arm::from_robot(robot, &mut Exact::counted);

@@ -10,10 +10,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::failure::Failure;
 
-/// The time before the bar appears.
 const QUIET: Duration = Duration::from_secs(2);
 
-/// The bar of the run; there is only one, since there is one terminal.
 static BAR: Mutex<Option<ProgressBar>> = Mutex::new(None);
 
 /// A guard: the bar is shown until it is dropped.
@@ -70,7 +68,6 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// The words that begin a message or its parts, with their colours on a terminal.
 const COLOURS: [(&str, &str); 6] = [
     ("error", "1;31"),
     ("warning", "1;33"),

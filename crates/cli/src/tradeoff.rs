@@ -53,11 +53,9 @@ pub struct TradeoffArgs {
 /// Tolerances unless others are asked for; zero is always there.
 const TOLERANCES: [f64; 10] = [1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 5e-2, 1e-1];
 
-/// The files that are written.
 const CSV: &str = "tradeoff.csv";
 const SVG: &str = "tradeoff.svg";
 
-/// Runs the subcommand.
 pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
     let mut source = Source::open(context, &args.robot, &args.chain)?;
     source.outputs = vec![Function::InverseDynamics];
@@ -131,8 +129,7 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
     Ok(done)
 }
 
-/// Returns the request for the exact program, which tolerances are applied to, and the scene: the plan
-/// may have the program of the scene with its own tolerance, which is one of many here.
+/// The plan may have the program of the scene with its own tolerance, which is one of many here.
 fn exact_request(
     args: &TradeoffArgs,
     source: &Source,
@@ -158,7 +155,6 @@ fn exact_request(
     Ok((request, scene))
 }
 
-/// Returns the variants of all tolerances.
 fn climb(
     args: &TradeoffArgs,
     request: &Request,
@@ -180,7 +176,6 @@ fn climb(
     points.map_err(|error| Failure::Check(format!("error: {error}")))
 }
 
-/// Returns the cheapest program of a tolerance that is proved exact and cheaper than the exact search's.
 fn better(setup: &Setup, exact: &Program, points: &[Point]) -> Option<Program> {
     let programs = points.iter().map(|point| &point.certificate.emitted);
     let fewer = |own: &&Program| own.counts().operations() < exact.counts().operations();
@@ -190,7 +185,6 @@ fn better(setup: &Setup, exact: &Program, points: &[Point]) -> Option<Program> {
     fewer.find(|own| prove(setup, own).is_ok()).cloned()
 }
 
-/// Returns the tolerances, ascending, each once.
 fn tolerances(args: &TradeoffArgs, context: &Context) -> Vec<f64> {
     let mut tolerances = match args.tolerances.as_slice() {
         [] => TOLERANCES.to_vec(),
@@ -206,14 +200,12 @@ fn tolerances(args: &TradeoffArgs, context: &Context) -> Vec<f64> {
     tolerances
 }
 
-/// Returns the scale of the arguments, else that of the scene, else the actuators.
 fn relative_to(args: &TradeoffArgs, scene: Option<&Scene>) -> Scale {
     let own = scene.and_then(|scene| scene.tolerance.as_ref());
     let own = own.map(|tolerance| tolerance.relative_to);
     args.relative_to.or(own).unwrap_or(Scale::Actuator)
 }
 
-/// Returns the variants, a row each.
 fn table(points: &[Point]) -> Table {
     let mut table = Table::new(
         "tolerance|scalar|sincos by=sines|mul|add|sincos|trig_mul|trig_add|left out=cuts|certified|observed|rounding|rounding observed|front",
@@ -249,7 +241,6 @@ fn table(points: &[Point]) -> Table {
     table
 }
 
-/// Draws the costs over the certified errors.
 fn drawn(title: &str, relative_to: Scale, points: &[Point]) -> String {
     let scale = match relative_to {
         Scale::Actuator => "the actuators' limits",

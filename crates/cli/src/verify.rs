@@ -39,13 +39,10 @@ pub struct VerifyArgs {
     states: usize,
 }
 
-/// The largest file of states.
 const MAX_STATES_BYTES: u64 = 1 << 28;
 
-/// Climbs to the largest error of each output.
 const CLIMBS: usize = 2;
 
-/// Runs the subcommand.
 pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
     let source = Source::open(context, &args.task.robot, &args.task.chain)?;
     let robot = &source.robot;
@@ -134,7 +131,6 @@ fn given_states(
     Err(fail(format!("nothing is compared: {why}")))
 }
 
-/// Falsifies the certificates of a scene with a tolerance, and returns what they are about.
 fn claims(generated: &Generated, done: &mut Done) -> Result<Vec<(Function, ScalarType)>, Failure> {
     let mut claimed = Vec::new();
     let functions = generated.functions.iter();
@@ -162,7 +158,6 @@ fn claims(generated: &Generated, done: &mut Done) -> Result<Vec<(Function, Scala
     Ok(claimed)
 }
 
-/// Adds the table of rounding errors, then the states of the rows that failed.
 fn rounding(states: usize, rows: &[Row], done: &mut Done) {
     let heads = "case|function|result|scalar|vector|entry|.condition|.held_to|verdict=";
     let mut table = Table::new(heads);
@@ -225,7 +220,6 @@ fn rounding(states: usize, rows: &[Row], done: &mut Done) {
     }
 }
 
-/// Compares polynomials with libm's sine and cosine at some states.
 fn sines(generated: &Generated, states: &[JointState], done: &mut Done) {
     let mut table = Table::new("function|scalar|angle|seen|proved|verdict=");
     let mut failed = 0;

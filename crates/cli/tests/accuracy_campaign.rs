@@ -13,14 +13,12 @@ use dalembert_cli::measure::{Bench, Code, VECTOR};
 use dalembert_codegen::workspace::{Quantity, SEED, Setup, seeded};
 use dalembert_codegen::{Function, GenerateError, Request, ScalarType, generate};
 
-/// The number of states per robot.
 const STATES: usize = 30;
 
 /// The worst error of a quantity in units of u, and how many robots had it.
 type Worst = BTreeMap<(Quantity, ScalarType), (f64, usize)>;
 
-/// Runs `each` outputs per robot, in turn, so that each output meets robots of every length: of the
-/// robots at these places.
+/// Runs `each` outputs per robot in turn, so that each output meets robots of every length.
 fn campaign(places: Range<usize>, each: usize, longest: usize) -> Worst {
     let mut worst = Worst::new();
     // `Load` only serves functions that take a load.

@@ -5,7 +5,6 @@ use dalembert_codegen::workspace::Quantity;
 
 use crate::robots as support;
 
-/// Returns a robot file in standard DH with these joint kinds and general numbers.
 fn general(kinds: &[&str]) -> String {
     let mut text =
         String::from("name = \"general\"\nconvention = \"standard\"\ngravity = [1, 2, -9]\n");

@@ -18,7 +18,6 @@ fn reads(input: Input, place: Entry) -> bool {
     }
 }
 
-/// Returns which outputs of a program depend on an input.
 fn dependent(program: &Program, place: Entry) -> Vec<bool> {
     let mut depends: Vec<bool> = Vec::new();
     for node in &program.dag.nodes {
@@ -39,7 +38,6 @@ fn with(state: &JointState, place: Entry, value: f64) -> JointState {
     state
 }
 
-/// Returns which results of a function change with an input at some of the states.
 fn sensitive(
     run: impl Fn(&JointState) -> Vec<f64>,
     states: &[JointState],

@@ -31,9 +31,8 @@ fn held(category: &str) -> Held {
     }
 }
 
-/// Generates the torques, to which the criteria apply, and for short arms D, h and c, which come
-/// from the same recursion. Only arms up to the longest are searched; others use the recursion
-/// unchanged.
+/// Short arms have D, h and c, too, which come from the same recursion. Only arms up to the longest
+/// are searched; others use the recursion unchanged.
 fn emitted(robot: &Robot, scalar: ScalarType, longest: usize) -> Vec<Emitted> {
     let n = robot.joints.len();
     let mut functions = vec![Function::InverseDynamics];
@@ -56,7 +55,6 @@ support::daily_and_campaign! {
     categories_meet_their_criteria_in_f32: (SHORT), (LONG);
 }
 
-/// The longest arms that are searched, daily and in the campaign.
 const SHORT: usize = 3;
 const LONG: usize = 7;
 
@@ -133,7 +131,6 @@ fn categories_meet_their_criteria(scalar: ScalarType, longest: usize) {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// One robot at one state.
 struct Extreme {
     id: String,
     category: String,

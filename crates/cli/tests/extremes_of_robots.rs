@@ -19,7 +19,6 @@ fn all_good(rows: &[Row]) {
     );
 }
 
-/// A relative error of 1e-14 in a mass is more than rounding, and is found.
 #[test]
 fn planted_faults_are_found() {
     let robot = support::robot("puma560");
@@ -41,7 +40,6 @@ fn planted_faults_are_found() {
     assert!(mass > 2.0 * right.max(20.0), "{mass}");
 }
 
-/// A NaN is a failure at states inside the limits.
 #[test]
 fn no_number_fails_inside_the_limits() {
     let robot = support::robot("planar2r");
@@ -68,7 +66,6 @@ fn the_search_finds_where_two_rods_are_nearest_to_singular() {
     all_good(&divided(&robot, &Request::new(&Function::ALL), STATES).unwrap());
 }
 
-/// The extreme states have a value for every argument, and only what is asked for is measured.
 #[test]
 fn every_argument_has_a_value_at_the_extremes() {
     use Function::{ForwardDynamics, Gravity, InverseDynamics};
@@ -99,7 +96,6 @@ fn every_argument_has_a_value_at_the_extremes() {
     }
 }
 
-/// Returns an arm of two links with these point masses at their ends.
 fn points(masses: [&str; 2]) -> Robot {
     let joint = |mass: &str| {
         format!(

@@ -6,7 +6,6 @@ use dalembert_model::scene::Scene;
 
 use crate::robots as support;
 
-/// With rows left out and in another order, the entries are those of the full model.
 #[test]
 fn scenes_select_along_axes_over_joints() {
     let robot = support::robot("planar3r");

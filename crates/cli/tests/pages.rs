@@ -29,7 +29,6 @@ fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{path:?}: {error}"))
 }
 
-/// Returns the pages of the guide in the order of the table of contents.
 fn guide() -> Vec<PathBuf> {
     let folder = root().join("docs/src");
     let summary = read(&folder.join("SUMMARY.md"));
@@ -54,7 +53,6 @@ fn blocks(lines: &[String]) -> Vec<Block> {
     blocks
 }
 
-/// Returns whether lines match those shown, where `...` stands for any lines.
 fn shows(shown: &[&str], lines: &[&str]) -> bool {
     match shown {
         [] => lines.is_empty(),
@@ -63,7 +61,6 @@ fn shows(shown: &[&str], lines: &[&str]) -> bool {
     }
 }
 
-/// Runs a command; returns it with its output as on a terminal, warnings before the result.
 fn ran(command: &str, inside: &Path, result_alone: bool) -> Vec<String> {
     let bin = Path::new(env!("CARGO_BIN_EXE_dalembert")).parent().unwrap();
     let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
@@ -89,7 +86,6 @@ fn ran(command: &str, inside: &Path, result_alone: bool) -> Vec<String> {
     lines
 }
 
-/// Returns the corrected block; `None` if it is right.
 fn checked(body: &[String], inside: &Path, result_alone: bool) -> Option<Vec<String>> {
     let mut fixed = Vec::new();
     let mut differs = false;
@@ -115,7 +111,6 @@ fn checked(body: &[String], inside: &Path, result_alone: bool) -> Option<Vec<Str
     differs.then_some(fixed)
 }
 
-/// Runs pages in one folder; writes what differs into them, then panics.
 fn run_pages(pages: &[PathBuf], inside: &Path) {
     let mut differing = Vec::new();
     for page in pages {
@@ -151,7 +146,6 @@ fn run_pages(pages: &[PathBuf], inside: &Path) {
     assert!(differing.is_empty(), "{}", differing.join("\n"));
 }
 
-/// Copies files of the project into a folder of this test run.
 fn folder_with(name: &str, files: &[&str]) -> PathBuf {
     let inside = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = fs::remove_dir_all(&inside);
@@ -182,7 +176,6 @@ fn the_guide_shows_what_commands_print() {
     assert_eq!(read(&inside.join("arm.toml")), read(&compiled));
 }
 
-/// In a folder with the files of a clone that its commands read.
 #[test]
 fn the_readme_shows_what_commands_print() {
     let inside = folder_with("readme", &[]);
@@ -224,8 +217,7 @@ pages!(
 #[cfg(target_os = "linux")]
 pages!(terminal);
 
-/// The drawing of the guide is the one that the command draws, and every other picture has the fonts
-/// and colours of the charts: where it has not, they are put into it before the test fails.
+/// A picture without the fonts and colours of the charts gets them before the test fails.
 #[test]
 fn pictures_have_one_style() {
     let folder = root().join("docs/src");
@@ -255,7 +247,6 @@ fn pictures_have_one_style() {
     }
 }
 
-/// Returns the pages of the guide, and the READMEs of the root and of the crates.
 fn guide_and_readmes() -> Vec<PathBuf> {
     let crates = fs::read_dir(root().join("crates")).unwrap();
     let readmes = crates.map(|folder| folder.unwrap().path().join("README.md"));
@@ -265,7 +256,6 @@ fn guide_and_readmes() -> Vec<PathBuf> {
     pages
 }
 
-/// Figures in the prose are those of the code, of the guide's table and of the benchmarks' tables.
 #[test]
 fn figures_in_the_prose_are_right() {
     let page = |name: &str| read(&root().join(name));
@@ -320,8 +310,6 @@ fn figures_in_the_prose_are_right() {
     }
 }
 
-/// Every link in the guide and the other pages has a target, and every source file that
-/// CONTRIBUTING names exists.
 #[test]
 fn links_lead_somewhere() {
     let mut pages = guide_and_readmes();

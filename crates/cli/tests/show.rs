@@ -4,7 +4,6 @@ use dalembert_cli::drawing;
 
 use crate::robots::{read_robot, source};
 
-/// The outlines of the bodies stay within their view's half of the paper.
 #[test]
 fn bodies_stay_on_the_paper() {
     let planar = source("planar2r", "");

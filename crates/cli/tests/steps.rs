@@ -21,7 +21,6 @@ fn operations(explanation: &Explanation, step: &str) -> usize {
     row.counts.operations()
 }
 
-/// Every row is a program of the same function.
 #[test]
 fn every_row_is_proved() {
     for name in ["planar2r", "stanford"] {

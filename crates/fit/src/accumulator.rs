@@ -14,9 +14,7 @@ use crate::error::{Error, check};
 use crate::model::{Column, Model};
 use crate::triangle::Triangle;
 
-/// The first bytes of what [`Accumulator::to_bytes`] writes.
 const MAGIC: &[u8; 6] = b"DLBFIT";
-/// The version of these bytes.
 const VERSION: u16 = 1;
 
 /// What is kept of any number of states.
@@ -29,10 +27,8 @@ pub struct Accumulator {
     states: u64,
 }
 
-/// R_i, z_i and ρ_i of a joint's row.
 #[derive(Clone, Debug)]
 pub(crate) struct Row<'a> {
-    /// Which columns of the model R_i is over.
     pub(crate) columns: &'a [usize],
     /// [R_i z_i; 0 ρ_i], whole rows.
     pub(crate) factor: Vec<f64>,
@@ -94,8 +90,7 @@ impl Accumulator {
         self.add_rows(model, &y, tau)
     }
 
-    /// Adds a state by its regressor over all columns, row by row, as
-    /// [`Model::regressor`] returns it.
+    /// Adds a state by its regressor, as [`Model::regressor`] returns it.
     ///
     /// # Errors
     /// As [`Accumulator::add`].
@@ -117,8 +112,7 @@ impl Accumulator {
     /// entry (i, k) of state s at `(i * base + k) * states + s`, velocities and torques of
     /// joint i at `i * states + s`. Columns of friction and offsets come from the velocities.
     ///
-    /// The robot that it was generated from is [`Model::generator_robot`], so that the columns
-    /// are the same.
+    /// It was generated from [`Model::generator_robot`], so that the columns are the same.
     ///
     /// # Errors
     /// As [`Accumulator::add`]; an index is that of the array.
@@ -201,7 +195,6 @@ impl Accumulator {
         }
     }
 
-    /// Returns [R_i z_i; 0 ρ_i] of every joint.
     pub(crate) fn factors(&self) -> Vec<Row<'_>> {
         let each = self.rows.iter().zip(&self.triangles);
         each.map(|(columns, triangle)| Row {

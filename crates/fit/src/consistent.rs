@@ -45,7 +45,7 @@ const HIDDEN: f64 = 1e-11;
 /// what a step gains, 0.1 or more (Boyd and Vandenberghe 2004, 11.5). Where the free parameters
 /// are far from all bodies, a half takes thousands: the factor then comes nearer to one.
 const WEAKEN: f64 = 0.5;
-/// Newton steps at one strength of the barrier that are few, and that are as many as should be.
+/// Few Newton steps at one strength of the barrier, and as many as there should be.
 const FEW: usize = 4;
 const ENOUGH: usize = 8;
 /// Newton steps of a search; 18 350 are the most that were seen, at 7900 standard errors.
@@ -81,8 +81,7 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// Returns π of the robot file that [`identified`](crate::identified) makes of them: the
-    /// sensors' offsets are no part of it.
+    /// Returns π of the file by [`identified`](crate::identified): without the sensors' offsets.
     pub fn file_parameters(&self, model: &Model) -> Vec<f64> {
         let entries = self.parameters.iter().zip(model.columns());
         let entries = entries.map(|(value, column)| match column {
@@ -93,11 +92,9 @@ impl Bodies {
     }
 }
 
-/// The results of the search besides θ.
 struct Search {
     distance: f64,
     steps: usize,
-    /// Places in θ.
     stopped: Vec<usize>,
 }
 
@@ -196,7 +193,6 @@ pub fn consistent(model: &Model, fit: &Fit) -> Result<Bodies, Error> {
     ))
 }
 
-/// Computes the step of Newton's method, as least squares.
 fn newton(
     metric: &[f64],
     wanted: &[f64],
@@ -222,7 +218,6 @@ fn newton(
     }
 }
 
-/// Returns θ: what the columns of the model are sums of.
 fn unknowns(model: &Model) -> Vec<Unknown> {
     let mut unknowns: Vec<Unknown> = (0..model.joints())
         .flat_map(|joint| (0..10).map(move |k| Unknown::Link(joint, k)))
@@ -235,7 +230,6 @@ fn unknowns(model: &Model) -> Vec<Unknown> {
     unknowns
 }
 
-/// Returns the terms of a column, each with its factor.
 fn terms(model: &Model, column: Column) -> Vec<(Unknown, f64)> {
     let unknown = |parameter: Parameter| match parameter {
         Parameter::Link(joint, own) => Unknown::Link(joint, place(own)),

@@ -63,13 +63,11 @@ pub struct Disagreement {
 /// A log disagrees where the others' parameters leave more than so many times what its own do.
 const DISAGREES: f64 = 2.0;
 
-/// The most logs that are named.
 const MOST: usize = 8;
 
-/// Finds logs that disagree with the others, up to eight, the one that does most first; `found`
-/// is their [`cross_validation`]. Each is left out before the next one is looked for, since its
-/// states are in the parameters that judge the rest. Of two that are left, nobody can tell which
-/// is wrong: both are returned.
+/// Finds up to eight logs that disagree with the others, the worst first; `found` is their
+/// [`cross_validation`]. Each is left out before the next search, since its states are in the
+/// parameters that judge the rest. If two are left, both are returned.
 ///
 /// # Errors
 /// Those of [`fit`].

@@ -3,7 +3,6 @@
 //! nalgebra has these of floats only with `std` or `libm`. Cargo would give either to all crates
 //! of a program, and `std` the platform's functions: results would differ between machines.
 
-/// Solves R x = b for an upper triangle R.
 pub(crate) fn back_substitute(r: &[f64], b: &[f64]) -> Vec<f64> {
     let n = b.len();
     let mut x = b.to_vec();
@@ -31,13 +30,11 @@ pub(crate) fn over(a: &[f64], r: &[f64], n: usize) -> Vec<f64> {
     x
 }
 
-/// Computes A x.
 pub(crate) fn apply(a: &[f64], x: &[f64]) -> Vec<f64> {
     let rows = a.chunks(x.len().max(1));
     rows.map(|row| dot(row, x)).collect()
 }
 
-/// Computes the scalar product.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
@@ -50,7 +47,6 @@ pub(crate) fn split(factor: &[f64], columns: usize) -> (Vec<f64>, Vec<f64>) {
     (r, z)
 }
 
-/// Computes the norm of each column.
 pub(crate) fn norms(a: &[f64], columns: usize) -> Vec<f64> {
     let norm = |k: usize| {
         let squares = a.iter().skip(k).step_by(columns).map(|x| x.powi(2));
@@ -64,9 +60,7 @@ pub(crate) fn norms(a: &[f64], columns: usize) -> Vec<f64> {
 pub(crate) struct Singular {
     /// σ_k, not sorted.
     pub(crate) values: Vec<f64>,
-    /// A v_k
     pub(crate) images: Vec<Vec<f64>>,
-    /// v_k
     pub(crate) directions: Vec<Vec<f64>>,
 }
 
@@ -77,7 +71,6 @@ pub(crate) fn singular(a: &[f64], n: usize) -> Singular {
     let mut images: Vec<Vec<f64>> = (0..n).map(column).collect();
     let unit = |k: usize| (0..n).map(|i| f64::from(u8::from(i == k))).collect();
     let mut directions: Vec<Vec<f64>> = (0..n).map(unit).collect();
-    // What a scalar product of two columns may be off by.
     let rounding = f64::EPSILON * n as f64;
     // Sweeps converge quadratically: more than a dozen are never needed.
     for _ in 0..40 {
@@ -114,7 +107,6 @@ pub(crate) fn singular(a: &[f64], n: usize) -> Singular {
     }
 }
 
-/// Factors a symmetric N×N matrix as L Lᵀ; `None` unless it is positive definite.
 pub(crate) fn cholesky<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
     let mut l = [[0.0; N]; N];
     for (i, row) in a.iter().enumerate() {

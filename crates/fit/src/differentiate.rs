@@ -41,8 +41,7 @@ impl Differentiator {
         if !(3..=Differentiator::LONGEST).contains(&half) {
             return Err(Error::Option("half a window is 3 to 500 positions long"));
         }
-        // Even and odd powers are orthogonal on a window that is symmetric. In units of half
-        // of it all sums are near one.
+        // Even and odd powers are orthogonal on a symmetric window. This unit keeps sums near one.
         let unit = half as f64;
         let places = || (-(half as i64)..=half as i64).map(|j| j as f64 / unit);
         let sum = |power: i32| -> f64 { places().map(|x| x.powi(power)).sum() };
@@ -79,8 +78,8 @@ impl Differentiator {
             let off = gains.map(|gain| (gain - 1.0).abs());
             Ok(off.iter().all(|off| *off <= Differentiator::ERROR))
         };
-        // A window of less than half a period of the motion is judged by its middle: gains fall
-        // with its length until then.
+        // A window under half a period is judged by its middle: until then gains fall with its
+        // length.
         let longest = (0.25 / (period * frequency)).min(Differentiator::LONGEST as f64) as usize;
         let mut half = None;
         for longer in 3..=longest {
@@ -122,7 +121,6 @@ impl Differentiator {
     }
 }
 
-/// Finds the highest frequency that the shortest window leaves alone, by bisection.
 fn highest(period: f64) -> Result<f64, Error> {
     let shortest = Differentiator::new(period, 3)?;
     let (mut low, mut high) = (0.0, 0.25 / (3.0 * period));
@@ -137,8 +135,7 @@ fn highest(period: f64) -> Result<f64, Error> {
     Ok(low)
 }
 
-/// Computes q, q̇ and q̈ of a joint's positions. Of the k-th position it is the (k − half)-th
-/// entry.
+/// Computes q, q̇ and q̈ of a joint's positions. The k-th position has entry k − half.
 ///
 /// # Errors
 /// [`Error::Value`], and [`Error::Length`] where there is not one window of positions.

@@ -9,20 +9,14 @@ pub enum Error {
     NoBaseParameters(String),
     /// A slice is not as long as it has to be.
     Length {
-        /// The argument's name.
         argument: &'static str,
-        /// Its length if all were well.
         expected: usize,
-        /// Its length.
         found: usize,
     },
     /// A value is NaN, infinite or beyond 1e100.
     Value {
-        /// The argument's name.
         argument: &'static str,
-        /// The place in it, from zero.
         index: usize,
-        /// What stands there.
         found: f64,
     },
     /// Two accumulators, or one and a model, are over different columns.
@@ -31,11 +25,8 @@ pub enum Error {
     Bytes(&'static str),
     /// There are fewer states than parameters of a joint.
     TooFew {
-        /// The joint, from zero.
         joint: usize,
-        /// States accumulated.
         states: u64,
-        /// States needed.
         needed: u64,
     },
     /// A log can be validated only against others.
@@ -113,7 +104,6 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// Checks the length of an argument and that all of its values are usable.
 pub(crate) fn check(argument: &'static str, values: &[f64], expected: usize) -> Result<(), Error> {
     if values.len() != expected {
         return Err(Error::Length {

@@ -1,10 +1,9 @@
 //! A trajectory that tells the parameters apart.
 //!
-//! Bad excitation is why identification fails: joints that swing one after the other leave
-//! most products of inertia in the noise. Among the [trajectories](crate::fourier) within
-//! the joints' limits one is sought whose regressor W, rows divided by the joints' noise and
-//! columns by their size in the [reference motion](mod@crate::reference), has a small
-//! condition. With A = WᵀW,
+//! Bad excitation is why identification fails: joints that swing one after the other leave most
+//! products of inertia in the noise. Among the [trajectories](crate::fourier) within the joints'
+//! limits one is sought whose regressor W, rows divided by the joints' noise and columns by their
+//! size in the [reference motion](mod@crate::reference), has a small condition. With A = WᵀW,
 //!
 //! ```text
 //! F = (log tr Aᵖ + log tr A⁻ᵖ) / 2p,   log cond W ≤ F ≤ log cond W + (log k)/p
@@ -58,9 +57,8 @@ impl Default for Effort {
     }
 }
 
-/// Finds a trajectory of so many seconds within the joints' limits that has a small condition
-/// where each joint's torque has this noise; returns it with its condition, columns of
-/// length one as in [`Fit::condition`](crate::Fit::condition).
+/// Finds a trajectory of so many seconds within the limits whose condition is small at this noise
+/// of the torques; returns its [condition](crate::Fit::condition), too.
 ///
 /// # Errors
 /// [`Error::Option`] for an effort or a period out of range, and [`Error::Length`].

@@ -16,12 +16,10 @@ use crate::model::Model;
 use crate::reference::{Reference, weighted};
 use crate::unexcited::{Unexcited, Weighting, separated};
 
-/// Combinations that give less torque than so much of that in the reference motion are not
-/// excited.
+/// Combinations that give less than this part of the reference motion's torque are not excited.
 pub const LEAST_EXCITATION: f64 = 1e-3;
 
-/// Noise is taken for at least so much of the torque's root mean square: exact torques would
-/// have none.
+/// The least noise, relative to the RMS of the torque: exact torques would have none.
 const LEAST_NOISE: f64 = 1e-13;
 
 /// Columns of length one in one joint's row depend on each other where a combination of length
@@ -41,8 +39,7 @@ pub struct Fit {
     pub before: Vec<f64>,
     /// The same with the identified ones, on the same states.
     pub after: Vec<f64>,
-    /// Condition of the weighted regressor, columns of length one; infinite where columns
-    /// depend on each other in the data.
+    /// Condition of the weighted regressor, columns of length one; infinite if these are dependent.
     pub condition: f64,
     /// What the data do not excite.
     pub unexcited: Vec<Unexcited>,
@@ -115,7 +112,6 @@ pub fn fit(model: &Model, data: &Accumulator) -> Result<Fit, Error> {
     })
 }
 
-/// Returns σ_i of every joint.
 pub(crate) fn noise(data: &Accumulator) -> Result<Vec<f64>, Error> {
     let each = data.factors().into_iter().enumerate().map(|(joint, row)| {
         let columns = row.columns.len();
@@ -140,11 +136,9 @@ pub(crate) fn noise(data: &Accumulator) -> Result<Vec<f64>, Error> {
     each.collect()
 }
 
-/// Fits a joint's row alone: the rank of its columns, and the squares that R leaves of the torque.
-///
-/// Columns that are independent in all rows together may depend on each other in one. The
-/// triangle then has rows of rounding: a direction that is anywhere in the residual, whose part
-/// of the torque is as good as drawn. Of those, nothing is taken for fitted.
+/// Returns the rank of the columns, and the squares that R leaves of the torque. Columns that are
+/// independent in all rows together may depend on each other in one. R then has rows of rounding,
+/// whose part of the torque is as good as drawn: of those, nothing is taken for fitted.
 fn alone(r: &[f64], mut rest: Vec<f64>) -> (u64, f64) {
     let width = rest.len();
     let found = singular(&unit_columns(r, width), width);
@@ -195,7 +189,6 @@ fn keep_file(model: &Model, directions: &[Vec<f64>], norms: &[f64], parameters: 
     }
 }
 
-/// Subtracts the part of a vector along a unit vector.
 fn remove(from: &mut [f64], unit: &[f64]) {
     let along = dot(from, unit);
     for (x, unit) in from.iter_mut().zip(unit) {
@@ -203,7 +196,6 @@ fn remove(from: &mut [f64], unit: &[f64]) {
     }
 }
 
-/// Computes the condition of R, its columns scaled to length one.
 pub(crate) fn condition(r: &[f64], width: usize) -> f64 {
     let values = singular(&unit_columns(r, width), width).values;
     let largest = values.iter().fold(0.0f64, |a, b| a.max(*b));
@@ -211,7 +203,6 @@ pub(crate) fn condition(r: &[f64], width: usize) -> f64 {
     largest / least
 }
 
-/// Returns R, its columns scaled to length one.
 fn unit_columns(r: &[f64], width: usize) -> Vec<f64> {
     let norms = norms(r, width);
     let scaled = r.iter().enumerate().map(|(i, x)| match norms[i % width] {

@@ -25,7 +25,6 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// Returns ω, rad/s.
     pub(crate) fn omega(&self) -> f64 {
         2.0 * core::f64::consts::PI / self.period
     }
@@ -71,12 +70,10 @@ impl Trajectory {
         each.collect()
     }
 
-    /// Returns a smooth bound of what part of its limits each joint takes, with its derivative
-    /// by the joint's middle, cosines and sines.
-    ///
-    /// Of three bounds the largest would have edges, where a descent stops; the sixteenth root
-    /// of the sum of their sixteenth powers is at most 7 % more. All are sums of absolute values:
-    /// twice the motion has twice the bound.
+    /// Returns a smooth bound of the part of its limits that each joint takes, with its derivative
+    /// by the joint's middle, cosines and sines. The largest of three bounds would have edges,
+    /// where a descent stops; the sixteenth root of the sum of their sixteenth powers is at most 7
+    /// % more. Twice the motion has twice the bound.
     pub(crate) fn used(&self, limits: &[Limits]) -> Vec<(f64, Vec<f64>)> {
         const SHARP: i32 = 16;
         let each = self.bounds().into_iter().zip(limits).enumerate();
@@ -109,14 +106,12 @@ impl Trajectory {
         each.collect()
     }
 
-    /// Makes it begin at rest, then scales each joint's motion until its [bound](Self::used) is
-    /// one.
+    /// Makes it begin at rest, and scales each joint's motion until its [bound](Self::used) is one.
     #[must_use]
     pub(crate) fn filling(mut self, limits: &[Limits]) -> Trajectory {
         self.begin_at_rest();
         for (i, (bound, _)) in self.used(limits).into_iter().enumerate() {
-            // A little less than the limits: of a motion at the very limit rounding may
-            // show more.
+            // Below the limits: at the very limit rounding may show more.
             let (middle, factor) = (limits[i].middle(), (1.0 - 1e-9) / bound);
             self.middle[i] = middle + factor * (self.middle[i] - middle);
             let own = self.cosines[i].iter_mut().chain(&mut self.sines[i]);

@@ -40,7 +40,6 @@ impl Limits {
         each.collect()
     }
 
-    /// Returns whether the joint can move.
     pub(crate) fn moves(&self) -> bool {
         let all = [self.reach(), self.velocity, self.acceleration];
         all.iter().all(|limit| *limit > 0.0 && limit.is_finite())

@@ -1,11 +1,10 @@
 //! The columns of an arm's regressor, and the regressor at a state.
 //!
-//! The base parameters are those of the generator (Gautier 1991, in closed form with an
-//! elimination for what is left), with the drives' inertias and viscous friction among the
-//! candidates: what no torque tells apart is one parameter. After them come Coulomb
-//! friction, q̇/√(q̇² + w²) times its force at the width w of the robot file, and an offset of
-//! each joint's torque sensor. An offset that another parameter gives as well, as the weight
-//! of a slide that hangs, has no column.
+//! The base parameters are those of the generator (Gautier 1991, in closed form with an elimination
+//! for what is left), with the drives' inertias and viscous friction among the candidates: what no
+//! torque tells apart is one parameter. After them come Coulomb friction, q̇/√(q̇² + w²) times its
+//! force at the width w of the robot file, and an offset of each joint's torque sensor. An offset
+//! that another parameter gives as well, as the weight of a slide that hangs, has no column.
 
 mod derive;
 mod evaluate;
@@ -44,11 +43,9 @@ pub struct Model {
     rotors: bool,
     limits: Vec<Limits>,
     columns: Vec<Column>,
-    /// Each base parameter as a sum of the robot's own.
     combinations: Vec<Vec<(Parameter, f64)>>,
     chain: Chain<f64>,
     widths: Vec<f64>,
-    /// The columns that are not zero in the row of each joint.
     rows: Vec<Vec<usize>>,
     parameters: Vec<f64>,
     fingerprint: [u8; 32],
@@ -133,8 +130,7 @@ impl Model {
         &self.robot
     }
 
-    /// Returns the robot whose generated `regressor` has the columns of the base parameters:
-    /// that of the file, with its drives.
+    /// Returns the robot whose generated `regressor` has the base parameters' columns.
     pub fn generator_robot(&self) -> Robot {
         candidates(&self.robot, self.rotors)
     }
@@ -198,7 +194,6 @@ pub fn without_rotors(robot: &Robot) -> Robot {
     robot
 }
 
-/// Draws a state within limits, velocities and accelerations scaled by `factor`.
 pub(crate) fn state(limits: &[Limits], factor: f64, random: &mut Random) -> [Vec<f64>; 3] {
     let mut draw = |of: &dyn Fn(&Limits) -> [f64; 2]| -> Vec<f64> {
         let each = limits.iter().map(of);
@@ -212,7 +207,6 @@ pub(crate) fn state(limits: &[Limits], factor: f64, random: &mut Random) -> [Vec
     ]
 }
 
-/// Returns a sum of parameters in words, the first three of it.
 fn sum(terms: &[(Parameter, f64)]) -> String {
     let mut text = String::new();
     for (i, (parameter, factor)) in terms.iter().take(3).enumerate() {
@@ -234,7 +228,6 @@ fn sum(terms: &[(Parameter, f64)]) -> String {
     text
 }
 
-/// Returns the place of a link's parameter among the ten of [`LinkParameter::ALL`].
 pub(crate) fn place(parameter: LinkParameter) -> usize {
     let all = LinkParameter::ALL.iter();
     all.take_while(|other| **other != parameter).count()

@@ -16,13 +16,11 @@ use crate::triangle::Triangle;
 pub struct Reference {
     /// R, row by row.
     pub(crate) r: Vec<f64>,
-    /// The norm of each column.
     pub(crate) norms: Vec<f64>,
 }
 
 impl Reference {
-    /// Evaluates the motion, each joint's row divided by its noise, and divides by the root of
-    /// the number of states.
+    /// Evaluates the motion, with rows divided by their joint's noise and by √(number of states).
     ///
     /// # Errors
     /// Those of [`Model::regressor`].
@@ -46,7 +44,6 @@ impl Reference {
     }
 }
 
-/// Stacks the joints' triangles over all columns, each times its scale.
 pub(crate) fn weighted(accumulator: &Accumulator, columns: usize, scales: &[f64]) -> Triangle {
     let mut all = Triangle::new(columns + 1);
     for (row, scale) in accumulator.factors().iter().zip(scales) {

@@ -10,9 +10,8 @@ use crate::consistent::Bodies;
 use crate::error::Error;
 use crate::model::Model;
 
-/// Returns the model's robot with other bodies and drives;
-/// [`write`](dalembert_model::robot::write()) makes a file of it. Offsets are the sensors',
-/// not the robot's: they are not part of it.
+/// Returns the model's robot with other bodies and drives, for
+/// [`write`](dalembert_model::robot::write()). The sensors' offsets are not part of it.
 ///
 /// Numbers have 13 digits, or 17 where a body at the border of those that exist needs them. One
 /// that rounding has put beyond the border gets more inertia about its centre, at most a part in
@@ -78,7 +77,6 @@ fn body(link: &[f64; 10], index: usize) -> Result<Body, Error> {
     })
 }
 
-/// Returns a decimal of so many digits after the first.
 fn rounded(
     argument: &'static str,
     index: usize,

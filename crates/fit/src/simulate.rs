@@ -1,5 +1,4 @@
-//! Seeded logs of an arm whose parameters are known: what identification and watching are
-//! tried on.
+//! Seeded logs of an arm whose parameters are known: what identification and watching are tried on.
 
 mod controlled;
 
@@ -35,7 +34,6 @@ impl Recording {
         Ok(())
     }
 
-    /// Returns torques as the sensors tell them.
     fn noisy(&self, tau: &[f64], random: &mut Random) -> Vec<f64> {
         let each = tau.iter().zip(&self.noise);
         each.map(|(tau, noise)| tau + noise * normal(random))
@@ -75,8 +73,7 @@ impl Log {
     }
 }
 
-/// Records an arm of these parameters, an entry a column of the model, that follows a
-/// trajectory exactly.
+/// Records an arm of these parameters, one a column of the model, on the exact trajectory.
 ///
 /// # Errors
 /// [`Error::Length`], [`Error::Value`] and [`Error::Option`].

@@ -35,7 +35,6 @@ pub struct Suspicion {
     pub after: f64,
 }
 
-/// States that are fitted.
 const STATES: usize = 600;
 /// The longest delay, rows.
 const LATEST: usize = 128;
@@ -75,7 +74,6 @@ pub fn suspect(model: &Model, log: [&[f64]; 4]) -> Result<Option<Suspicion>, Err
     Ok(best)
 }
 
-/// Computes the part of the torques that fits leave after a change.
 fn left(
     model: &Model,
     log: [&[f64]; 4],

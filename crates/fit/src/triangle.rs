@@ -15,8 +15,7 @@ const ROWS: usize = 64;
 /// Sums are taken in as many parts, whatever vectors a processor has: the bits are the same.
 const LANES: usize = 8;
 
-/// A column of rows to come. Where vectors are as wide as lines of a cache, each load of a column
-/// that begins within a line takes two.
+/// Aligned: with vectors as wide as lines of a cache, a load that begins within a line takes two.
 #[derive(Clone, Debug, PartialEq)]
 #[repr(align(64))]
 struct Rows([f64; ROWS]);
@@ -136,10 +135,8 @@ impl WithSimd for Reflection<'_> {
     }
 }
 
-/// Reduces a triangle over a block of rows to a triangle; the block is left without meaning.
-///
-/// Loops are over places of arrays and not over iterators: what these call is not always inlined
-/// into code for wider vectors, and is then called for every vector.
+/// The block is left without meaning. Loops are over places of arrays and not over iterators, whose
+/// calls are not always inlined into code for wider vectors.
 #[inline(always)]
 fn reflect(columns: usize, r: &mut [f64], block: &mut [Rows]) {
     for j in 0..columns {

@@ -16,8 +16,7 @@ const NOTHING: f64 = 1e-6;
 /// A combination of parameters that the data do not excite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unexcited {
-    /// Columns of the model with their factors, the largest contribution first; those that
-    /// contribute less than a hundredth of its torque are left out.
+    /// Columns of the model with their factors, from the largest contribution down to a hundredth.
     pub combination: Vec<(usize, f64)>,
     /// The same in words.
     pub name: String,
@@ -109,7 +108,6 @@ pub(crate) fn separated(mut directions: Vec<Vec<f64>>, norms: &[f64]) -> Vec<Vec
     directions
 }
 
-/// What torques along a direction of parameters are compared with.
 pub(crate) struct Weighting<'a> {
     pub(crate) model: &'a Model,
     pub(crate) noise: &'a [f64],
@@ -117,7 +115,6 @@ pub(crate) struct Weighting<'a> {
 }
 
 impl Weighting<'_> {
-    /// Describes directions of parameters by R of the data and the root of their number.
     pub(crate) fn describe(
         &self,
         directions: &[Vec<f64>],
@@ -144,7 +141,6 @@ impl Weighting<'_> {
         Ok(each.collect())
     }
 
-    /// Returns the columns that contribute most to a direction, with their factors.
     fn leading(&self, direction: &[f64]) -> Vec<(usize, f64)> {
         let size = |column: usize| (direction[column] * self.reference.norms[column]).abs();
         let mut columns: Vec<usize> = (0..direction.len()).collect();
@@ -155,8 +151,7 @@ impl Weighting<'_> {
         columns.iter().map(|k| (*k, direction[*k] / unit)).collect()
     }
 
-    /// Finds the first of the motions, simple ones before others, that gives enough torque along each
-    /// direction of parameters; where all give less, the one that gives most.
+    /// Simple motions come first; where all give too little torque, the one with most is taken.
     fn motions(&self, directions: &[Vec<f64>], units: &[f64]) -> Result<Vec<Motion>, Error> {
         let n = self.model.joints();
         let mut motions = vec![Motion::Poses];
@@ -181,7 +176,6 @@ impl Weighting<'_> {
         Ok(best.into_iter().map(|(motion, _)| motion).collect())
     }
 
-    /// Computes root mean squares of the weighted torques along directions during a motion.
     fn torques(&self, directions: &[Vec<f64>], motion: Motion) -> Result<Vec<f64>, Error> {
         const STATES: usize = 24;
         let mut random = Random::new(0x6d6f_7600);

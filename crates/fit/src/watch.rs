@@ -21,8 +21,8 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// Returns the watch over residuals with each joint's noise, N·m or N; drift k and bar in
-    /// units of it.
+    /// Returns the watch over residuals with this noise, N·m or N; drift k and bar are in units of
+    /// it.
     ///
     /// # Errors
     /// [`Error::Value`] and [`Error::Option`].
@@ -49,8 +49,8 @@ impl Watch {
         sums.fold(0.0, |max, sum| max.max(*sum))
     }
 
-    /// Adds the residuals of a state; returns the joint whose sum is over the bar, if one is, and
-    /// begins anew after it.
+    /// Adds the residuals of a state; returns a joint whose sum is over the bar, and then begins
+    /// anew.
     ///
     /// # Errors
     /// [`Error::Length`] and [`Error::Value`].

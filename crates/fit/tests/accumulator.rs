@@ -5,7 +5,6 @@ use dalembert_fit::{Accumulator, Error, Model, fit};
 
 use crate::support::{ARMS, State, accumulated, arm, file, model, states, torques};
 
-/// Returns the states in contiguous parts, each in batches, merged from the first to the last.
 fn in_parts(
     model: &Model,
     both: &[(&State, &Vec<f64>)],
@@ -34,8 +33,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
     norm(&mut a.iter().zip(b).map(|(a, b)| a - b)) / norm(&mut b.iter().copied())
 }
 
-/// Nor does the order of states. Columns that depend on each other in one joint's row, as some
-/// of the PUMA's do, leave rows of rounding in its triangle: these must not count as fitted.
+/// Rows of rounding, as dependent columns of the PUMA leave them, must not count as fitted.
 #[test]
 fn partitions_do_not_matter() {
     for name in ARMS {
@@ -78,13 +76,11 @@ fn partitions_do_not_matter() {
                 );
             }
         }
-        // Twice the same is the same to the last bit.
         let again = in_parts(&model, &both, 3, 97).to_bytes();
         assert_eq!(again, in_parts(&model, &both, 3, 97).to_bytes());
     }
 }
 
-/// Residuals from the triangles are those of a second look at the states.
 #[test]
 fn residuals_need_no_second_look() {
     let (model, right) = arm("puma560");
@@ -163,8 +159,6 @@ fn a_state_that_is_refused_changes_nothing() {
     assert!(few.to_string().contains("there are 0 states"), "{few}");
 }
 
-/// States that come column by column, as from a generated regressor of many of them, give the
-/// same bits as one by one, in whatever numbers they come.
 #[test]
 fn columns_give_what_rows_give() {
     let (model, _) = arm("puma560");

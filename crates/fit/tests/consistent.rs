@@ -30,8 +30,7 @@ fn free_parameters_that_have_bodies_are_kept() {
     }
 }
 
-/// A log that a model cannot explain makes rotors and friction less than nothing: they stop at
-/// zero, however many standard errors away that is. The file leaves what is said of it.
+/// The log asks for negative rotors and friction, many standard errors away.
 #[test]
 fn drives_stop_at_zero() {
     for name in ARMS {
@@ -85,8 +84,6 @@ fn drives_stop_at_zero() {
     }
 }
 
-/// However far all bodies are from what was logged, the nearest are found: here from an arm that
-/// has less than no mass.
 #[test]
 fn bodies_are_found_far_from_all_that_exist() {
     for name in ARMS {
@@ -132,7 +129,6 @@ fn rotors_are_left_away() {
     );
 }
 
-/// Noisy data give bodies that do not exist; the nearest that do predict as well.
 #[test]
 fn bodies_of_noisy_data_exist() {
     for name in ARMS {
@@ -147,8 +143,7 @@ fn bodies_of_noisy_data_exist() {
         for of in [&bodies.armature, &bodies.viscous, &bodies.coulomb] {
             assert!(of.iter().all(|x| *x >= 0.0));
         }
-        // They are the nearest: no way towards others that exist, as the true ones and the
-        // file's, gets nearer. The set is convex.
+        // The set is convex, and no way towards other bodies that exist gets nearer.
         let distance = |parameters: &[f64]| -> f64 {
             let at = |parameters: &[f64]| -> f64 {
                 let residuals = data.residual(&model, parameters).unwrap();

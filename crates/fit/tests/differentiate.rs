@@ -5,7 +5,6 @@ use dalembert_fit::{Accumulator, Differentiator, Effort, Model, differentiate, e
 
 use crate::support::{arm, noise};
 
-/// Exact for motion of degree 4, at the place of the window's middle.
 #[test]
 fn quartics_are_differentiated_exactly() {
     let filter = Differentiator::new(0.01, 7).unwrap();
@@ -24,7 +23,6 @@ fn quartics_are_differentiated_exactly() {
     }
 }
 
-/// The window is the longest that leaves the motion alone: the next one does not.
 #[test]
 fn windows_are_as_long_as_the_motion_lets_them() {
     for (period, frequency) in [(1e-3, 1.0), (1e-3, 5.0), (4e-3, 0.5)] {
@@ -53,11 +51,7 @@ fn windows_are_as_long_as_the_motion_lets_them() {
     assert!(differentiate(&filter, &[f64::NAN; 20]).is_err());
 }
 
-/// Fits logs of encoders of 2¹⁷ steps a turn, read a thousand times a second on an exciting
-/// trajectory, that differ by the noise of the torques. Returns the bias of the parameters in
-/// standard errors: root mean square and largest, over parameters, of the mean over logs.
-///
-/// Holds each joint's residual to within 5 % of its noise.
+/// Returns the parameters' bias in standard errors: root mean square and largest.
 fn encoder_bias(seeds: u64) -> [f64; 2] {
     let (model, right) = arm("puma560");
     let sigma: Vec<f64> = (0..6).map(noise).collect();
@@ -99,7 +93,6 @@ fn encoder_bias(seeds: u64) -> [f64; 2] {
     [(square / away.len() as f64).sqrt(), largest]
 }
 
-/// Accumulates a log of which only the positions and the torques are known.
 fn differentiated(model: &Model, log: &Log, filter: &Differentiator) -> Accumulator {
     let joints: Vec<[Vec<f64>; 3]> = (0..model.joints())
         .map(|i| {
@@ -125,7 +118,6 @@ fn quantised_encoders_leave_the_noise_of_the_torques() {
     assert!(bias < 1.0, "{bias}");
 }
 
-/// What is left of the mean over many logs is bias.
 #[test]
 #[ignore = "minutes: the step `campaigns` of .ci/run"]
 fn quantised_encoders_bias_less_than_torques_do() {

@@ -15,8 +15,6 @@ fn effort(starts: usize, descents: usize, steps: usize) -> Effort {
     }
 }
 
-/// Asserts of arms that trajectories are at rest at the ends, within limits at every time, and have
-/// a condition that hundreds of random ones do not come near.
 fn excited(arms: &[&str]) {
     for name in arms {
         let model = model(&guess(&truth(name)));

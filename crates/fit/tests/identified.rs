@@ -7,8 +7,6 @@ use dalembert_model::robot::write;
 
 use crate::support::{ARMS, accumulated, arm, noise, states};
 
-/// The file is read again, and its parameters are those of the bodies; of links in frames of their
-/// own, too.
 #[test]
 fn the_new_robot_file_has_the_parameters() {
     for name in ARMS.into_iter().chain(["puma560_placed"]) {

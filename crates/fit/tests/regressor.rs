@@ -28,7 +28,6 @@ fn parameters_of_the_file_give_its_torques() {
     }
 }
 
-/// What is zero in a joint's row is not accumulated: PUMA's rows get shorter outward.
 #[test]
 fn rows_have_the_columns_that_are_not_zero() {
     let model = model(&truth("puma560"));

@@ -5,8 +5,7 @@ use dalembert_fit::random::Random;
 
 use crate::support::{ARMS, accumulated, arm, states};
 
-/// Returns, over `seeds` logs of an arm that differ by the noise of the torques alone, the part
-/// of all parameters that lie within three standard errors, and the root mean square in these.
+/// Returns the part of the parameters within three standard errors, and their root mean square.
 fn coverage(name: &str, seeds: u64, count: usize) -> [f64; 2] {
     let (model, right) = arm(name);
     let states = states(&model, count, 7);
@@ -26,8 +25,6 @@ fn coverage(name: &str, seeds: u64, count: usize) -> [f64; 2] {
     [inside / all, (squares / all).sqrt()]
 }
 
-/// Holds all arms to 98.5 % within three standard errors, and errors to the size that standard
-/// errors say, by `bar`: neither too small nor too large.
 fn covered(seeds: u64, count: usize, bar: f64) {
     for name in ARMS {
         let [inside, size] = coverage(name, seeds, count);
@@ -48,7 +45,6 @@ fn three_standard_errors_cover_the_parameters_of_100_logs() {
     covered(100, 2000, 0.05);
 }
 
-/// Joints are weighed by their noise: σ is that of each joint's torque.
 #[test]
 fn noise_is_each_joint_s_own() {
     let (model, right) = arm("puma560");

@@ -8,7 +8,7 @@ use crate::support::{guess, model, noise, torques, true_parameters, truth};
 const ROWS: usize = 4000;
 const TURN: f64 = 180.0 / core::f64::consts::PI;
 
-/// Returns the log of a motion: q, q̇, q̈ and τ, column by column, 2 ms apart.
+/// q, q̇, q̈ and τ, column by column, 2 ms apart.
 fn log(name: &str) -> ([Vec<f64>; 4], usize) {
     let truth = truth(name);
     let (model, right) = (model(&truth), true_parameters(&truth));
@@ -38,7 +38,6 @@ fn log(name: &str) -> ([Vec<f64>; 4], usize) {
     (log, n)
 }
 
-/// Asserts that each mistake in an arm's log is named, and none in the log without one.
 fn named(name: &str) {
     let (right, n) = log(name);
     let model = model(&guess(&truth(name)));

@@ -5,7 +5,6 @@ use dalembert_fit::{Accumulator, fit};
 
 use crate::support::{ARMS, State, arm, states, torques};
 
-/// States of a part of the motion.
 fn only(
     model: &dalembert_fit::Model,
     moves: impl Fn(usize) -> bool,
@@ -37,8 +36,6 @@ fn add(data: &mut Accumulator, model: &dalembert_fit::Model, some: &[State], rig
     }
 }
 
-/// An arm that stands still tells weights alone; the friction of each joint is named with the
-/// joint that has to move.
 #[test]
 fn poses_tell_weights_alone() {
     for name in ARMS {
@@ -82,7 +79,6 @@ fn poses_tell_weights_alone() {
     }
 }
 
-/// A joint that never moved: what is said names it, and moving it helps.
 #[test]
 fn a_joint_that_never_moved_is_named() {
     let (model, right) = arm("puma560");

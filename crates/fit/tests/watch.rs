@@ -53,7 +53,6 @@ impl Scene {
     }
 }
 
-/// Returns what a watch says at each time of a log, rates from the encoders, and its level there.
 fn watched(scene: &Scene, log: &Log, bar: f64) -> Vec<(f64, Option<usize>, f64)> {
     let right = true_parameters(&scene.truth);
     let sigma: Vec<f64> = (0..6).map(noise).collect();
@@ -77,8 +76,7 @@ fn watched(scene: &Scene, log: &Log, bar: f64) -> Vec<(f64, Option<usize>, f64)>
     said.collect()
 }
 
-/// Holds what a watch finds to the two collisions of each log of so many seconds, and returns
-/// the number of false alarms. Its bar is twice the level of a log without collisions.
+/// Returns the number of false alarms; the bar is twice the level of a log without collisions.
 fn false_alarms(logs: u64, seconds: f64) -> usize {
     let scene = Scene::new();
     let quiet = scene.record(&[], 16.0, 999);

@@ -14,25 +14,21 @@ use std::sync::Arc;
 /// States are worked on in pieces of so many: what is computed of them stays in the caches.
 pub(crate) const PIECE: usize = 256;
 
-/// What a function takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Shape {
     pub(crate) joints: usize,
-    /// Whether a column of times comes first.
     pub(crate) time: bool,
-    /// How many of q, q̇, q̈ and τ.
+    /// The number of q, q̇, q̈ and τ that it takes.
     pub(crate) quantities: usize,
 }
 
 const NAMES: [&str; 4] = ["q", "qd", "qdd", "tau"];
 
-/// Returns the type of one list of n numbers.
 pub(crate) fn list(joints: usize) -> DataType {
     let item = Arc::new(Field::new_list_field(DataType::Float64, true));
     DataType::FixedSizeList(item, joints as i32)
 }
 
-/// Returns lists of n numbers each.
 pub(crate) fn lists(
     n: usize,
     values: Vec<f64>,
@@ -44,10 +40,6 @@ pub(crate) fn lists(
 }
 
 impl Shape {
-    /// Checks the types of arguments; returns what they are to be cast to.
-    ///
-    /// # Errors
-    /// At planning: another number of arguments, or a list of another width.
     pub(crate) fn coerce(&self, function: &str, types: &[DataType]) -> Result<Vec<DataType>> {
         let n = self.joints;
         let expected = || {
@@ -107,7 +99,6 @@ impl Shape {
         }
     }
 
-    /// Takes arguments of these types apart.
     pub(crate) fn read(&self, arrays: &[ArrayRef]) -> Arguments {
         let mut rest = arrays.iter();
         let time = match self.time {
@@ -145,7 +136,6 @@ fn is_number(of: &DataType) -> bool {
     of.is_numeric() || *of == DataType::Null
 }
 
-/// Returns which rows of a list have an entry that is null.
 fn nulls_within(array: &ArrayRef) -> Option<NullBuffer> {
     let lists = array.as_fixed_size_list();
     let width = lists.value_length() as usize;
@@ -158,14 +148,12 @@ fn nulls_within(array: &ArrayRef) -> Option<NullBuffer> {
     Some(NullBuffer::from_iter(valid))
 }
 
-/// Arguments of many states.
 pub(crate) struct Arguments {
     joints: usize,
     pub(crate) rows: usize,
     time: Option<ArrayRef>,
     /// Of each quantity n columns, or one list.
     sources: Vec<Vec<ArrayRef>>,
-    /// Which rows have a null.
     pub(crate) nulls: Option<NullBuffer>,
 }
 
@@ -178,7 +166,6 @@ pub(crate) struct Piece {
 }
 
 impl Arguments {
-    /// Returns those of the states that have no null.
     pub(crate) fn valid(self) -> Result<Arguments> {
         let Some(nulls) = &self.nulls else {
             return Ok(self);

@@ -38,8 +38,7 @@ pub trait Dynamics: fmt::Debug + Send + Sync + 'static {
     /// What went wrong; arrays have the lengths that `count` asks for.
     fn inverse_dynamics(&self, states: States<'_>, tau: &mut [f64]) -> Result<(), Error>;
 
-    /// Computes residuals of so many states, q, q̇, q̈ and τ, in columns: measured torques less
-    /// the robot's.
+    /// Computes residuals of so many states, in columns: measured torques less the robot's.
     ///
     /// # Errors
     /// As [`Dynamics::inverse_dynamics`].
@@ -62,8 +61,7 @@ pub trait Dynamics: fmt::Debug + Send + Sync + 'static {
         None
     }
 
-    /// Adds states and their measured torques to what is accumulated for a fit; `room` is
-    /// for what is computed of them, and is kept from call to call.
+    /// Adds states and their measured torques to a fit; `room` is memory, kept between calls.
     ///
     /// # Errors
     /// As [`Dynamics::inverse_dynamics`], and where there is no [`Dynamics::model`].
@@ -98,7 +96,6 @@ pub(crate) fn no_model() -> Error {
 /// Any robot, at run time: a robot file or a URDF, its functions compiled in memory.
 pub struct Loaded {
     arm: Arm,
-    /// The columns of a fit, and the machine code of the regressor.
     fitted: Option<(Model, Arm)>,
     evaluated: Arc<AtomicU64>,
 }
@@ -121,8 +118,7 @@ impl Loaded {
         Loaded::with(arm, model)
     }
 
-    /// Loads a robot as [`Loaded::open`] does, and takes the inertias of its rotors away: for
-    /// torques that are measured behind the gears.
+    /// Loads a robot as [`Loaded::open`] does, without rotors: for torques behind the gears.
     ///
     /// # Errors
     /// As [`Loaded::open`].
@@ -198,7 +194,6 @@ fn load(urdf: &dalembert_import::Options, output: Output) -> Load {
     }
 }
 
-/// Returns the machine code of the one function of an arm.
 fn code(arm: &Arm) -> Result<&Native, Error> {
     let mut functions = arm.functions().iter();
     let found = functions.find(|f| f.scalar() == Scalar::F64);
@@ -206,7 +201,6 @@ fn code(arm: &Arm) -> Result<&Native, Error> {
     Ok(found.native())
 }
 
-/// Returns a model with the machine code of its regressor.
 fn fitted(model: Model) -> Result<(Model, Arm), Error> {
     let text = write(&model.generator_robot());
     let load = load(&Default::default(), Output::Regressor);
@@ -247,7 +241,6 @@ impl Dynamics for Loaded {
     }
 }
 
-/// Calls machine code of (q, q̇, q̈) for many states.
 fn call(
     native: &Native,
     joints: usize,

@@ -109,8 +109,7 @@ impl Engine {
         self.is_cluster
     }
 
-    /// Computes an aggregate that returns bytes of every log, in their order; a log with a row
-    /// that cannot be used is one that is bad.
+    /// Computes an aggregate of every log as bytes, in order; a log with an unusable row is bad.
     ///
     /// # Errors
     /// What is no log's fault, and that the command was ended.
@@ -214,7 +213,6 @@ pub fn locate(log: &Log) -> Option<Error> {
     checked.err().map(|why| why.at(log.name.display()))
 }
 
-/// Returns the address of a file, whatever characters it has.
 fn location(path: &Path) -> Result<String, Error> {
     let path = std::path::absolute(path)?;
     let url = Url::from_file_path(&path);

@@ -33,7 +33,6 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// Makes what other crates say one.
 macro_rules! from {
     ($($other:ty),*) => {$(
         impl From<$other> for Error {

@@ -3,7 +3,6 @@
 //! Each state is evaluated once, however many of its results a query reads: the engine's
 //! pushdown of leaf expressions, which would copy the call into each of them, is switched off.
 
-/// Implements what both of the engine's traits ask of a `function`.
 macro_rules! described {
     () => {
         fn name(&self) -> &str {
@@ -49,8 +48,7 @@ pub struct Functions {
     pub aggregates: Vec<Arc<AggregateUDF>>,
 }
 
-/// A function of a robot, as the engine knows it: two of one name are the same if they are of
-/// the same robot.
+/// Two functions of one name are the same if they are of the same robot.
 #[derive(Debug)]
 struct Function {
     name: String,
@@ -60,7 +58,6 @@ struct Function {
 }
 
 impl Function {
-    /// Returns a function of the first so many of q, q̇, q̈ and τ, without a time.
     fn new(name: String, robot: &Arc<dyn Dynamics>, quantities: usize) -> Function {
         Function {
             name,

@@ -256,8 +256,7 @@ impl Job {
         Ok(found)
     }
 
-    /// Does something with each log and its place on the threads of this machine; returns what it
-    /// gives in their order.
+    /// Calls with each log and its place on this machine's threads; returns the results in order.
     ///
     /// # Errors
     /// Those of the work, and that the command was ended.
@@ -275,7 +274,6 @@ impl Job {
     }
 }
 
-/// Looks at a file, and converts it if it has to be.
 fn usable(path: &Path, columns: &Columns, to: &Path, going: &Going) -> Result<Log, Error> {
     let log = inspect(path, columns, going)?;
     match log.converts() {

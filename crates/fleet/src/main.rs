@@ -9,7 +9,7 @@ use clap::Parser;
 use dalembert_fleet::commands::{Arguments, run};
 use dalembert_fleet::progress::{Going, INTERRUPTED};
 
-/// What a shell says of a program that Ctrl-C ended.
+/// The exit code after Ctrl-C: 128 + SIGINT.
 const ENDED: u8 = 130;
 
 fn main() -> ExitCode {
@@ -37,7 +37,7 @@ fn main() -> ExitCode {
     runtime.shutdown_timeout(Duration::from_millis(100));
     match found {
         Ok(report) => match std::io::stdout().write_all(report.text.as_bytes()) {
-            // Whoever reads has read enough.
+            // A broken pipe: the reader has read enough.
             Err(why) if why.kind() != ErrorKind::BrokenPipe => failed(&why.to_string()),
             _ => match report.failed {
                 Some(why) => failed(&why.to_string()),

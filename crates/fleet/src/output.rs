@@ -7,7 +7,6 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use crate::error::Error;
 
-/// Numbers of what this process has not finished.
 static NEXT: AtomicU32 = AtomicU32::new(0);
 
 /// A file or folder that has not got its name yet; without [`Unfinished::finish`] it goes again.

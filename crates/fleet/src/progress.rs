@@ -74,13 +74,11 @@ impl Going {
 /// What a command that was ended says.
 pub const INTERRUPTED: &str = "interrupted: nothing was written";
 
-/// Counts states, and tells on the terminal how many there are, how fast it goes, and how long
-/// it takes.
+/// Counts states, and tells on the terminal how many they are, how fast, and for how long.
 #[derive(Debug, Default)]
 pub struct Progress {
     total: AtomicU64,
     done: Arc<AtomicU64>,
-    /// When there was something to do.
     start: OnceLock<Instant>,
 }
 

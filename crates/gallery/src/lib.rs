@@ -90,7 +90,6 @@ impl Arm {
         format!("pictures/{}.svg", self.name)
     }
 
-    /// Imports or reads the arm, and draws it.
     fn make(self) -> Result<Entry, String> {
         let options = Options {
             base: self.base.clone(),

@@ -21,7 +21,6 @@ fn main() -> ExitCode {
     ExitCode::from(u8::from(done.is_err()))
 }
 
-/// Makes all arms, and collects all files.
 fn make() -> Result<(Vec<Entry>, Vec<File>), Box<dyn Error>> {
     let entries = entries()?;
     let page = ("README.md".into(), page(&entries)?);

@@ -14,7 +14,6 @@ fn text(name: &str) -> String {
     fs::read_to_string(folder().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// A change of the importer, the reader or the drawing shows here.
 #[test]
 fn imports_and_pictures_are_what_is_checked_in() {
     for entry in &*ENTRIES {
@@ -41,7 +40,6 @@ fn no_length_is_dust() {
     }
 }
 
-/// The command makes or reads every file in the folders, and every licence is named.
 #[test]
 fn every_file_belongs_to_an_arm_with_a_licence() {
     let licences = text("LICENCES.md");

@@ -32,11 +32,9 @@ pub struct ChainArgs {
     pub ignore_ties: bool,
 }
 
-/// The help heading of these options.
 #[cfg(feature = "clap")]
 const MODEL: &str = "Options for a URDF or an MJCF";
 
-/// Reads a joint with its position.
 fn lock(text: &str) -> Result<(String, String), String> {
     match text.rsplit_once('=') {
         Some(("*", value)) => Err(format!("write --lock-others {value}")),

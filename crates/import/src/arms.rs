@@ -70,7 +70,6 @@ pub fn arms(text: &Text, options: &Options) -> Result<(Vec<Imported>, Vec<Shared
     Ok((arms.into_iter().map(|(_, arm)| arm).collect(), shared))
 }
 
-/// Returns the pairs of arms with joints that both have.
 fn shared(arms: &[(String, Imported)]) -> Vec<Shared> {
     let joints = |arm: &Imported| -> Vec<String> {
         let joints = arm.robot.joints.iter();

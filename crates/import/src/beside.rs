@@ -12,8 +12,6 @@ use crate::tree::{Moving, Step, Tree};
 use crate::urdf::{Joint, Kind, Mimic, Tied};
 
 impl Tree<'_, '_, '_> {
-    /// Returns the joint beside the chain as one that is held; `None` after saying that it
-    /// moves.
     pub(crate) fn hold(&mut self, joint: usize) -> Option<Step> {
         let own = &self.urdf.joints[joint];
         let text = self.others.clone();
@@ -37,7 +35,6 @@ impl Tree<'_, '_, '_> {
         Some(Step { joint, at })
     }
 
-    /// Returns where a joint is that follows one which is held as all beside the chain are.
     fn follows(&mut self, joint: usize) -> Option<Position> {
         let (leader, lines) = self.leader(joint)?;
         let text = self.others.clone()?;
@@ -45,7 +42,6 @@ impl Tree<'_, '_, '_> {
         Some(self.along(joint, at, &lines))
     }
 
-    /// Locks the joints that follow one that is locked, directly or by others.
     pub(crate) fn hold_followers(&mut self) {
         let free = 0..self.urdf.joints.len();
         let follows = |joint: usize| {
@@ -58,8 +54,7 @@ impl Tree<'_, '_, '_> {
         self.locks.extend(held);
     }
 
-    /// Returns the joint that a joint follows in the end, the first that is held or follows
-    /// none, and the lines on the way there.
+    /// The first that is held or follows none, and the lines on the way there.
     fn leader(&self, joint: usize) -> Option<(usize, Vec<[Rational; 2]>)> {
         let mut lines: Vec<[Rational; 2]> = Vec::new();
         let mut leader = joint;
@@ -78,7 +73,6 @@ impl Tree<'_, '_, '_> {
         (leader != joint).then_some((leader, lines))
     }
 
-    /// Returns where a joint is whose leader, by these lines, is there.
     fn along(&self, joint: usize, at: Position, lines: &[[Rational; 2]]) -> Position {
         let along = |at: Rational| {
             let lines = lines.iter().rev();
@@ -99,7 +93,6 @@ impl Tree<'_, '_, '_> {
         kind.position(value)
     }
 
-    /// Returns whether nothing beside the chain follows a joint of it, after saying what does.
     pub(crate) fn leads_nothing_beside(&mut self, leader: usize) -> bool {
         let name = &self.urdf.joints[leader].name;
         let follower = self.held.iter().find_map(|(held, _)| {
@@ -119,8 +112,6 @@ impl Tree<'_, '_, '_> {
         false
     }
 
-    /// Returns whether nothing ties the chain's joints to others or its links to what does not
-    /// move with them, after saying what does.
     pub(crate) fn is_free_of_ties(&mut self, moving: &[Moving]) -> bool {
         let mover = |name: &String| {
             let has_it = |link: usize| self.urdf.links[link].name == *name;
@@ -163,7 +154,6 @@ impl Tree<'_, '_, '_> {
         is_free
     }
 
-    /// Lists the joints of a chain that are held, and the links that are left away.
     pub(crate) fn say_held(&mut self, joints: &BTreeSet<usize>) {
         let locked = self
             .locks

@@ -13,15 +13,11 @@ use crate::problems::Problems;
 
 /// The most attributes of one element: a URDF has six, an actuator of MJCF thirty.
 pub(crate) const MAX_ATTRIBUTES: usize = 64;
-/// The most namespaces of a file.
 const MAX_NAMESPACES: usize = 64;
-/// The beginnings of expressions of xacro.
 const EXPRESSIONS: [&str; 2] = ["${", "$("];
 
-/// Deeper elements are in no robot.
 const MAX_DEPTH: usize = 256;
 
-/// Returns the text as XML; `None` after saying why it is none.
 pub(crate) fn parse<'s>(source: &'s str, problems: &mut Problems) -> Option<Document<'s>> {
     if !admits(source, problems) {
         return None;
@@ -60,7 +56,6 @@ pub(crate) fn parse<'s>(source: &'s str, problems: &mut Problems) -> Option<Docu
     None
 }
 
-/// Returns whether the text may be parsed, after saying why not.
 fn admits(source: &str, problems: &mut Problems) -> bool {
     if source.len() > MAX_BYTES {
         let message = format!(
@@ -114,8 +109,7 @@ fn admits(source: &str, problems: &mut Problems) -> bool {
     true
 }
 
-/// Returns the tags and the texts between them, in order: comments, instructions and
-/// what is marked as text are left out, and so is all that follows a mistake.
+/// Comments, instructions and CDATA are left out, and so is all that follows a mistake.
 fn pieces(source: &str) -> impl Iterator<Item = (bool, Range<usize>)> {
     let mut at = 0;
     std::iter::from_fn(move || {
@@ -139,14 +133,12 @@ fn pieces(source: &str) -> impl Iterator<Item = (bool, Range<usize>)> {
     })
 }
 
-/// Counts the attributes of a tag.
 fn attributes(tag: &str) -> usize {
     outside_of_quotes(tag)
         .filter(|(_, byte)| *byte == b'=')
         .count()
 }
 
-/// Returns the bytes of a tag that are in no attribute's value, with their places.
 fn outside_of_quotes(tag: &str) -> impl Iterator<Item = (usize, u8)> {
     let mut quote = None;
     tag.bytes().enumerate().filter(move |(_, byte)| {

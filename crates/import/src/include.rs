@@ -8,13 +8,10 @@ use crate::problems::Problems;
 use crate::text::Text;
 use crate::{MAX_BYTES, guard};
 
-/// The most files of a model.
 const MAX_FILES: usize = 256;
 
-/// A file that has not been read to its end.
 struct Open {
     file: usize,
-    /// The part that is left to read.
     rest: Range<usize>,
     /// The files that it includes, the last first: where, and their names.
     includes: Vec<(Range<usize>, String)>,
@@ -88,7 +85,7 @@ impl Text {
         Ok(made)
     }
 
-    /// Finds what a file includes; of one that is included its root is left away.
+    /// Leaves away the root of an included file.
     fn open(&self, file: usize) -> Result<Open, String> {
         let text = &self.files[file].1;
         let mut problems = Problems::new(text);

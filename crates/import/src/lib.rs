@@ -185,7 +185,6 @@ pub fn import_text(text: &Text, options: &Options) -> Result<Imported, Diagnosti
     }
 }
 
-/// Returns what a model says, if all of it can be read.
 fn model(source: &str, options: &Options, problems: &mut Problems) -> Option<urdf::Urdf> {
     let document = guard::parse(source, problems)?;
     let mut urdf = match document.root_element().has_tag_name("mujoco") {

@@ -13,15 +13,13 @@ use crate::urdf::{Joint, Kind, Value};
 /// The name that stands for every joint that hangs on the chain.
 pub(crate) const OTHERS: &str = "*";
 
-/// Returns the position in a text, or the joint's limit that is nearest to it; `None` after
-/// saying what is wrong.
+/// A position beyond the limits becomes the nearer limit.
 pub(crate) fn nearest(joint: &Joint, text: &str, problems: &mut Problems) -> Option<Position> {
     let at = read(joint, text, problems)?;
     let limit = beyond(joint, &at).map(|limit| limit.value.clone());
     Some(limit.unwrap_or(at))
 }
 
-/// Returns the limit that a position is beyond, if it is.
 fn beyond<'j>(joint: &'j Joint, at: &Position) -> Option<&'j Value<Position>> {
     let [lower, upper] = joint.position.as_ref()?;
     if compare(at, &lower.value).is_lt() {
@@ -30,7 +28,6 @@ fn beyond<'j>(joint: &'j Joint, at: &Position) -> Option<&'j Value<Position>> {
     compare(at, &upper.value).is_gt().then_some(upper)
 }
 
-/// Returns the position in the text of an option; `None` after saying what is wrong.
 fn read(joint: &Joint, text: &str, problems: &mut Problems) -> Option<Position> {
     let Joint { name, kind, .. } = joint;
     let number = parse_decimal(text.trim());
@@ -54,9 +51,6 @@ fn read(joint: &Joint, text: &str, problems: &mut Problems) -> Option<Position> 
     .ok()
 }
 
-/// Returns where a joint is locked, from the text of an option; `None` after saying what is
-/// wrong.
-///
 /// A position outside the limits is an error, as in a scene of a robot file: the arm cannot
 /// be there, and most often degrees were given for radians.
 pub(crate) fn position(joint: &Joint, text: &str, problems: &mut Problems) -> Option<Position> {
@@ -81,14 +75,12 @@ pub(crate) fn position(joint: &Joint, text: &str, problems: &mut Problems) -> Op
     Some(at)
 }
 
-/// Returns the position that errors advise: zero, or the limit that is nearest to it.
 pub(crate) fn advised(joint: &Joint) -> &str {
     let zero = joint.kind.position(Default::default());
     beyond(joint, &zero).map_or("0", |limit| limit.text.as_str())
 }
 
-/// Returns whether a position is outside its limits, all three as they were meant:
-/// 1.5708 is within a limit of pi/2.
+/// All three are taken as they were meant: 1.5708 is within a limit of pi/2.
 fn is_outside(at: &Position, text: &str, [lower, upper]: [&Value<Position>; 2]) -> bool {
     let as_meant = |value: &Position, text: &str| match value {
         Position::Angle(angle) => Position::Angle(meant(angle, text).unwrap_or(angle.clone())),

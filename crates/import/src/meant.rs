@@ -13,7 +13,6 @@ pub(crate) const MAX: i32 = -5;
 /// The digits that tell π/6 from a number that happens to be near it.
 pub(crate) const TELLING: usize = 5;
 
-/// Returns the multiple of π/2, π/4 or π/6 that an angle was meant to be.
 pub(crate) fn meant(angle: &Angle, text: &str) -> Option<Angle> {
     let Angle::Radians(value) = angle else {
         return None;
@@ -22,7 +21,7 @@ pub(crate) fn meant(angle: &Angle, text: &str) -> Option<Angle> {
     within(value, unit, digits)
 }
 
-/// Returns the same of an angle that is known up to this unit, of so many digits.
+/// Returns the multiple of π/2, π/4 or π/6 that an angle known up to `unit` was meant to be.
 pub(crate) fn within(value: &Rational, unit: Rational, digits: usize) -> Option<Angle> {
     if value.is_zero() {
         return None;
@@ -61,7 +60,6 @@ pub(crate) fn digits(text: &str) -> (Rational, usize) {
     (power(unit.clamp(-1000, 1000)), digits)
 }
 
-/// Returns 10 to a power.
 pub(crate) fn power(exponent: i32) -> Rational {
     Rational::from_integer(10.into()).pow(exponent)
 }
@@ -76,7 +74,6 @@ mod tests {
         meant(&Angle::Radians(value), text).map(|angle| angle.to_string())
     }
 
-    /// The rules of the crate's documentation, on both sides of each.
     #[test]
     fn angles() {
         for (text, expected) in [

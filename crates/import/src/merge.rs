@@ -14,7 +14,6 @@ use crate::problems::Problems;
 use crate::tree::{Chain, Moving, Step};
 use crate::urdf::{self, Inertial, Joint, Role, Urdf};
 
-/// The chain's joints with what they move, and the tool.
 #[derive(Clone, Debug)]
 pub(crate) struct Arm {
     pub(crate) links: Vec<Link>,
@@ -23,17 +22,13 @@ pub(crate) struct Arm {
     pub(crate) frames: Vec<Frame>,
 }
 
-/// The frame of a link of the URDF.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
-    /// The link, by its place in the URDF.
     pub(crate) link: usize,
-    /// The joint of the chain that moves it, from zero.
     pub(crate) joint: usize,
     pub(crate) placement: Placement,
 }
 
-/// A joint, and all that is fixed to it as one body.
 #[derive(Clone, Debug)]
 pub(crate) struct Link {
     /// The joint's frame at q = 0 in that of the joint before.
@@ -43,7 +38,6 @@ pub(crate) struct Link {
     pub(crate) body: Body,
 }
 
-/// Returns the bodies of a chain; `None` after saying what is wrong with one.
 pub(crate) fn arm(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> Option<Arm> {
     if !are_possible(urdf, chain, problems) {
         return None;
@@ -96,8 +90,6 @@ pub(crate) fn arm(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> Option
     })
 }
 
-/// Says which links have an inertia that no body has; returns whether none has one that is
-/// an error.
 fn are_possible(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> bool {
     let mut good = true;
     for link in chain.links() {
@@ -126,7 +118,6 @@ fn are_possible(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> bool {
     good
 }
 
-/// Says of links that they have no mass, once, where the first is.
 fn without_mass(links: &[&urdf::Link], problems: &mut Problems) {
     let Some(first) = links.first() else {
         return;
@@ -170,7 +161,6 @@ fn way(urdf: &Urdf, steps: &[Step]) -> Option<Columns<Wide>> {
     })
 }
 
-/// Returns what a locked joint has moved its child by.
 fn displaced(joint: &Joint, position: &Position) -> Option<Columns<Wide>> {
     let axis = direction_of(joint)?;
     Some(match position {
@@ -191,8 +181,7 @@ fn direction_of(joint: &Joint) -> Option<Vector<Wide>> {
     direction(&joint.axis.each_ref().map(|x| x.value.clone()))
 }
 
-/// Returns everything that a joint moves as one body, in its child's frame; lengths of the
-/// chain are of this size.
+/// The result is in the frame of the joint's child; `size` is that of the chain's lengths.
 fn body(urdf: &Urdf, moving: &Moving, size: &Rational) -> Option<Body> {
     let mut parts: Vec<Body> = Vec::new();
     for (link, steps) in &moving.links {

@@ -5,7 +5,6 @@ use crate::lock::OTHERS;
 use crate::problems::{Problems, instead};
 use crate::urdf::Urdf;
 
-/// Reports every name of a link or a joint that the file does not have.
 pub(crate) fn check(urdf: &Urdf, options: &Options, problems: &mut Problems) {
     let [links, joints] = &urdf.names;
     let ends = urdf.joints.iter();

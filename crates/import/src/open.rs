@@ -115,7 +115,6 @@ pub fn read_robot(source: Text, options: &Options) -> Result<Opened, String> {
 }
 
 impl Options {
-    /// Refuses options that choose a chain, which a robot file is.
     fn refuse_chain(&self, name: &str) -> Result<(), String> {
         let options = [
             ("base", self.base.is_some()),

@@ -8,20 +8,15 @@ use crate::text::{Text, place};
 
 /// More than these are counted, not listed.
 const MAX: usize = 200;
-/// More names than these are not listed.
 pub(crate) const MAX_NAMES: usize = 30;
 
-/// Collects them, in any order.
 #[derive(Default)]
 pub(crate) struct Problems<'s> {
     pub(crate) source: &'s str,
-    /// The source with the files that it is made of.
     text: Option<&'s Text>,
     found: Vec<Diagnostic>,
-    /// Notes of what the robot file has otherwise than the model, so that results differ; in the
-    /// order of the file.
+    /// Notes of what the robot file has otherwise than the model, so that results differ.
     pub(crate) differences: Vec<Diagnostic>,
-    /// The number of problems beyond those that are listed.
     more: usize,
 }
 
@@ -33,7 +28,6 @@ impl<'s> Problems<'s> {
         }
     }
 
-    /// Collects them of a text that may be of several files.
     pub(crate) fn of(text: &'s Text) -> Self {
         Problems {
             text: Some(text),
@@ -41,7 +35,6 @@ impl<'s> Problems<'s> {
         }
     }
 
-    /// Returns the line of a byte in its file, in words.
     pub(crate) fn line(&self, byte: usize) -> String {
         match self.text.and_then(|text| text.in_file(byte)) {
             None => format!("line {}", place(self.source, byte).0),
@@ -64,7 +57,6 @@ impl<'s> Problems<'s> {
         self.push(Severity::Note, span, message, help);
     }
 
-    /// Notes what the robot file has otherwise than the model, so that results differ.
     pub(crate) fn difference(&mut self, span: &Range<usize>, message: String, help: &str) {
         if self.differences.len() < MAX {
             let note = self.at(Severity::Note, span, message, help);
@@ -101,13 +93,11 @@ impl<'s> Problems<'s> {
         }
     }
 
-    /// Returns whether there is an error among them.
     pub(crate) fn has_errors(&self) -> bool {
         let mut found = self.found.iter();
         self.more > 0 || found.any(|found| found.severity == Severity::Error)
     }
 
-    /// Reports that the robot file that was written is refused: what its reader says.
     pub(crate) fn refused(&mut self, errors: &Diagnostics, text: &str) {
         for error in &errors.0 {
             let line = text.lines().nth(error.line.saturating_sub(1));
@@ -121,8 +111,7 @@ impl<'s> Problems<'s> {
         }
     }
 
-    /// Returns the differences, then the other notes and the warnings, both in the order of the
-    /// file; or the errors alone.
+    /// The differences first, then the rest in the order of the file; or the errors alone.
     pub(crate) fn finish(mut self) -> Result<Vec<Diagnostic>, Diagnostics> {
         if let (1.., Some(last)) = (self.more, self.found.last_mut()) {
             last.severity = Severity::Error;
@@ -140,7 +129,6 @@ impl<'s> Problems<'s> {
     }
 }
 
-/// Returns the help for a name that there is not.
 pub(crate) fn instead<'n, N: AsRef<str> + ?Sized + 'n>(
     name: &str,
     names: impl IntoIterator<Item = &'n N>,

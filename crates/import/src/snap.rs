@@ -56,18 +56,14 @@ impl fmt::Display for Snap {
     }
 }
 
-/// The numbers that are taken for others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Snapping {
-    /// Those whose digits tell what was meant.
     All,
     /// Those within 1e-9 of what was meant.
     Near,
-    /// None of them.
     None,
 }
 
-/// Returns the URDF with numbers of the chain taken for what they were meant to be.
 pub(crate) fn snapped(urdf: &Urdf, chain: &Chain, snapping: Snapping) -> (Urdf, Vec<Snap>) {
     let mut urdf = urdf.clone();
     let mut snaps = Snaps {
@@ -111,16 +107,13 @@ pub(crate) fn snapped(urdf: &Urdf, chain: &Chain, snapping: Snapping) -> (Urdf, 
     (urdf, snaps.taken)
 }
 
-/// Collects them.
 #[derive(Default)]
 struct Snaps {
-    /// Whether digits that are further off stay.
     is_near: bool,
     taken: Vec<Snap>,
 }
 
 impl Snaps {
-    /// Returns the angle that digits were meant to be, unless it is too far off.
     fn meant(&self, angle: &Angle, text: &str) -> Option<Angle> {
         let off = |meant: &Angle| (angle.radians() - meant.radians()).abs();
         meant(angle, text).filter(|meant| !self.is_near || off(meant) <= power(NOTHING))
@@ -180,7 +173,6 @@ impl Snaps {
         }
     }
 
-    /// Makes a length nothing, where it is less than this.
     fn length(&mut self, length: &mut Number, least: &Rational, of: &str) {
         if !length.value.is_zero() && length.value.abs() < *least {
             self.take(length, Rational::zero(), "0".to_owned(), of, true);
@@ -213,7 +205,6 @@ mod tests {
 
     use super::*;
 
-    /// Returns what `rpy` is taken for, an angle each.
     fn taken(rpy: [&str; 3]) -> [String; 3] {
         let number = |text: &str| Angle::Radians(parse_decimal(text).expect("a number"));
         let mut origin = Origin {

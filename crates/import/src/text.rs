@@ -8,7 +8,6 @@ use dalembert_model::read::Diagnostic;
 #[derive(Clone, Debug)]
 pub struct Text {
     pub(crate) text: String,
-    /// The files by name, with their own texts.
     pub(crate) files: Vec<(String, String)>,
     /// Parts of the text in their order: where each ends, its file, and where it is there.
     pub(crate) parts: Vec<(usize, usize, usize)>,
@@ -41,7 +40,6 @@ impl Text {
         (name, place(text, at).0)
     }
 
-    /// Returns the name of the file of a place and its line there; none of a single file.
     pub(crate) fn in_file(&self, byte: usize) -> Option<(&str, usize)> {
         (self.files.len() > 1).then(|| self.line(byte))
     }
@@ -63,7 +61,6 @@ impl Text {
         rendered.collect::<Vec<_>>().join("\n")
     }
 
-    /// Returns the file of a place in the text, and the place there.
     fn place(&self, byte: usize) -> (usize, usize) {
         let index = self.parts.partition_point(|(end, ..)| *end <= byte);
         let start = index
@@ -75,7 +72,6 @@ impl Text {
         }
     }
 
-    /// Adds a part of a file.
     pub(crate) fn take(&mut self, file: usize, span: Range<usize>) {
         let start = span.start;
         let text = self.files[file].1.get(span).unwrap_or_default();

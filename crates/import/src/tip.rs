@@ -14,19 +14,15 @@ const ARM: usize = 3;
 const FINGER: usize = 4;
 /// Parts of the names of fingers; a link called gripper is the palm.
 const FINGERS: [&str; 4] = ["finger", "jaw", "claw", "thumb"];
-/// Parts of the names of frames that an arm is used by.
 const HANDS: [&str; 7] = ["hand", "flange", "tool", "palm", "tcp", "grasp", "ee_"];
 
-/// Where arms end: palms first.
 struct Ends {
     tips: Vec<usize>,
-    /// Whether there are palms.
     holds: bool,
 }
 
 impl Tree<'_, '_, '_> {
-    /// Returns the link that the arm ends at: of several that one joint moves, the first. `None`
-    /// after saying that different joints move them.
+    /// Takes the first of several links that one joint moves.
     pub(crate) fn tip(&mut self, base: usize) -> Option<usize> {
         let heights = self.heights_or_circle(base)?;
         let Ends { tips, holds } = self.ends(base, &heights, false);
@@ -74,8 +70,7 @@ impl Tree<'_, '_, '_> {
         None
     }
 
-    /// Returns the links that arms end at, one for each joint that is the last to move;
-    /// `None` after saying that there are none.
+    /// Returns one link for each joint that is the last to move.
     pub(crate) fn tips(&mut self, base: usize) -> Option<Vec<usize>> {
         let heights = self.heights_or_circle(base)?;
         let Ends { tips, .. } = self.ends(base, &heights, true);
@@ -95,7 +90,6 @@ impl Tree<'_, '_, '_> {
         Some(tips)
     }
 
-    /// Returns the child of the last joint that moves before a link; the base if none moves.
     fn moved_with(&self, mut link: usize, base: usize) -> usize {
         while let Some(joint) = self.above.get(&link).filter(|_| link != base)
             && self.step(*joint).is_some()
@@ -116,7 +110,6 @@ impl Tree<'_, '_, '_> {
         heights
     }
 
-    /// Returns where the longest chains end, or all that are arms.
     fn ends(&self, base: usize, heights: &BTreeMap<usize, usize>, all: bool) -> Ends {
         let mut tips = Vec::new();
         let mut palms = Vec::new();
@@ -163,8 +156,7 @@ impl Tree<'_, '_, '_> {
         Ends { tips, holds }
     }
 
-    /// Returns whether joints that move hang on the chain to a link, beside it or behind its
-    /// end; what hangs on the links that stand still does not count.
+    /// Joints that hang on the links that stand still do not count.
     fn is_loaded(&self, tip: usize, stands: &[usize], heights: &BTreeMap<usize, usize>) -> bool {
         let mut chain = vec![tip];
         let mut next = Some(tip);
@@ -186,8 +178,7 @@ impl Tree<'_, '_, '_> {
             .any(|joint| moves(&joint))
     }
 
-    /// Returns how many joints move behind each other from a link on, for every link that
-    /// hangs on the base; none where they hang on each other in a circle.
+    /// Counts the joints that move one behind the other from each link on; `None` for a circle.
     fn heights(&self, base: usize) -> Option<BTreeMap<usize, usize>> {
         let mut order = vec![base];
         let mut at = 0;
@@ -215,7 +206,6 @@ impl Tree<'_, '_, '_> {
         Some(heights)
     }
 
-    /// Returns a link and what is fixed to it.
     fn fixed_to(&self, link: usize) -> Vec<usize> {
         let mut links = vec![link];
         let mut at = 0;
@@ -228,7 +218,6 @@ impl Tree<'_, '_, '_> {
         links
     }
 
-    /// Returns the joints that hang on a link, without those of links that are left away.
     fn hanging(&self, link: usize) -> Vec<usize> {
         let joints = self.below.get(&link).into_iter().flatten().copied();
         let stays = |child: usize| {
@@ -237,12 +226,10 @@ impl Tree<'_, '_, '_> {
         joints.filter(|joint| stays(self.ends[*joint][1])).collect()
     }
 
-    /// Returns the link that a link hangs on.
     fn on(&self, link: usize) -> Option<usize> {
         self.above.get(&link).map(|joint| self.ends[*joint][0])
     }
 
-    /// Returns whether a joint follows another that does not move it.
     fn follows_beside(&self, joint: usize) -> bool {
         let Some(mimic) = &self.urdf.joints[joint].mimic else {
             return false;
@@ -261,7 +248,6 @@ impl Tree<'_, '_, '_> {
         true
     }
 
-    /// Returns whether a joint moves a finger.
     fn is_finger(&self, joint: usize) -> bool {
         let follows = self.follows_beside(joint);
         let joint = &self.urdf.joints[joint];
@@ -272,7 +258,6 @@ impl Tree<'_, '_, '_> {
     }
 }
 
-/// Returns whether a name has one of these words in it.
 fn has_one_of(name: &str, words: &[&str]) -> bool {
     let name = name.to_ascii_lowercase();
     words.iter().any(|word| name.contains(word))

@@ -16,20 +16,17 @@ use crate::urdf::{Joint, Kind, Mimic, Urdf};
 pub(crate) struct Chain {
     pub(crate) base: usize,
     pub(crate) tip: usize,
-    /// From the base to the hand.
     pub(crate) moving: Vec<Moving>,
     /// From the last link that moves to the tip.
     pub(crate) tool: Vec<Step>,
 }
 
-/// A joint that moves, and what moves with it.
 #[derive(Clone, Debug)]
 pub(crate) struct Moving {
     pub(crate) joint: usize,
     /// From the link that moved before, or the base, to the joint's parent.
     pub(crate) before: Vec<Step>,
-    /// Every link that is fixed to the joint's child, itself included, and the
-    /// way there.
+    /// Every link that is fixed to the joint's child, itself included, and the way there.
     pub(crate) links: Vec<(usize, Vec<Step>)>,
 }
 
@@ -37,12 +34,10 @@ pub(crate) struct Moving {
 #[derive(Clone, Debug)]
 pub(crate) struct Step {
     pub(crate) joint: usize,
-    /// Where it is locked, if it could move.
     pub(crate) at: Option<Position>,
 }
 
 impl Chain {
-    /// Returns every joint that the chain's parameters come from, each once.
     pub(crate) fn joints(&self) -> BTreeSet<usize> {
         let moving = self.moving.iter().flat_map(|moving| {
             let ways = moving.links.iter().flat_map(|(_, way)| way);
@@ -54,17 +49,14 @@ impl Chain {
             .collect()
     }
 
-    /// Returns every link whose mass moves.
     pub(crate) fn links(&self) -> BTreeSet<usize> {
         let all = self.moving.iter().flat_map(|moving| &moving.links);
         all.map(|(link, _)| *link).collect()
     }
 }
 
-/// No robot has more fixed joints behind each other.
 const MAX_STEPS: usize = 100;
 
-/// The links and joints as a tree.
 pub(crate) struct Tree<'u, 'p, 's> {
     pub(crate) urdf: &'u Urdf,
     pub(crate) problems: &'p mut Problems<'s>,
@@ -72,16 +64,13 @@ pub(crate) struct Tree<'u, 'p, 's> {
     pub(crate) above: BTreeMap<usize, usize>,
     /// The joints that hang on a link.
     pub(crate) below: BTreeMap<usize, Vec<usize>>,
-    /// Both ends of every joint.
     pub(crate) ends: Vec<[usize; 2]>,
     pub(crate) locks: BTreeMap<usize, Position>,
-    /// Where joints beside the chain are held.
     pub(crate) others: Option<String>,
     pub(crate) held: Vec<(usize, Position)>,
     pub(crate) without: BTreeSet<usize>,
 }
 
-/// Returns the names of the links that arms end at; `None` after saying why there are none.
 pub(crate) fn tips(urdf: &Urdf, options: &Options, problems: &mut Problems) -> Option<Vec<String>> {
     let mut tree = Tree::new(urdf, problems)?;
     tree.options(options)?;
@@ -90,7 +79,6 @@ pub(crate) fn tips(urdf: &Urdf, options: &Options, problems: &mut Problems) -> O
     Some(tips.map(|tip| urdf.links[tip].name.clone()).collect())
 }
 
-/// Finds the chain; `None` after saying why there is none.
 pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> Option<Chain> {
     let mut tree = Tree::new(urdf, problems)?;
     let read = tree.options(options);
@@ -193,7 +181,6 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         good.then_some(tree)
     }
 
-    /// Takes locks and links to leave away from the options; `None` after an error.
     fn options(&mut self, options: &Options) -> Option<()> {
         let mut good = true;
         for (name, text) in &options.lock {
@@ -212,12 +199,10 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         good.then_some(())
     }
 
-    /// Returns the link of a name that was checked.
     fn link(&self, name: &str) -> Option<usize> {
         self.urdf.links.iter().position(|link| link.name == name)
     }
 
-    /// Returns the link that stands still.
     fn base(&mut self, options: &Options) -> Option<usize> {
         match &options.base {
             Some(name) => self.link(name),
@@ -225,7 +210,6 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         }
     }
 
-    /// Returns the only link that hangs on nothing.
     fn root(&mut self) -> Option<usize> {
         let all = 0..self.urdf.links.len();
         let roots: Vec<usize> = all.filter(|link| !self.above.contains_key(link)).collect();
@@ -278,7 +262,6 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         joints.filter(|joint| self.moves_below(*joint)).collect()
     }
 
-    /// Returns whether a joint, or one behind it, moves about or along one axis.
     fn moves_below(&self, joint: usize) -> bool {
         let mut open = vec![joint];
         // In a circle there is no end.
@@ -296,15 +279,12 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         false
     }
 
-    /// Returns the joint as a step that stays, or none if it moves.
     pub(crate) fn step(&self, joint: usize) -> Option<Step> {
         let at = self.locks.get(&joint).cloned();
         let stays = at.is_some() || self.urdf.joints[joint].kind == Kind::Fixed;
         stays.then_some(Step { joint, at })
     }
 
-    /// Returns whether a joint of a chain moves about or along one axis, by itself or after
-    /// another of the chain.
     fn can_move(&mut self, joint: usize, path: &[usize]) -> bool {
         let Joint {
             name,
@@ -335,7 +315,6 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         false
     }
 
-    /// Returns why a joint cannot follow another in a robot file; none where it can.
     fn cannot_follow(&self, joint: usize, mimic: &Mimic, path: &[usize]) -> Option<String> {
         let on_path = |other: &&usize| self.urdf.joints[**other].name == mimic.joint;
         let Some(leader) = path.iter().find(on_path) else {
@@ -363,7 +342,6 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         None
     }
 
-    /// Returns the joints from the base to the tip.
     fn path(&mut self, base: usize, tip: usize) -> Option<Vec<usize>> {
         let mut path = Vec::new();
         let mut at = tip;
@@ -392,8 +370,7 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         Some(path)
     }
 
-    /// Gathers the links that are fixed to a link; what moves by itself and is no
-    /// part of the chain is an error.
+    /// Anything that moves by itself and is not part of the chain is an error.
     fn gather(
         &mut self,
         link: usize,

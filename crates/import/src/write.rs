@@ -19,8 +19,7 @@ use crate::snap::Snap;
 use crate::tree::Chain;
 use crate::urdf::{Joint, Kind, Number, Urdf};
 
-/// Writes the robot file, and says what of the URDF is not in it; where digits stay as they stand, its
-/// reader does not warn of them.
+/// `stays`: digits stay as they stand, and the reader of the file does not warn of them.
 pub(crate) fn file(
     urdf: &Urdf,
     chain: &Chain,
@@ -86,7 +85,6 @@ pub(crate) fn file(
     text
 }
 
-/// Returns the joint that one follows; none where it moves by itself.
 fn mimic(own: &Joint, joints: &[&Joint]) -> Option<String> {
     let mimic = own.mimic.as_ref()?;
     let [multiplier, offset] = mimic.line.as_ref()?;
@@ -103,8 +101,6 @@ fn mimic(own: &Joint, joints: &[&Joint]) -> Option<String> {
     ])
 }
 
-/// Writes the frame of every link that moves, by its name or, where that cannot name a
-/// frame, by one that is like it.
 fn frames(text: &mut String, urdf: &Urdf, arm: &Arm) {
     let mut taken = BTreeSet::from([HAND.to_owned()]);
     for frame in arm.frames.iter().take(Robot::MAX_FRAMES) {
@@ -124,7 +120,6 @@ fn frames(text: &mut String, urdf: &Urdf, arm: &Arm) {
     }
 }
 
-/// Returns a name of a frame that is none of these yet; none where nothing is left of the link's.
 fn frame_name(own: &str, taken: &BTreeSet<String>) -> Option<String> {
     let words = suggested_name(own)?;
     let words = words.split('_').filter(|word| !word.is_empty());
@@ -187,8 +182,7 @@ fn joint(text: &mut String, joint: &Joint, link: &Link, options: &Options) {
     lines(text, keys);
 }
 
-/// Returns the placement as the reader of robot files takes it, so that it has nothing to
-/// say of the digits.
+/// As the reader of robot files takes it, so that it has nothing to say of the digits.
 fn as_read(own: &Placement) -> Placement {
     Placement {
         xyz: own.xyz.clone(),
@@ -196,7 +190,6 @@ fn as_read(own: &Placement) -> Placement {
     }
 }
 
-/// Returns the joints that have such a number, with it.
 fn having<'u>(
     joints: &[&'u Joint],
     number: fn(&Joint) -> Option<&Number>,
@@ -205,13 +198,10 @@ fn having<'u>(
     joints.iter().filter_map(own).collect()
 }
 
-/// Returns true for a limit that was never filled in.
 fn is_no_limit(limit: &&Number) -> bool {
     !limit.value.is_positive()
 }
 
-/// Says what of the URDF is not in the robot file, or as something else: one note says it of all
-/// joints.
 fn say_left_out(joints: &[&Joint], problems: &mut Problems) {
     say_friction(joints, problems);
     say_rotors(joints, problems);
@@ -290,7 +280,6 @@ fn say_friction(joints: &[&Joint], problems: &mut Problems) {
     problems.difference(&first.span, message, &help);
 }
 
-/// Joints by their names, with the numbers that they have.
 fn names(joints: &[(&Joint, &Number)]) -> String {
     let name = |(joint, number): &(&Joint, &Number)| format!("`{}` ({})", joint.name, number.text);
     let names: Vec<String> = joints.iter().map(name).collect();

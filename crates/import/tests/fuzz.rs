@@ -17,7 +17,6 @@ impl Draw {
     }
 }
 
-/// What attributes may turn into.
 const WORDS: [&str; 16] = [
     "",
     "0",
@@ -37,7 +36,6 @@ const WORDS: [&str; 16] = [
     "revolute",
 ];
 
-/// Returns the URDF with some of it deleted, doubled, exchanged or replaced.
 fn mutated(source: &str, draw: &mut Draw) -> String {
     let mut text: Vec<char> = source.chars().collect();
     for _ in 0..1 + draw.below(4) {
@@ -58,7 +56,6 @@ fn mutated(source: &str, draw: &mut Draw) -> String {
                 text.splice(at..end.min(at + 3), word.chars());
             }
             _ => {
-                // A whole attribute's value.
                 let quote = text[at..].iter().position(|c| *c == '"').map(|q| at + q);
                 let Some(open) = quote else { continue };
                 let close = text[open + 1..].iter().position(|c| *c == '"');
@@ -76,7 +73,6 @@ fn mutated(source: &str, draw: &mut Draw) -> String {
     text.into_iter().collect()
 }
 
-/// Imports mutations of texts, and returns how many were made and how many refused.
 fn answers(seed: u64, cases: &[(String, Options)]) -> (usize, usize) {
     let mut draw = Draw(seed);
     let (mut made, mut refused) = (0, 0);
@@ -115,7 +111,6 @@ fn an_answer_for_every_text() {
     assert!(made > 30 && refused > 30, "{made} made, {refused} refused");
 }
 
-/// The same of models of MuJoCo.
 #[test]
 fn an_answer_for_every_mjcf() {
     let tips = [
@@ -137,7 +132,6 @@ fn an_answer_for_every_mjcf() {
     assert!(made > 5 && refused > 30, "{made} made, {refused} refused");
 }
 
-/// What grows without end: entities, circles, depth, links without number.
 #[test]
 fn hostile_files_are_refused_at_once() {
     let entities = "<!DOCTYPE r [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;\">]><robot name=\"&b;\"/>";

@@ -8,7 +8,6 @@ use dalembert_import::Motion;
 use dalembert_model::reference::Reference;
 use nalgebra::DVector;
 
-/// Digits as they stand: every torque, load and pose of all six.
 #[test]
 fn exact_digits_give_the_torques_of_the_urdf() {
     for name in NAMES {
@@ -18,8 +17,6 @@ fn exact_digits_give_the_torques_of_the_urdf() {
     }
 }
 
-/// Snapped: within the bound over a motion that has all the states in it, and
-/// the bound is not absurd.
 #[test]
 fn snapped_torques_stay_within_the_bound() {
     for name in NAMES {
@@ -31,7 +28,6 @@ fn snapped_torques_stay_within_the_bound() {
     }
 }
 
-/// Where the hand is, and how it is turned, over the same motion.
 #[test]
 fn snapped_hands_stay_within_the_bound() {
     for name in NAMES {
@@ -97,7 +93,6 @@ fn the_bound_is_the_size_of_the_change() {
         (most..1.5 * most).contains(&bound),
         "{bound:e} against {most:e}"
     );
-    // So is the hand, a quarter of a metre from the axis.
     let hand = change.hand(&still);
     assert!((delta..1.5 * delta).contains(&hand.angle), "{hand:?}");
     let quarter = 0.25 * delta..0.25 * 1.5 * delta;

@@ -17,7 +17,6 @@ fn options() -> Options {
     }
 }
 
-/// Every value of the file, by the runtime; the generator's tests have the same arm.
 #[test]
 fn the_runtime_gives_what_pinocchio_gives() {
     let imported = imported(ARM, &options());
@@ -54,7 +53,6 @@ fn the_runtime_gives_what_pinocchio_gives() {
     assert_eq!(compared, 23 * 5);
 }
 
-/// Both are within their limits wherever the leader is.
 #[test]
 fn limits_of_a_follower_are_its_leaders() {
     let robot = imported(ARM, &options()).robot;
@@ -74,7 +72,6 @@ fn limits_of_a_follower_are_its_leaders() {
     assert_eq!(again.robot, robot);
 }
 
-/// A leader that is held holds its followers, those in the chain and those beside it.
 #[test]
 fn followers_are_held_with_their_leader() {
     let held = Options {
@@ -90,7 +87,6 @@ fn followers_are_held_with_their_leader() {
     let [held, fixed] = [held, fixed].map(|options| imported(ARM, &options).robot);
     assert_eq!(held.joints.len(), 3);
     assert_eq!(held, fixed);
-    // Beside the chain: a finger that follows one of the hand's.
     let fingers = r#"<link name="thumb"><inertial><mass value="0.1"/><inertia ixx="1e-4" ixy="0" ixz="0" iyy="1e-4" iyz="0" izz="1e-4"/></inertial></link>
       <link name="finger"><inertial><mass value="0.1"/><inertia ixx="1e-4" ixy="0" ixz="0" iyy="1e-4" iyz="0" izz="1e-4"/></inertial></link>
       <joint name="grip" type="prismatic"><parent link="blade"/><child link="thumb"/><axis xyz="0 1 0"/><limit lower="0" upper="0.04" velocity="1" effort="1"/></joint>

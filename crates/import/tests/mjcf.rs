@@ -7,7 +7,6 @@ use crate::support::{Golden, bounded, flat_states, largest, worst};
 use dalembert_import::{Imported, Options, open};
 use serde_json::Value;
 
-/// With every way to write a model, and real arms as MuJoCo saves them.
 const NAMES: [&str; 8] = [
     "features", "degrees", "geoms", "panda", "so101", "xarm7", "ur5", "z1",
 ];
@@ -33,7 +32,6 @@ fn imported(name: &str, options: &Options) -> Imported {
     opened.unwrap().imported.unwrap()
 }
 
-/// Digits as they stand.
 #[test]
 fn exact_digits_give_what_mujoco_gives() {
     for name in NAMES {
@@ -48,7 +46,6 @@ fn exact_digits_give_what_mujoco_gives() {
     }
 }
 
-/// What quaternions were meant to be changes no more than is said.
 #[test]
 fn snapped_torques_stay_within_the_bound() {
     for name in NAMES {

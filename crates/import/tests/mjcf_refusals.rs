@@ -6,7 +6,6 @@ use std::path::Path;
 use crate::support::{has, refused};
 use dalembert_import::{Options, Text, import, import_text};
 
-/// Two joints, a finger beside them, and a place for what each case adds.
 const ARM: &str = r#"<mujoco model="arm">
   <compiler angle="radian"/>
   <default> <default class="drive"> <joint armature="0.1"/> </default> </default>
@@ -31,7 +30,6 @@ const ARM: &str = r#"<mujoco model="arm">
 </mujoco>
 "#;
 
-/// Returns the arm at the hand, the finger held.
 fn at_the_hand() -> Options {
     Options {
         tip: Some("hand".into()),
@@ -54,7 +52,6 @@ fn the_arm_itself_is_taken() {
         "{}",
         imported.text
     );
-    // A site is the hand where it is asked for.
     let at_the_site = Options {
         tip: Some("grip".into()),
         ..at_the_hand()
@@ -153,14 +150,11 @@ fn refusals_name_the_element_and_the_way_out() {
     }
     let part = refused("<mujocoinclude/>", &at_the_hand());
     has(&part, &["this is a part of an MJCF"]);
-    // At once, each at its place.
     let several = with("mass=\"2\"", "mass=\"two\"").replace("quat=\"1 0 0 0\"", "quat=\"1 0 0\"");
     let text = refused(&several, &at_the_hand());
     assert_eq!(text.matches("error: ").count(), 2, "{text}");
 }
 
-/// What is beside the chain and tied to itself alone is held, a follower where its leader
-/// holds it.
 #[test]
 fn what_is_tied_beside_the_chain_is_held() {
     let second = "<body name=\"other\"> <inertial pos=\"0 0 0\" mass=\"0.1\" diaginertia=\"0 0 0\"/> \
@@ -178,7 +172,6 @@ fn what_is_tied_beside_the_chain_is_held() {
     assert!(text.contains("`follow` at -0.05"), "{text}");
 }
 
-/// A fixed tendon over one joint moves it with no other, and may narrow its limits.
 #[test]
 fn a_tendon_over_one_joint_is_a_limit() {
     let limits = |tendon: &str| {
@@ -229,7 +222,6 @@ fn ties_are_ignored_where_that_is_asked_for() {
     );
 }
 
-/// All bodies weigh 3.2 kg together, the finger's among them.
 #[test]
 fn the_total_mass_scales_masses_and_inertias() {
     let arm = |settings: &str| {
@@ -249,7 +241,6 @@ fn the_total_mass_scales_masses_and_inertias() {
     assert_eq!(arm("settotalmass=\"-1\""), plain);
 }
 
-/// Includes: one that is missing, twice, in a circle, and one that says where a mistake is.
 #[test]
 fn includes_are_checked() {
     let text = |main: &str, part: &'static str| {
@@ -288,7 +279,6 @@ fn includes_are_checked() {
     assert!(shown.contains("`quat` has 1 numbers, not 4"), "{shown}");
 }
 
-/// What grows without end: depth, entities, classes, bodies, joints without number.
 #[test]
 fn hostile_files_are_refused_at_once() {
     let nested = |open: &str, close: &str, count: usize| {
@@ -326,7 +316,6 @@ fn hostile_files_are_refused_at_once() {
         let errors = import(&text, &Options::default()).expect_err("no robot");
         assert!(!errors.0.is_empty(), "{}", &text[..text.len().min(80)]);
     }
-    // A circle of followers has an answer, too.
     let options = Options {
         tip: Some("x".into()),
         lock: vec![("*".into(), "0".into())],

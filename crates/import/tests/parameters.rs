@@ -23,7 +23,6 @@ fn child<'a, 'i>(node: Node<'a, 'i>, tag: &str) -> Option<Node<'a, 'i>> {
     node.children().find(|own| own.has_tag_name(tag))
 }
 
-/// A rotation and a translation.
 #[derive(Clone, Copy)]
 struct Pose(Matrix3<f64>, Vector3<f64>);
 
@@ -32,13 +31,11 @@ impl Pose {
         Pose(Matrix3::identity(), Vector3::zeros())
     }
 
-    /// Returns this pose, then another one that is relative to it.
     fn then(self, Pose(turned, at): Pose) -> Pose {
         Pose(self.0 * turned, self.1 + self.0 * at)
     }
 }
 
-/// Adds a body whose centre of mass is at a pose.
 fn add(sum: &mut Parameters, mass: f64, inertia: Matrix3<f64>, at: Pose) {
     let Pose(turned, c) = at;
     let about_centre = turned * inertia * turned.transpose();
@@ -49,7 +46,6 @@ fn add(sum: &mut Parameters, mass: f64, inertia: Matrix3<f64>, at: Pose) {
     sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
 }
 
-/// Returns where the origin of an element of a URDF is.
 fn origin(node: Node) -> Pose {
     let origin = child(node, "origin");
     let list = |key| origin.map_or(vec![0.0; 3], |own| list(own, key, "0 0 0"));
@@ -67,7 +63,6 @@ fn origin(node: Node) -> Pose {
     )
 }
 
-/// Adds a link of a URDF and all that is fixed to it, or locked at zero.
 fn add_link(sum: &mut Parameters, root: Node, link: &str, at: Pose, moving: &[String]) {
     let tagged = |tag: &'static str| root.children().filter(move |own| own.has_tag_name(tag));
     let own = tagged("link").find(|own| own.attribute("name") == Some(link));
@@ -95,7 +90,6 @@ fn add_link(sum: &mut Parameters, root: Node, link: &str, at: Pose, moving: &[St
     }
 }
 
-/// Adds a body of an MJCF and all that is fixed to it.
 fn add_body(sum: &mut Parameters, body: Node, at: Pose) {
     let pose = |node: Node| {
         let quat = list(node, "quat", "1 0 0 0");
@@ -120,7 +114,6 @@ fn add_body(sum: &mut Parameters, body: Node, at: Pose) {
     }
 }
 
-/// Returns the parameters of every link, by the joint that moves it.
 fn parameters(robot: &Robot, text: &str) -> Vec<f64> {
     let document = Document::parse(text).unwrap();
     let root = document.root_element();
@@ -177,7 +170,6 @@ fn check(name: &str, robot: &Robot, text: &str) {
     }
 }
 
-/// The gallery's arm, then links with hands, fingers and frames that are merged, and turned.
 #[test]
 fn the_numbers_of_a_urdf_give_the_torques() {
     let path = concat!(

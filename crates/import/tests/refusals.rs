@@ -5,7 +5,6 @@ use crate::support::{has, refused, source};
 use dalembert_import::{Imported, Options, Snap, import};
 use dalembert_model::read::{self, Diagnostic, Severity};
 
-/// Two links that turn, a gripper beside the tip, and all that a URDF may have.
 const ARM: &str = r#"<?xml version="1.0"?>
 <robot name="Test Arm">
   <link name="world"/>
@@ -56,19 +55,16 @@ fn at_the_hand() -> Options {
     }
 }
 
-/// Returns the options of the hand with a change.
 fn with(change: impl FnOnce(&mut Options)) -> Options {
     let mut options = at_the_hand();
     change(&mut options);
     options
 }
 
-/// Returns the options of the hand with a joint locked.
 fn locked(joint: &str, at: &str) -> Options {
     with(|o| o.lock = vec![(joint.into(), at.into())])
 }
 
-/// Returns all that hangs on the chain is held there.
 fn others(at: &str) -> Options {
     Options {
         lock: vec![("*".into(), at.into())],
@@ -80,7 +76,6 @@ fn taken(source: &str, options: &Options) -> Imported {
     import(source, options).unwrap_or_else(|errors| panic!("{}", errors.render("arm.urdf", source)))
 }
 
-/// Returns the lines of the notes with their messages.
 fn notes(imported: &Imported) -> Vec<(usize, &str)> {
     let notes = imported.notes.iter();
     notes.map(|note| (note.line, &*note.message)).collect()
@@ -114,7 +109,6 @@ fn the_file_says_what_the_urdf_says() {
     has(help, &[way]);
 }
 
-/// What is so of several joints is said once, where it is first.
 #[test]
 fn one_note_for_one_fact() {
     let slow = ARM.replace("effort=\"50\"", "effort=\"0\"").replace(
@@ -139,7 +133,6 @@ fn one_note_for_one_fact() {
     assert_eq!(massless[0].1, expected);
 }
 
-/// A locked finger weighs what it weighs, where it is.
 #[test]
 fn what_is_locked_moves_with_the_link() {
     let lock = |joint: &str| {
@@ -163,7 +156,6 @@ fn what_is_locked_moves_with_the_link() {
     assert_eq!(taken(ARM, &short).robot.joints.len(), 1);
 }
 
-/// Held where its limits let it be, listed, and as if it had been locked there.
 #[test]
 fn what_hangs_on_the_chain_is_held() {
     let limits = "<limit lower=\"0.01\" upper=\"0.04\" effort=\"1\"";
@@ -181,7 +173,6 @@ fn what_hangs_on_the_chain_is_held() {
     assert!(notes(&held).iter().any(|note| note.1 == said));
 }
 
-/// What is called as another joint's number is called otherwise in the robot file.
 #[test]
 fn numbers_are_no_names() {
     for (turn, reach, names) in [("2", "1", ["joint_2", "joint_1"]), ("1", "2", ["1", "2"])] {
@@ -195,7 +186,6 @@ fn numbers_are_no_names() {
     }
 }
 
-/// The robot file of every digit has nothing to say of its digits.
 #[test]
 fn exact_digits_are_no_warning() {
     for digits in ["1.5708", "1.5707963267948966", "-3.14159265358979"] {
@@ -206,7 +196,6 @@ fn exact_digits_are_no_warning() {
     }
 }
 
-/// A robot that floats or drives is taken from behind that.
 #[test]
 fn chains_begin_behind_floating_joints() {
     let floats = ARM.replacen("type=\"fixed\"", "type=\"floating\"", 1);
@@ -214,7 +203,6 @@ fn chains_begin_behind_floating_joints() {
     assert!(text.starts_with("# From link foot to link hand"), "{text}");
 }
 
-/// Numbers that change nothing are counted in one line.
 #[test]
 fn numbers_right_to_sixteen_digits_are_counted() {
     let source = ARM
@@ -229,7 +217,6 @@ fn numbers_right_to_sixteen_digits_are_counted() {
     assert!(far[0].changes && Snap::counted(&far).is_none());
 }
 
-/// At a limit, and next to one by digits that were meant to be it.
 #[test]
 fn limits_are_where_a_joint_can_be() {
     let limits = "lower=\"-1.5707\" upper=\"1.57079\"";
@@ -304,7 +291,6 @@ fn refusals_name_the_joint_and_the_way_out() {
     }
 }
 
-/// Everything that is wrong is said at once, in the file's order.
 #[test]
 fn all_at_once() {
     let source = ARM
@@ -323,7 +309,6 @@ fn all_at_once() {
     }
 }
 
-/// Impossible and missing inertials are taken, and named with their lines.
 #[test]
 fn doubtful_inertials_are_named() {
     let flat = ARM.replace("izz=\"0.04\"", "izz=\"0.4\"");
@@ -349,7 +334,6 @@ fn doubtful_inertials_are_named() {
     }
 }
 
-/// Gravity is against the base's z: where the base is not the root, that is said.
 #[test]
 fn a_base_that_is_not_the_root_is_said() {
     let imported = taken(ARM, &with(|o| o.base = Some("foot".into())));
@@ -359,11 +343,9 @@ fn a_base_that_is_not_the_root_is_said() {
     has(&imported.text, &[placement]);
 }
 
-/// Chains that end at a palm, or where nothing hangs.
 #[test]
 fn the_end_is_the_palm_or_where_nothing_hangs() {
     let panda = source("panda");
-    // Mimic joints beside the chain say whom they follow.
     let finger = "joint `panda_finger_joint2` is prismatic, mimics `panda_finger_joint1`";
     let text = refused(&panda, &Options::default());
     let all = "--lock-others 0 holds all that hangs on the chain";
@@ -389,8 +371,6 @@ fn the_end_is_the_palm_or_where_nothing_hangs() {
     }
 }
 
-/// Two chains of as many joints: of arms on a torso that moves, one is held; of two frames that
-/// one joint moves, the first is taken, or the one that is called as a hand.
 #[test]
 fn one_of_several_chains_holds_the_others() {
     let robot = |joints: &[[&str; 3]]| {
@@ -433,8 +413,6 @@ fn one_of_several_chains_holds_the_others() {
     assert_eq!(front.robot.joints, tool.robot.joints);
 }
 
-/// The reduction is that beside the rotor's own name, in whatever order they stand, and every
-/// rotor is named with its armature.
 #[test]
 fn a_rotor_has_its_own_reduction() {
     let own = "<mechanicalReduction>100</mechanicalReduction><motorInertia>2e-5</motorInertia>";
@@ -474,7 +452,6 @@ fn a_rotor_has_its_own_reduction() {
     }
 }
 
-/// Digits that are far from what they were meant to be stay, unless snapping is asked for.
 #[test]
 fn torques_are_not_moved_unasked() {
     let with_snap = |angle: &str, snap: bool| {
@@ -496,7 +473,6 @@ fn torques_are_not_moved_unasked() {
     assert!(near.change.unwrap().relative() < 1e-6);
 }
 
-/// Every joint has the limit of acceleration that is asked for, and the robot its name.
 #[test]
 fn limits_of_acceleration_and_names_are_options() {
     let twelve = dalembert_model::number::Rational::from_integer(12.into());

@@ -81,8 +81,7 @@ impl Arm {
     /// Loads the arm of a robot file, a URDF or an MJCF with what it includes.
     ///
     /// # Errors
-    /// [`LoadError`]: what is wrong with the file or the request, or what could not be
-    /// proved.
+    /// [`LoadError`]: what is wrong with the file or the request, or what could not be proved.
     pub fn load(path: impl AsRef<Path>, load: &Load) -> Result<Arm, LoadError> {
         let path = path.as_ref();
         let source = open_text(path).map_err(|error| match error {
@@ -140,7 +139,6 @@ impl Arm {
         Arm::of_entry(entry, text, load, false)
     }
 
-    /// Compiles what was generated.
     fn of_entry(
         entry: Entry,
         source: &str,
@@ -215,9 +213,8 @@ impl Arm {
         Ok(scalars.iter().zip(&self.entry.rust).map(file).collect())
     }
 
-    /// Prints the functions as one header of C99, proved once more, and returns it with its claim and
-    /// the warnings that [`notes`](Arm::notes) do not have. Names in it begin with `name`, or with
-    /// the robot's.
+    /// Prints the functions as one header of C99, proved once more; returns it with its claim and
+    /// further warnings than [`notes`](Arm::notes). Names begin with `name`, or with the robot's.
     ///
     /// # Errors
     /// [`LoadError`]: among others, a name that no C compiler takes.
@@ -250,8 +247,7 @@ impl Arm {
         &self.entry.claim
     }
 
-    /// Returns the parameters of every link by their names, a column of `full_regressor` each, of
-    /// links in their own frames.
+    /// Returns the parameters of every link in its own frame, by name, as in `full_regressor`.
     ///
     /// # Errors
     /// [`LoadError`]: what is kept is damaged.
@@ -265,8 +261,7 @@ impl Arm {
         Ok(names.zip(values.iter().map(f64::nearest)).collect())
     }
 
-    /// Returns the base parameters, each by the combination of parameters that it is, a column of
-    /// `regressor` each.
+    /// Returns the base parameters by their combinations, a column of `regressor` each.
     ///
     /// # Errors
     /// [`LoadError`]: among others, that there are none.
@@ -279,7 +274,6 @@ impl Arm {
         Ok(names.zip(values.iter().map(f64::nearest)).collect())
     }
 
-    /// Returns the robot in its scene.
     fn setup(&self) -> Result<Setup, LoadError> {
         let reading = read_robot(&self.entry.robot, "the arm's robot file")?;
         let request = self.load.request(&reading)?;
@@ -298,14 +292,12 @@ impl Arm {
         self.is_from_cache
     }
 
-    /// Tells whether the observer ended the search: a whole one might find cheaper
-    /// functions.
+    /// Tells whether the observer ended the search: a whole one might find cheaper functions.
     pub fn has_ended_early(&self) -> bool {
         self.entry.ended
     }
 }
 
-/// Reads a function out of the Rust text and compiles it.
 fn compiled(entry: &Entry, proved: &Proved) -> Result<Function, LoadError> {
     let damaged = || LoadError::Request(format!("`{}` cannot be read back", proved.function));
     let output = match proved.function == Output::Load.name() {

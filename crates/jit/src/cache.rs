@@ -27,10 +27,8 @@ const GENERATOR: &str = concat!("entry 2 of ", env!("DALEMBERT_SOURCES"));
 /// Larger files are none of ours.
 const MAX_BYTES: u64 = 1 << 28;
 
-/// A folder with entries and plans.
 pub(crate) struct Folder(PathBuf);
 
-/// Names an entry by all that it is made from.
 pub(crate) fn key(source: &str, name: &str, plan: Option<&str>, load: &Load) -> String {
     let request = Load {
         // Where it is kept changes nothing.
@@ -47,8 +45,7 @@ pub(crate) fn key(source: &str, name: &str, plan: Option<&str>, load: &Load) -> 
     hash_of(GENERATOR, &parts)
 }
 
-/// Names the plan of a robot, by its hash: for all functions and scalars that are searched
-/// for in the same way.
+/// One plan serves all functions and scalars that are searched for in the same way.
 pub(crate) fn plan_key(robot: &str, load: &Load) -> String {
     let mut search = load.asked.clone();
     for option in ["outputs", "scalar", "parameters", "scene", "name"] {
@@ -58,7 +55,7 @@ pub(crate) fn plan_key(robot: &str, load: &Load) -> String {
     hash_of(GENERATOR, &[robot, &search.to_string()])
 }
 
-/// Returns the hash of texts, told apart by their lengths.
+/// Lengths tell the texts apart.
 fn hash_of(generator: &str, parts: &[&str]) -> String {
     let mut hash = Hash::new();
     for part in [generator].iter().chain(parts) {
@@ -73,10 +70,7 @@ fn hexadecimal(hash: [u8; 32]) -> String {
 }
 
 impl Folder {
-    /// Returns the folder that is asked for, if there is one. It is made when something is kept.
-    ///
-    /// # Errors
-    /// A note that says why nothing is read from it or kept in it: others may write it.
+    /// The folder is made when something is kept. The error is a note: others may write the folder.
     pub(crate) fn of(cache: &Cache) -> Result<Option<Folder>, String> {
         let path = match cache {
             Cache::Off => None,
@@ -97,24 +91,21 @@ impl Folder {
         }
     }
 
-    /// Reads an entry that is whole.
     pub(crate) fn entry(&self, key: &str) -> Option<Entry> {
         serde_json::from_str(&self.read(&format!("{key}.json"))?).ok()
     }
 
-    /// Keeps an entry.
     pub(crate) fn keep(&self, key: &str, entry: &Entry) {
         if let Ok(text) = serde_json::to_string(entry) {
             self.write(&format!("{key}.json"), &text);
         }
     }
 
-    /// Reads a plan.
     pub(crate) fn plan(&self, key: &str) -> Option<Plan> {
         Plan::parse(&self.read(&format!("{key}.plan"))?).ok()
     }
 
-    /// Keeps a plan. Of two writers at once, one's programs are searched for again.
+    /// If two write at once, one's programs are searched for again.
     pub(crate) fn keep_plan(&self, key: &str, plan: &Plan) {
         self.write(&format!("{key}.plan"), &plan.write());
     }
@@ -149,7 +140,6 @@ impl Folder {
     }
 }
 
-/// Returns the user's folder, if the environment tells where that is.
 fn user_folder() -> Option<PathBuf> {
     let set = |name| {
         let value = env::var_os(name).filter(|value| !value.is_empty());
@@ -181,7 +171,6 @@ fn is_private(_: &Metadata) -> bool {
     true
 }
 
-/// Makes a folder that the user alone may read and write.
 fn private_folder(path: &Path) -> io::Result<()> {
     let mut builder = fs::DirBuilder::new();
     #[cfg(unix)]
@@ -189,7 +178,6 @@ fn private_folder(path: &Path) -> io::Result<()> {
     builder.recursive(true).create(path)
 }
 
-/// Makes a file that the user alone may read and write.
 fn private_file(path: &Path) -> io::Result<File> {
     let mut options = File::options();
     #[cfg(unix)]

@@ -42,7 +42,6 @@ fn reach(argument: Argument) -> f64 {
     }
 }
 
-/// Draws the arguments of the states that are compared, in the order of the signature.
 fn drawn<T: Machine>(signature: &Signature) -> Vec<Vec<Vec<T>>> {
     let state = |state: usize| {
         let of = |&(argument, len): &(Argument, usize)| {
@@ -69,7 +68,6 @@ fn expected<T: Machine>(program: &Code, signature: &Signature, state: &[Vec<T>])
     program.run(&arguments).unwrap_or_default()
 }
 
-/// Finds the first result that differs.
 fn differing<T: Machine>(expected: &[T], found: &[T]) -> Option<usize> {
     if expected.len() != found.len() {
         return Some(expected.len().min(found.len()));
@@ -78,7 +76,6 @@ fn differing<T: Machine>(expected: &[T], found: &[T]) -> Option<usize> {
     both.position(|(&expected, &found)| !is_same(expected, found))
 }
 
-/// Compares the code for one state, which `call` runs, with the program.
 pub(crate) fn check<T: Machine + Default>(
     program: &Code,
     signature: &Signature,
@@ -96,7 +93,6 @@ pub(crate) fn check<T: Machine + Default>(
     Ok(())
 }
 
-/// Compares the code for many states, which `call` runs at [`STATES`] of them, with the program;
 /// `place` says where the entries of an argument or a result lie.
 pub(crate) fn check_many<T: Machine + Default>(
     program: &Code,

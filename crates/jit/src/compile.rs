@@ -23,22 +23,18 @@ pub struct Signature {
 }
 
 impl Signature {
-    /// Returns the place of an argument and its number of entries.
     fn argument(&self, wanted: Argument) -> Option<(usize, usize)> {
         let mut all = self.arguments.iter().enumerate();
         all.find_map(|(place, &(argument, len))| (argument == wanted).then_some((place, len)))
     }
 
-    /// Returns where the entries of an argument begin among those of all.
     fn first_entry(&self, place: usize) -> usize {
         self.arguments[..place].iter().map(|&(_, len)| len).sum()
     }
 }
 
-/// The name by which code calls [`crate::native`]'s library of sines.
 const LIBRARY: &str = "dalembert_sines_of";
 
-/// Layouts of the states that a function computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum States {
     /// One state: arrays of arguments and one of results.
@@ -49,7 +45,6 @@ pub(crate) enum States {
     Adjacent,
 }
 
-/// Compiles a program; returns the module of machine code, and where its one function is.
 pub(crate) fn compile(
     code: &Code,
     signature: &Signature,
@@ -152,13 +147,12 @@ fn one(
     Ok(())
 }
 
-/// Reads a pointer or stride from a table.
 fn address(emitter: &Emitter<'_>, table: Value, index: usize) -> Value {
     let flags = MemFlagsData::trusted();
     emitter.with(|b| b.ins().load(types::I64, flags, table, 8 * index as i32))
 }
 
-/// Emits as many states as vectors take: the loop ends before those that are left.
+/// The loop ends before the states that do not fill a vector.
 fn many(
     emitter: &Emitter<'_>,
     code: &Code,

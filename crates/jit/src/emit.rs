@@ -10,7 +10,6 @@ use cranelift_codegen::ir::{
 use cranelift_frontend::FunctionBuilder;
 use dalembert_codegen::ScalarType;
 
-/// Returns the type of a number.
 pub(crate) fn number(scalar: ScalarType) -> Type {
     match scalar {
         ScalarType::F64 => types::F64,
@@ -18,7 +17,6 @@ pub(crate) fn number(scalar: ScalarType) -> Type {
     }
 }
 
-/// Returns the type of a vector of numbers, one of each state.
 pub(crate) fn vector(scalar: ScalarType) -> Type {
     match scalar {
         ScalarType::F64 => types::F64X2,
@@ -26,27 +24,21 @@ pub(crate) fn vector(scalar: ScalarType) -> Type {
     }
 }
 
-/// Appends instructions to a function. Shared, since the text of the sines computes with
-/// values that can be copied.
+/// Shared, since the text of the sines computes with values that can be copied.
 pub(crate) struct Emitter<'f> {
     builder: RefCell<FunctionBuilder<'f>>,
-    /// The type of a number, or of a vector of them.
     floats: Type,
-    /// Computes sines outside of what the polynomials are for, or libm's: of the angles at
-    /// an address, so many, of which kind.
+    /// It takes an address of angles, their number, and the kind of [`Call`].
     library: FuncRef,
 }
 
-/// A kind of call to the library of sines; the numbers are those of `native`.
+/// A call of libm, or of `dalembert-sines`; the numbers are those of `native`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Call {
     /// `dalembert-sines`, for the angles that its polynomials are not for.
     Unusual = 0,
-    /// libm's sine.
     Sine = 1,
-    /// libm's cosine.
     Cosine = 2,
-    /// libm's sine and cosine at once.
     Both = 3,
 }
 
@@ -67,17 +59,14 @@ impl<'f> Emitter<'f> {
         self.builder.into_inner()
     }
 
-    /// Runs what needs the builder itself.
     pub(crate) fn with<R>(&self, run: impl FnOnce(&mut FunctionBuilder<'f>) -> R) -> R {
         run(&mut self.builder.borrow_mut())
     }
 
-    /// Returns the type of integers as long as the numbers.
     pub(crate) fn integers(&self) -> Type {
         self.floats.as_int()
     }
 
-    /// Returns a constant in every lane.
     pub(crate) fn constant(&self, value: f64) -> Value {
         let ty = self.floats;
         self.with(|b| match ty {
@@ -88,7 +77,6 @@ impl<'f> Emitter<'f> {
         })
     }
 
-    /// Returns a power of two as integer in every lane.
     pub(crate) fn power(&self, exponent: usize) -> Value {
         let ty = self.integers();
         self.with(|b| match ty {
@@ -98,7 +86,6 @@ impl<'f> Emitter<'f> {
         })
     }
 
-    /// Returns whether the magnitude is at most this, in every lane: a truth for [`Emitter::and`].
     pub(crate) fn is_within(&self, x: Value, largest: f64) -> Value {
         let largest = self.constant(largest);
         self.with(|b| {
@@ -128,12 +115,10 @@ impl<'f> Emitter<'f> {
         })
     }
 
-    /// Reads a number beside an address; of one lane.
     pub(crate) fn read(&self, address: Value, at: i32) -> Value {
         self.with(|b| b.ins().load(self.floats, unaligned(), address, at))
     }
 
-    /// Writes each lane's number at a base and that lane's offset of bytes, or from one offset on.
     pub(crate) fn scatter(&self, value: Value, base: Value, offsets: &[Value]) {
         self.with(|b| {
             for (lane, offset) in offsets.iter().enumerate() {
@@ -147,13 +132,11 @@ impl<'f> Emitter<'f> {
         });
     }
 
-    /// Writes a number beside an address; of one lane.
     pub(crate) fn write(&self, value: Value, address: Value, at: i32) {
         self.with(|b| b.ins().store(unaligned(), value, address, at));
     }
 
-    /// Calls the library for sines and cosines: always, or unless `usual` holds in every
-    /// lane of what was computed.
+    /// The library is called always, or unless `usual` holds in every lane of what was computed.
     pub(crate) fn call(
         &self,
         call: Call,
@@ -214,7 +197,6 @@ impl<'f> Emitter<'f> {
     }
 }
 
-/// Returns a constant vector of repeated bytes.
 fn repeated(b: &mut FunctionBuilder<'_>, ty: Type, lane: &[u8]) -> Value {
     let bytes = lane.repeat(ty.bytes() as usize / lane.len());
     let handle = b.func.dfg.constants.insert(ConstantData::from(&bytes[..]));

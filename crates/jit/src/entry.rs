@@ -4,39 +4,28 @@ use dalembert_codegen::GeneratedFunction;
 use dalembert_codegen::workspace::{Emitted, Sizes};
 use serde::{Deserialize, Serialize};
 
-/// What was generated for a robot.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Entry {
-    /// The robot file.
     pub(crate) robot: String,
-    /// What a user should know.
     pub(crate) notes: Vec<String>,
-    /// The functions, scalar by scalar.
     pub(crate) functions: Vec<Proved>,
-    /// The functions as Rust: a file's text for each scalar.
     pub(crate) rust: Vec<String>,
-    /// The claim about these files, which the command `certify` compares with them.
     pub(crate) claim: String,
-    /// The programs with exact constants.
+    /// With exact constants.
     pub(crate) plan: String,
-    /// Whether the search was ended early.
     pub(crate) ended: bool,
 }
 
-/// What is known of a function besides its code.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Proved {
     /// Its name, and what it bundles if it is a bundle.
     pub(crate) function: String,
-    /// Its scalar.
     pub(crate) scalar: String,
-    /// Which of the texts it is in.
+    /// The index in `rust`.
     pub(crate) file: usize,
-    /// Its arguments by name, in order.
     pub(crate) arguments: Vec<String>,
     /// Rows, joints, base parameters and load: [`Sizes`].
     pub(crate) sizes: [usize; 4],
-    /// What was proved, in a sentence.
     pub(crate) proof: String,
 }
 

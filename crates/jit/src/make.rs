@@ -17,7 +17,6 @@ pub(crate) fn read_robot(source: &str, name: &str) -> Result<Reading, LoadError>
     read::parse(source).map_err(|errors| LoadError::Robot(errors.render(name, source)))
 }
 
-/// Reads, searches, proves and prints.
 pub(crate) fn made(
     source: &Text,
     plan: Option<Plan>,
@@ -76,7 +75,6 @@ pub(crate) fn made(
     })
 }
 
-/// Says what was proved of each function in each scalar.
 fn proved(generated: &Generated) -> Vec<Proved> {
     let functions = &generated.functions;
     let emitted = generated.emitted.chunks(functions.len().max(1)).enumerate();
@@ -88,7 +86,6 @@ fn proved(generated: &Generated) -> Vec<Proved> {
     emitted.flat_map(of).collect()
 }
 
-/// Writes the claim about functions.
 pub(crate) fn claimed(
     robot: &Robot,
     source: &str,

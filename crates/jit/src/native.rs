@@ -24,7 +24,6 @@ use crate::emit::{Call, vector};
 use crate::error::{CallError, CompileError};
 use crate::rows::Place;
 
-/// Memory with a function in it.
 struct InMemory {
     /// Taken when dropped, to free the memory.
     module: ManuallyDrop<JITModule>,
@@ -53,8 +52,7 @@ impl Drop for InMemory {
     fn drop(&mut self) {
         // SAFETY: taken once, here, and not read afterwards.
         let module = unsafe { ManuallyDrop::take(&mut self.module) };
-        // SAFETY: whoever runs the code borrows `self`: nobody does, and nobody has its
-        // address.
+        // SAFETY: whoever runs the code borrows `self`: nobody does, and nobody has its address.
         unsafe { module.free_memory() };
     }
 }
@@ -73,7 +71,6 @@ pub trait Real: Machine + Angle + std::fmt::Debug + Send + Sync + 'static {}
 impl Real for f64 {}
 impl Real for f32 {}
 
-/// Computes sines as a call asks.
 fn sines<T: Real>(angles: &[T], sines: &mut [T], cosines: &mut [T], kind: usize) {
     for ((&angle, sin), cos) in angles.iter().zip(sines).zip(cosines) {
         if kind == Call::Sine as usize {
@@ -88,8 +85,7 @@ fn sines<T: Real>(angles: &[T], sines: &mut [T], cosines: &mut [T], kind: usize)
     }
 }
 
-/// What code calls for sines: `count` angles at an address, behind them as many sines, then
-/// cosines.
+/// Behind the `count` angles lie as many sines, then cosines.
 extern "C" fn library<T: Real>(angles: *mut T, count: usize, kind: usize) {
     // SAFETY: the code passes the address of a slot of its own frame that has room for
     // three times as many numbers and is aligned to them (whatever bits are there are a
@@ -101,9 +97,7 @@ extern "C" fn library<T: Real>(angles: *mut T, count: usize, kind: usize) {
     self::sines(angles, sines, cosines, kind);
 }
 
-/// The machine code of a program.
-///
-/// It was compared with the program, to the last bit, at 64 states before anybody got it.
+/// The machine code of a program, which it was compared with, to the last bit, at 64 states.
 pub struct Native {
     program: Code,
     signature: Signature,
@@ -112,7 +106,6 @@ pub struct Native {
     adjacent: OnceLock<Many>,
 }
 
-/// The code for many states, compiled and compared with the program when it is asked for.
 type Many = Result<InMemory, CallError>;
 
 impl Native {
@@ -356,8 +349,7 @@ impl Native {
         many.as_ref().map_err(CallError::clone)
     }
 
-    /// Compiles the code for many states in columns, which the first call of it does otherwise,
-    /// and compares it with the program.
+    /// Compiles and compares the code for many states in columns, as the first call does otherwise.
     ///
     /// # Errors
     /// [`CallError::Compile`].
@@ -366,7 +358,6 @@ impl Native {
     }
 }
 
-/// Addresses that threads share for the time of a call.
 struct Shared<T>(T);
 
 // SAFETY: threads read disjoint states' entries through shared slices, and write those of

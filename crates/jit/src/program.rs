@@ -12,10 +12,8 @@ use crate::emit::{Call, Emitter};
 use crate::error::CompileError;
 use crate::sines::together;
 
-/// What a program reads while its instructions are emitted.
 struct Inputs<'a, 'f, R> {
     emitter: &'a Emitter<'f>,
-    /// Reads an entry of an argument, the first time that it is asked for.
     read: R,
     read_before: BTreeMap<Input, Value>,
 }
@@ -38,7 +36,6 @@ impl<R: FnMut(Argument, usize) -> Option<Value>> Inputs<'_, '_, R> {
     }
 }
 
-/// Emits a program and returns its results; `read` gives entries of arguments.
 pub(crate) fn emit(
     emitter: &Emitter<'_>,
     code: &Code,
@@ -66,7 +63,6 @@ pub(crate) fn emit(
     run(emitter, &code.dag, |input| inputs.input(*input))
 }
 
-/// Emits the sines and cosines, those of a library first.
 fn sines<R>(inputs: &mut Inputs<'_, '_, R>, code: &Code) -> Result<(), CompileError>
 where
     R: FnMut(Argument, usize) -> Option<Value>,
@@ -108,8 +104,7 @@ where
     Ok(())
 }
 
-/// Returns sine and cosine by polynomials of the program's own; one that is not wanted is the
-/// angle, which nobody reads.
+/// A sine or cosine that is not wanted is the angle, which nobody reads.
 fn polynomials(
     emitter: &Emitter<'_>,
     kernel: &Kernel,
@@ -120,7 +115,6 @@ fn polynomials(
     Ok((sin.unwrap_or(angle), cos.unwrap_or(angle)))
 }
 
-/// Emits operations and returns the results.
 fn run<I>(
     emitter: &Emitter<'_>,
     dag: &Dag<Literal, I>,

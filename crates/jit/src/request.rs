@@ -36,7 +36,6 @@ pub struct Load {
 }
 
 impl Load {
-    /// Makes the generator's request for a robot file.
     pub(crate) fn request(&self, reading: &Reading) -> Result<Request, LoadError> {
         let scalars = [ScalarType::F64];
         let request = Request::parse(&self.asked, &scalars, &reading.outputs, &reading.scenes);

@@ -2,9 +2,8 @@
 
 use crate::error::CallError;
 
-/// Where the entries of an argument or a result lie in a slice, state by state: entry `k`
-/// of state `i` at `i * state + offsets[k]`. Of an argument that is the same for all
-/// states, `state` is 0.
+/// The places of the entries of an argument or a result in a slice, state by state: entry `k` of
+/// state `i` is at `i * state + offsets[k]`. `state` is 0 for an argument that all states share.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
     /// The distance of a state from the one before.
@@ -30,13 +29,11 @@ impl Place {
         }
     }
 
-    /// Returns where the entries of a state lie.
     pub(crate) fn entries(&self, state: usize) -> impl Iterator<Item = usize> {
         let first = state * self.state;
         self.offsets.iter().map(move |offset| first + offset)
     }
 
-    /// Checks that all entries are in a slice of this length.
     pub(crate) fn check(
         &self,
         place: usize,

@@ -7,7 +7,6 @@ use dalembert_sines::text::{Angle, Number, Rounded, rest};
 
 use crate::emit::{Call, Emitter};
 
-/// A number of the text: a value of the function.
 #[derive(Clone, Copy)]
 struct Traced<'e, 'f>(Value, &'e Emitter<'f>);
 
@@ -46,8 +45,7 @@ impl<T: Into<f64>> Number<T> for Traced<'_, '_> {
     }
 }
 
-/// Sines and cosines of angles together: the polynomials, then one question for all
-/// whether a library is needed.
+/// One question for all angles: whether a library is needed.
 pub(crate) fn together<T>(emitter: &Emitter<'_>, angles: &[Value]) -> Vec<(Value, Value)>
 where
     T: Angle + Into<f64>,
@@ -70,8 +68,7 @@ where
     }
 }
 
-/// Turns by how many quarter turns there are: as `turned` of `dalembert-sines`, operation by
-/// operation.
+/// As `turned` of `dalembert-sines`, operation by operation.
 fn turned(
     emitter: &Emitter<'_>,
     sign: usize,

@@ -1,9 +1,8 @@
 //! The generic runtime: the dynamics of any arm, without generated code.
 //!
 //! It evaluates the formulas of [`outputs`](crate::outputs) as textbooks have them, by the
-//! recursion of Table 2 in its most accurate form
-//! ([`Formulation::NewtonEulerLinkDifferences`]), in f64 or f32, with nalgebra vectors at
-//! its surface. Generated code is checked against it.
+//! recursion of Table 2 in its most accurate form ([`Formulation::NewtonEulerLinkDifferences`]), in
+//! f64 or f32, with nalgebra vectors at its surface. Generated code is checked against it.
 
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
@@ -105,10 +104,9 @@ impl<T: Float> JointVectors<T> {
 
 /// The dynamics of one arm in floating point.
 ///
-/// All vectors are of length n, from the base to the hand: q in rad or m, q̇
-/// and q̈ in the same per second, torques in N·m, or N at a prismatic joint.
-/// A vector of another length is a [`WrongLength`] error; NaN and infinities
-/// spread to the outputs.
+/// All vectors are of length n, from the base to the hand: q in rad or m, q̇ and q̈ in the same per
+/// second, torques in N·m, or N at a prismatic joint. A vector of another length is a
+/// [`WrongLength`] error; NaN and infinities spread to the outputs.
 ///
 /// ```
 /// use dalembert_model::equations::frames::Frames;
@@ -187,8 +185,7 @@ impl<T: Float> Reference<T> {
 
     /// Computes the entries of a quantity, row by row, by its own formula.
     ///
-    /// A full regressor is over all parameters of all links; any other takes its columns
-    /// from `at`.
+    /// A full regressor is over all parameters of all links; any other takes its columns from `at`.
     ///
     /// # Errors
     /// A vector that the quantity depends on has another length than the arm has joints.
@@ -199,7 +196,6 @@ impl<T: Float> Reference<T> {
         let mut given = Vec::with_capacity(Argument::COUNT);
         for argument in Argument::ALL {
             given.push(match argument {
-                // The arm has them.
                 Argument::Gravity | Argument::Load | Argument::Payload => Vec::new(),
                 _ if quantity.arguments().contains(&argument) => {
                     self.values(argument, vector(argument))?.to_vec()
@@ -323,7 +319,6 @@ impl<T: Float> Reference<T> {
         Ok(poses(&self.whole, &self.whole_at(q)?))
     }
 
-    /// Computes a quantity from the vectors that it depends on, in the order of its arguments.
     fn vector<const N: usize>(
         &self,
         quantity: Quantity,
@@ -362,7 +357,6 @@ impl<T: Float> Reference<T> {
         links.zip(q).map(position).collect()
     }
 
-    /// Returns the rows whose joints follow none.
     fn rows(&self) -> Vec<usize> {
         let mut rows: Vec<usize> = (0..self.arm.links.len()).collect();
         rows.retain(|row| self.arm.following.iter().all(|own| own.row != *row));
@@ -386,7 +380,6 @@ impl<T: Float> Reference<T> {
     }
 }
 
-/// Returns the arm with its Coulomb friction at these velocities.
 fn at_speeds<'a, T: Float>(arm: &'a Arm<T>, qd: &[T]) -> Cow<'a, Arm<T>> {
     let links = &arm.links;
     if links.iter().all(|link| link.friction.coulomb.is_none()) {

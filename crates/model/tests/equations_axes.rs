@@ -12,7 +12,6 @@ use dalembert_model::robot::Convention;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
 
-/// The twists of a chain: along, against and across the axis before.
 #[derive(Clone, Copy)]
 enum Twist {
     Along,
@@ -33,7 +32,6 @@ fn arm(convention: Convention, twists: &[Twist], slides: u32, points: &mut Point
     arm.map(|x| Known(*x))
 }
 
-/// Returns every choice of axes within what the links allow.
 fn choices(chain: &Chain<Known>) -> Vec<Vec<i32>> {
     let mut all: Vec<Vec<i32>> = vec![Vec::new()];
     for [less, more] in chain.freedoms() {
@@ -114,12 +112,10 @@ fn axes_change_nothing() {
             seen += compare(&arm(convention, twists, slides, &mut points), &mut points);
         }
     }
-    // Enough of them differ from the frames that turn with their links.
     assert!(seen > 300, "{seen}");
 }
 
-/// A turn about y after a twist makes axes askew that the twist alone leaves
-/// parallel: the chain takes it as part of the constant step.
+/// A turn about y after a twist makes axes askew that the twist alone leaves parallel.
 #[test]
 fn a_turn_about_y_is_part_of_the_step() {
     let mut points = Points::new(0xbe7a);

@@ -9,8 +9,6 @@ use dalembert_model::robot::{Convention, JointKind};
 use dalembert_model::scalar::count::{Count, Counter};
 use dalembert_model::scalar::field::Points;
 
-/// Returns the multiplications and additions of τ for a generic arm of n revolute joints,
-/// θ_i given.
 fn generic(formulation: Formulation, n: usize) -> (u64, u64) {
     let counter = Counter::new();
     let arm = random::case(Convention::Standard, n, 0, &mut Points::new(1)).arm;
@@ -22,7 +20,6 @@ fn generic(formulation: Formulation, n: usize) -> (u64, u64) {
     torques(formulation, &arm, &counter)
 }
 
-/// Returns the counts of τ at a general state.
 fn torques<'a>(formulation: Formulation, arm: &Arm<Count<'a>>, counter: &'a Counter) -> (u64, u64) {
     let [sin, cos] = [(); 2].map(|()| counter.value());
     let position = arm.links.iter().map(|link| match link.kind {
@@ -49,10 +46,9 @@ fn golden(name: &str, formulation: Formulation) -> (u64, u64) {
 
 #[test]
 fn one_joint_is_counted_as_by_hand() {
-    // Multiplications: X for ω, ω̇, v̇: 2 + 2 + 8; p* twice: 4; ω̇ × and
-    // ω × (ω × p*): 12; the same with s̄: 12; F: 3; N: 16; moment: 6; axis: 2.
-    // Additions: 4 + 9 for v̇, 9 for the centre of mass, 10 for N, 9 for the
-    // moment, 1 for the axis. ω_1 has two components.
+    // Multiplications: X for ω, ω̇, v̇: 2 + 2 + 8; p* twice: 4; ω̇ × and ω × (ω × p*): 12; the same
+    // with s̄: 12; F: 3; N: 16; moment: 6; axis: 2. Additions: 4 + 9 for v̇, 9 for the centre of
+    // mass, 10 for N, 9 for the moment, 1 for the axis. ω_1 has two components.
     let multiplications = 2 + 2 + 8 + 4 + 12 + 12 + 3 + 16 + 6 + 2;
     let by_hand = (multiplications, 4 + 9 + 9 + 10 + 9 + 1);
     assert_eq!(generic(NewtonEulerLink, 1), by_hand);

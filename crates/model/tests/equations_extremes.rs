@@ -73,10 +73,8 @@ fn wide(values: &Value) -> Vec<Wide> {
     numbers(values).into_iter().map(number).collect()
 }
 
-/// Returns max|found − truth| / max|truth| as an f64.
 fn relative(found: &[Wide], truth: &[Wide]) -> f64 {
     assert_eq!(found.len(), truth.len());
-    // Some are below the least double: compared as they are.
     let largest = |values: &mut dyn Iterator<Item = Wide>| {
         let sizes = values.map(|x| if x.is_negative() { x.neg() } else { x });
         let larger = |a: Wide, b: Wide| if a.sub(&b).is_negative() { b } else { a };
@@ -88,7 +86,6 @@ fn relative(found: &[Wide], truth: &[Wide]) -> f64 {
     error.over(&size).unwrap_or(error).magnitude()
 }
 
-/// Reads the digits of lists in lists, of which some are beyond what a robot file may hold.
 fn digits(json: &Value) -> Vec<Wide> {
     if let Value::Array(items) = json {
         return items.iter().flat_map(digits).collect();
@@ -99,7 +96,6 @@ fn digits(json: &Value) -> Vec<Wide> {
     vec![Wide::from_rational(&(parse_decimal(digits).unwrap() * ten))]
 }
 
-/// Checks τ, D, h and c of a case to 28 digits.
 fn check_digits(case: &Value, arm: &Arm<Wide>, formulation: Formulation) {
     let at = placed(arm, &numbers(&case["q"]), number, pair);
     let [qd, qdd] = ["qd", "qdd"].map(|key| wide(&case[key]));
@@ -118,8 +114,6 @@ fn check_digits(case: &Value, arm: &Arm<Wide>, formulation: Formulation) {
     }
 }
 
-/// The link-frame recursion meets every extreme, with the base folded too; every formulation
-/// meets the short ones.
 #[test]
 fn wide_floats_have_28_digits() {
     let cases = golden::extremes();
@@ -150,7 +144,6 @@ fn the_runtime_in_f32_stays_within_100_u() {
         if out_of_range.split(' ').any(|own| case["category"] == own) {
             continue;
         }
-        // The same arm and state in both: parameters rounded to f32.
         let runtime = Reference::new(extreme(&case, |x| x as f32, near_pair));
         let truth = extreme(&case, |x| exact(&(x as f32)), |x| near_pair(x).map(exact));
         let [q, qd, qdd] =

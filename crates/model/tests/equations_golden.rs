@@ -26,7 +26,6 @@ fn formulations_give_the_golden_states() {
     }
 }
 
-/// The runtime of the arm in the golden file, and that of the robot file.
 #[test]
 fn runtimes_give_the_golden_states() {
     for name in ROBOTS {

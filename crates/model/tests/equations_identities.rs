@@ -13,7 +13,6 @@ use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
 
-/// Returns τ, D, c and h of a formulation, and the Christoffel symbols.
 fn outputs(formulation: Formulation, Case { arm, at, qd, qdd }: &Case) -> [Vec<Field>; 5] {
     [
         formulation.inverse_dynamics(arm, at, qd, qdd),
@@ -24,8 +23,6 @@ fn outputs(formulation: Formulation, Case { arm, at, qd, qdd }: &Case) -> [Vec<F
     ]
 }
 
-/// Returns how many of all entries do not vanish, and how many of these differ by more than a
-/// sign.
 fn nonzero_and_distinct(entries: impl IntoIterator<Item = Field>) -> (usize, usize) {
     let nonzero: Vec<Field> = entries.into_iter().filter(|h| *h != Field::ZERO).collect();
     let sizes: BTreeSet<Field> = nonzero.iter().map(|h| *h.min(&h.neg())).collect();
@@ -46,11 +43,9 @@ fn all_rotary_chains_have_as_many_symbols_as_counted() {
     }
 }
 
-/// The special cases of two robots, by their exact parameters: the h_ikm that vanish or coincide.
 #[test]
 fn zeros_and_coincidences_are_those_known() {
     let exact = Formulation::LagrangeEuler;
-    // The decimal number that a float is written as.
     let decimal = |x: &f64| Field::from_rational(&parse_decimal(&format!("{x:e}")).unwrap());
     let lower = |rows: &[Vec<Field>]| -> Vec<Field> {
         (0..6).flat_map(|m| rows[m][..=m].to_vec()).collect()
@@ -69,14 +64,12 @@ fn zeros_and_coincidences_are_those_known() {
     }
 }
 
-/// fold_base changes no output, and leaves no length that has no effect.
 #[test]
 fn the_base_folds_without_a_trace() {
     let mut points = Points::new(24);
     let four = random::every_kind(4, &mut points)
         .into_iter()
         .filter(|case| case.qd.len() == 4);
-    // Each axis in turn the first that is not parallel to the one before.
     for (mut case, parallel) in four.flat_map(|case| [0, 1, 2, 3].map(|p| (case.clone(), p))) {
         for link in &mut case.arm.links[..parallel] {
             (link.alpha.sin, link.alpha.cos) = (Field::ZERO, Field::ONE);
@@ -84,7 +77,6 @@ fn the_base_folds_without_a_trace() {
         let folded = case.arm.clone().fold_base();
         let mut lengths = case.arm.links.iter().zip(&folded.links);
         assert!(lengths.any(|(a, b)| a.d != b.d));
-        // Positions are applied after folding, as a runtime does.
         let position = random::position(&folded, &mut points, |x| x);
         let of = |arm: &Arm<Field>| {
             let (arm, at) = (arm.clone(), arm.at(&position));
@@ -95,7 +87,6 @@ fn the_base_folds_without_a_trace() {
         let kinds: Vec<JointKind> = folded.links.iter().map(|link| link.kind).collect();
         let what = format!("{:?} {kinds:?} {parallel}", folded.convention);
         assert_eq!(of(&folded), truth, "{what}");
-        // What was kept has an effect.
         for i in (0..4).filter(|i| folded.links[*i].d != Field::ZERO) {
             let mut changed = folded.clone();
             changed.links[i].d = points.field();

@@ -12,7 +12,6 @@ use dalembert_model::robot::Convention;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
 
-/// Returns an arm whose first three axes meet, four if `four`.
 fn arm(n: usize, slides: u32, four: bool, points: &mut Points) -> Arm<Known> {
     let mut arm = random::case(Convention::Modified, n, slides, points).arm;
     let meeting = if four { 4 } else { 3 };
@@ -34,7 +33,6 @@ fn chain(arm: &Arm<Known>) -> Chain<Known> {
     Chain::new(&skeleton, &Regrouping::base(&skeleton))
 }
 
-/// Finds q̈ in each form, by itself or with the tip eliminated before, and compares torques.
 fn compare(arm: &Arm<Known>, moves: &[bool], by_tip: bool, points: &mut Points) {
     let position = random::position(arm, points, Known);
     let [qd, tau] = [(); 2].map(|()| known(&random::fields(arm.links.len(), points)));
@@ -42,7 +40,6 @@ fn compare(arm: &Arm<Known>, moves: &[bool], by_tip: bool, points: &mut Points) 
     assert!(chain.has_shoulder());
     let (posed, at) = chain.posed(&position);
     let composite = Composite::new(&posed, &at);
-    // Those that solve for a shoulder as one.
     for form in Form::with_shoulder(&Form::all(true, true, false, HandChoice::None)) {
         let given = [&qd[..], &tau];
         let found = match by_tip {
@@ -101,7 +98,6 @@ fn so_they_are_where_the_tip_is_eliminated_before() {
 #[test]
 fn a_shoulder_has_axes_that_meet_and_joints_beyond() {
     let mut points = Points::new(0x5403);
-    // One joint beyond is too few.
     let mut arms = vec![arm(4, 0, false, &mut points), arm(5, 0, true, &mut points)];
     for missed in [1, 2] {
         let mut arm = arm(7, 0, false, &mut points);

@@ -9,13 +9,10 @@ use dalembert_model::equations::{DhVariables, Formulation};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
 
-/// What happens to one addition or subtraction of a formula.
 #[derive(Clone, Copy, PartialEq)]
 enum Slip {
     None,
-    /// a + b becomes a − b.
     Sign,
-    /// a + b becomes a.
     Dropped,
     /// a + b becomes anything: harmless only if nothing depends on it.
     Random,
@@ -27,7 +24,6 @@ thread_local! {
     static ADDITIONS: Cell<u64> = const { Cell::new(0) };
 }
 
-/// Returns a + b, or what a slip that is planned makes of it.
 pub fn added(a: Field, b: Field) -> Field {
     ADDITIONS.set(ADDITIONS.get() + 1);
     let (left, slip) = PLAN.get();

@@ -19,14 +19,12 @@ fn without(robot: &Robot) -> Robot {
     robot
 }
 
-/// Returns the runtimes of the arm with its friction and without.
 fn both() -> [Reference<f64>; 2] {
     [&robot(), &without(&robot())].map(Reference::from_robot)
 }
 
 const Q: [f64; 3] = [0.4, 0.1, -1.1];
 
-/// What it is, the keys of the file apart.
 const FORCES: [f64; 3] = [2.5, 14.0, 0.0];
 const WIDTHS: [f64; 3] = [0.01, 1.0 / 300.0, 1.0];
 
@@ -38,7 +36,6 @@ const VELOCITIES: [[f64; 3]; 4] = [
     [0.0, 0.0, 0.0],
 ];
 
-/// Returns F q̇/√(q̇² + w²) by the platform's own hypotenuse.
 fn by_hand(qd: &[f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| FORCES[i] * qd[i] / qd[i].hypot(WIDTHS[i]))
 }
@@ -55,8 +52,7 @@ fn passivity(arm: &Reference<f64>, vectors: [&DVector<f64>; 4]) -> DVector<f64> 
     DVector::from_vec(arm.entries(Quantity::Passivity, &at).unwrap())
 }
 
-/// τ has it beside everything else, and τ with it moves the arm as τ without it
-/// does; with v = q̇ and a = q̈ passivity is inverse dynamics.
+/// With v = q̇ and a = q̈ passivity is inverse dynamics.
 #[test]
 fn the_runtime_has_the_torque_of_the_textbook() {
     let [with, plain] = both();
@@ -69,7 +65,6 @@ fn the_runtime_has_the_torque_of_the_textbook() {
         let found = with.forward_dynamics(&q, &qd, &tau).unwrap();
         let less = plain.forward_dynamics(&q, &qd, &(&tau - &friction));
         close(&found, &less.unwrap());
-        // What is none of τ has no friction in it.
         let parts = |arm: &Reference<f64>| {
             let d = arm.inertia(&q).unwrap();
             (d, arm.coriolis(&q, &qd).unwrap(), arm.gravity(&q).unwrap())
@@ -78,8 +73,7 @@ fn the_runtime_has_the_torque_of_the_textbook() {
     }
 }
 
-/// Passivity takes the damping that the friction is at q̇, and of v the whole: with
-/// another v it is F v/√(q̇² + w²).
+/// The damping is that of the friction at q̇: with another v it is F v/√(q̇² + w²).
 #[test]
 fn passivity_takes_friction_as_a_damping() {
     let [with, plain] = both();
@@ -91,8 +85,6 @@ fn passivity_takes_friction_as_a_damping() {
     close(&passivity(&with, [&q, &qd, &v, &a]), &expected);
 }
 
-/// The written file is read back as the same robot, and a robot without friction has
-/// the text, and so the hash, that it had.
 #[test]
 fn files_keep_it() {
     let (robot, plain) = (robot(), without(&robot()));
@@ -103,7 +95,6 @@ fn files_keep_it() {
     assert!(!written(&plain).contains("coulomb_"));
 }
 
-/// A width alone is none: there is nothing that it smooths.
 #[test]
 fn a_width_without_a_force_changes_nothing() {
     let mut idle = without(&robot());

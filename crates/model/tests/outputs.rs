@@ -14,8 +14,7 @@ use dalembert_model::scalar::dual::Dual;
 use dalembert_model::scalar::field::{Field, Points};
 use dalembert_model::scalar::{Divide, Scalar};
 
-/// Every function with its arguments, and its results' axes for six joints and
-/// 36 base parameters.
+/// Every function with its arguments, and its results' axes for six joints and 36 base parameters.
 const GOLDEN: [&str; 35] = [
     "inverse_dynamics(q, qd, qdd) -> tau[6]",
     "gravity(q) -> c[6]",
@@ -86,19 +85,15 @@ fn golden_list() {
     assert!(names.eq(by_default.split(' ')), "what a controller calls");
 }
 
-/// Returns every kind pattern up to three joints, then one of six, then links with a
-/// turn about y; all of them again with a base and a tool.
 fn cases() -> Vec<Case> {
     let mut points = Points::new(0x6f75);
     let mut cases = random::every_kind(3, &mut points);
     cases.extend(CONVENTIONS.map(|own| case(own, 6, 0b001010, &mut points)));
-    // Nearly parallel axes: the turn about y that only standard DH has.
     for bits in [0b00, 0b01, 0b10] {
         let mut tilted = case(Convention::Standard, 3, bits, &mut points);
         for link in &mut tilted.arm.links {
             link.beta = Some(pair(&mut points));
         }
-        // And a joint with viscous friction alone.
         tilted.arm.links[1].friction.coulomb = None;
         cases.push(tilted);
     }
@@ -111,7 +106,6 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Returns the values of a quantity as a formulation writes it.
 fn written(
     quantity: Quantity,
     formulation: Formulation,
@@ -129,15 +123,12 @@ fn written(
     })
 }
 
-/// Formulations share as little as they can: for each quantity all of them
-/// give what Lagrange–Euler gives.
 #[test]
 fn formulations_agree_on_every_quantity() {
     for case in cases() {
         let (mut points, n) = (Points::new(7), case.qd.len());
         let mut motion = driven(&case, &vec![true; n], &mut points);
         motion.qdd = case.qdd.clone();
-        // Columns of bodies that no parameter has by itself, and of drives.
         let columns = columns(&case, &mut points);
         for &quantity in Quantity::ALL {
             let by = |formulation| written(quantity, formulation, &case, &motion, &columns);
@@ -155,7 +146,6 @@ fn formulations_agree_on_every_quantity() {
     }
 }
 
-/// Returns as many columns as a full regressor has.
 fn columns(case: &Case, points: &mut Points) -> Vec<Column<Field>> {
     let n = case.arm.links.len();
     let mut columns = of_links(&case.arm);
@@ -173,8 +163,7 @@ fn columns(case: &Case, points: &mut Points) -> Vec<Column<Field>> {
     columns
 }
 
-/// τ = Y π and D a + C v + c + b∘v = Y π with π of the links, in their own frames, and what the
-/// drives add.
+/// τ = Y π and D a + C v + c + b∘v = Y π with π of the links, in their own frames.
 #[test]
 fn regressors_give_the_torques() {
     let mut points = Points::new(0x7265);
@@ -196,7 +185,6 @@ fn regressors_give_the_torques() {
     }
 }
 
-/// Returns Y π of the links, and what friction and rotors take at these rates.
 fn products(
     arm: &Arm<Field>,
     y: &[Vec<Field>],
@@ -215,13 +203,11 @@ fn dot(a: &[Field], b: &[Field]) -> Field {
     products.fold(Field::ZERO, |sum, x| sum.add(&x))
 }
 
-/// Returns what friction and rotor of a joint take.
 fn drive(link: &Link<Field>, rate: &Field, acceleration: &Field) -> Field {
     let friction = link.friction.torque(rate);
     friction.add(&link.armature.mul(acceleration))
 }
 
-/// Returns the arm and its position as they change at the case's velocities.
 fn moving(case: &Case) -> (Arm<Dual<Field>>, Vec<DhVariables<Dual<Field>>>) {
     let links = case.arm.links.iter().zip(&case.at).zip(&case.qd);
     let at = links.map(|((link, at), &rate)| {
@@ -294,7 +280,6 @@ fn energy_and_wrenches_belong_to_the_torques() {
     }
 }
 
-/// Returns the case with torques, where only some joints move.
 fn driven(case: &Case, moves: &[bool], points: &mut Points) -> Motion<Field> {
     let rates = case.qd.iter().zip(moves);
     let held = rates.map(|(x, moves)| if *moves { *x } else { Field::zero() });
@@ -306,9 +291,7 @@ fn driven(case: &Case, moves: &[bool], points: &mut Points) -> Motion<Field> {
     motion
 }
 
-/// D q̈ + h + c + b∘q̇ = τ and D D⁻¹ = 1 over the joints that move, whichever
-/// do, of every formulation; what is held does not move, and a residual of
-/// anything else does not vanish.
+/// A residual of anything else than the solution does not vanish.
 #[test]
 fn forward_dynamics_solves_the_equations_of_motion() {
     let mut points = Points::new(0x6664);

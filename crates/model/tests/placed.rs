@@ -7,8 +7,6 @@ use dalembert_model::number::Angle;
 use dalembert_model::robot::Robot;
 use num_traits::{Signed, ToPrimitive};
 
-/// Right angles and decimals: the rows come out as somebody wrote them, to the
-/// last digit of every inertia; so proofs, plans and counts are the same.
 #[test]
 fn the_same_arm_is_the_same_robot() {
     for (placed, rows) in [
@@ -26,7 +24,6 @@ fn the_same_arm_is_the_same_robot() {
     }
 }
 
-/// Checks torques and poses of an arm, and returns its robot.
 fn check(arm: &Arm, drawn: &mut Drawn, what: &str) -> Robot {
     let text = file(arm);
     let robot = reading(&text).robot;
@@ -35,20 +32,16 @@ fn check(arm: &Arm, drawn: &mut Drawn, what: &str) -> Robot {
     robot
 }
 
-/// Arms of any kind, at any state: torques, gravity's among them, and the pose
-/// of the tool.
 #[test]
 fn torques_and_poses_are_those_of_the_frames() {
     for seed in 0..60 {
         let mut drawn = Drawn::new(seed);
         let arm = drawn.arm(1 + seed as usize % 7);
         let robot = check(&arm, &mut drawn, &format!("seed {seed}"));
-        // The text of what was derived says the same robot.
         assert!(written(&robot).contains("convention = \"standard\""));
     }
 }
 
-/// What a scene's hand carries is given in the last link's own frame too.
 #[test]
 fn payloads_move_with_the_frame() {
     for seed in 0..8 {
@@ -65,8 +58,7 @@ fn payloads_move_with_the_frame() {
     }
 }
 
-/// Returns two axes 0.4 m apart, the second tilted towards the first by an angle in
-/// the plane of both, or across.
+/// The axes are 0.4 m apart, the second tilted towards the first in the plane of both, or across.
 fn tilted(radians: &str, about: usize) -> Robot {
     let mut rpy = ["0", "0", "0"];
     rpy[about] = radians;
@@ -85,7 +77,6 @@ fn tilted(radians: &str, about: usize) -> Robot {
     reading(&text).robot
 }
 
-/// The common normal of nearly parallel axes is far away; the lengths are not.
 #[test]
 fn nearly_parallel_axes_stay_near() {
     let largest = |robot: &Robot| {
@@ -110,14 +101,11 @@ fn nearly_parallel_axes_stay_near() {
     assert!(robot.joints[0].beta.is_zero());
     let far = largest(&robot);
     assert!((20.0..30.0).contains(&far), "{far} m");
-    // Closer than any digit: parallel.
     let robot = tilted("1e-60", 1);
     assert_eq!(robot.joints[0].alpha, Angle::default());
     assert!(robot.joints[0].beta.is_zero());
 }
 
-/// And the torques are right on both sides of the threshold, down to angles
-/// that a double's digits cannot tell from none.
 #[test]
 fn nearly_parallel_axes_have_the_torques_of_the_frames() {
     for exponent in 0..20 {
@@ -151,10 +139,8 @@ fn errors_say_where_and_what() {
         assert_eq!(found.line.to_string(), line, "{to}");
         has(found, &message, &help);
     }
-    // Once, at the line that has it, and of nothing that follows from it.
     let far = placed.replace("xyz = [0, 0, 0.387]", "xyz = [0, 0, 387]");
     only(&reading(&far).notes);
-    // A convention that says what there is does no harm.
     let said = placed.replacen("gravity", "convention = \"standard\"\ngravity", 1);
     assert_eq!(reading(&said).robot, reading(&placed).robot);
 }

@@ -1,5 +1,4 @@
-//! Angles: the forms they are written in, and when a number of radians
-//! counts as a right angle.
+//! Angles: the forms they are written in, and when a number of radians counts as a right angle.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -10,7 +9,6 @@ use dalembert_model::read::{Severity, parse};
 use dalembert_model::scalar::field::Points;
 use num_traits::ToPrimitive;
 
-/// Every form means what it says, and prints as the shortest one.
 #[test]
 fn forms() {
     let pi = |n, d| Angle::PiTimes(ratio(n, d));
@@ -56,13 +54,11 @@ fn values() {
     assert_eq!(Angle::Radians(ratio(0, 1)).canonical(), Angle::default());
 }
 
-/// Returns the double that is `steps` away from `value`.
 fn ulps(value: f64, steps: i64) -> f64 {
     f64::from_bits((value.to_bits() as i64 + steps) as u64)
 }
 
 fn apply(value: f64) -> Snapped {
-    // Through the shortest text, as a file has it.
     Snapped::of_radians(parse_decimal(&format!("{value:?}")).expect("a number"))
 }
 
@@ -83,7 +79,6 @@ fn snapping_at_its_borders() {
             }
         }
     }
-    // Beyond a full turn nothing snaps.
     assert!(matches!(apply(5.0 * FRAC_PI_2), Snapped::Near { .. }));
 }
 
@@ -108,7 +103,6 @@ fn near_misses() {
     }
 }
 
-/// What the reader says about angles, and what it makes of them.
 #[test]
 fn in_a_file() {
     let head = "name = \"arm\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n[[joint]]\n\
@@ -139,7 +133,6 @@ fn in_a_file() {
     }
 }
 
-/// Literals are read to the last digit, and refused before they cost much.
 #[test]
 fn decimals() {
     let power = |n: u32| Rational::from_integer(num_bigint::BigInt::from(10).pow(n));
@@ -173,7 +166,6 @@ fn decimals() {
     }
 }
 
-/// Whatever is written is read back; doubles are the hard cases.
 #[test]
 fn decimals_round_trip() {
     let mut points = Points::new(7);

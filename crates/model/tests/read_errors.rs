@@ -29,7 +29,6 @@ type Row = (&'static str, &'static str, &'static str, &'static str);
 
 #[rustfmt::skip]
 const ROWS: &[Row] = &[
-    // The robot.
     ("name = \"arm\"", "", "the robot has no `name`", "name = \"puma560\""),
     ("convention = \"standard\"", "", "the robot has no `convention`", "\"modified\""),
     ("gravity = [0, 0, -9.81]", "", "the robot has no `gravity`", "m/s²"),
@@ -56,7 +55,6 @@ const ROWS: &[Row] = &[
     ("[[joint]]", "[[joints]]", "the robot has no `joint`", ""),
     ("name = \"arm\"", "name = \"arm\"\nnotes = \"soft\"", "expected an array of strings", "notes = ["),
     ("name = \"arm\"", "name = \"arm\"\nnotes = [\"a\\nb\"]", "a note has a character that controls text", "in one line"),
-    // Keys of a joint.
     ("kind = \"revolute\"", "", "joint 1 has no `kind`", "prismatic"),
     ("mass = 2", "", "joint 1 has no `mass`", "mass = 0"),
     ("com = [0, 0.1, 0]", "", "joint 1 has no `com`", "only a link with mass = 0"),
@@ -75,7 +73,6 @@ const ROWS: &[Row] = &[
     ("name = \"waist\"", "name = \"2\"", "joint 1 is called \"2\", which is a joint's number and not its own", "write \"joint_2\""),
     ("name = \"waist\"", "name = \"+02\"", "a joint's number and not its own", "write \"joint_2\""),
     ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [1, 1, -1, 0, 0, 0]", "a principal moment is negative", "about the centre of mass"),
-    // Numbers and angles.
     ("mass = 2", "mass = nan", "`nan` is not a finite number", ""),
     ("mass = 2", "mass = -inf", "`-inf` is not a finite number", ""),
     ("mass = 2", "mass = -2", "mass is negative", "zero or more"),
@@ -113,14 +110,12 @@ const ROWS: &[Row] = &[
     ("alpha = \"pi/2\"", "alpha = 90deg", "`90deg` is not a number", "write \"90deg\", in quotes"),
     ("alpha = \"pi/2\"", "alpha = 3*pi/4", "found `*`", "in quotes"),
     ("offset = 0.1", "offset = \"ninety\"", "expected an angle", ""),
-    // Vectors and tensors.
     ("com = [0, 0.1, 0]", "com = [0, 0.1]", "expected an array of 3", "com ="),
     ("com = [0, 0.1, 0]", "com = { x = 1 }", "expected an array of 3, found a table", ""),
     ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [1, 1, 1]", "expected 6 numbers or 3 rows of 3, found an array of 3", "Ixx"),
     ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [1, [2], 3, 4, 5, 6]", "expected a number, found an array of 1", "SI units"),
     ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [[1,0,0],[0,1],[0,0,1]]", "expected an array of 3, found an array of 2", ""),
     ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [[1,0,0.1],[0,1,0],[0.2,0,1]]", "row 1, column 3 is not row 3, column 1", "same number"),
-    // Limits.
     ("limits = {", "limits = { speed = 2,", "unknown key `speed`", "limits has: position, velocity"),
     ("position = [-1, 1]", "position = [1, -1]", "the lowest position is not below the highest", "[lowest, highest]"),
     ("position = [-1, 1]", "position = [\"pi\", \"180deg\"]", "the lowest position is not below", ""),
@@ -131,14 +126,12 @@ const ROWS: &[Row] = &[
     ("velocity = 2", "velocity = \"120deg/s\"", "expected a number", "write 2.0944"),
     ("acceleration = 3", "acceleration = \"90deg\"", "expected a number", "in rad/s², as a number: write 1.5708"),
     ("torque = 4", "torque = inf", "not a finite number", "leave the key out"),
-    // TOML itself.
     ("a = 0.5", "a = 0.5\na = 0.6", "the key `a` is defined twice", "line 8"),
     ("name = \"arm\"", "name = \"arm", "the string does not end on its line", "quotation mark"),
     ("inertia = [1, 1, 1, 0, 0, 0]", "inertia = [1, 1", "", ""),
     ("a = 0.5", "a =", "expected a value, found a newline", ""),
     ("a = 0.5", "a 0.5", "expected an equals", ""),
     ("a = 0.5", "a = \"\\q\"", "invalid escape", ""),
-    // Not TOML, but nearly.
     ("mass = 2", "mass = 04", "`04` begins with a zero", "write 4"),
     ("mass = 2", "mass = -00.5", "`-00.5` begins with a zero", "write -0.5"),
     ("mass = 2", "mass = \u{2212}4", "the character `\u{2212}` (U+2212)", "minus of the keyboard"),
@@ -168,7 +161,6 @@ fn one_row_a_case() {
     }
 }
 
-/// A file of another format is told apart, in one error.
 #[test]
 fn other_formats() {
     for (source, format) in [
@@ -182,12 +174,10 @@ fn other_formats() {
     ] {
         has(only(&errors(source)), format, "TOML");
     }
-    // A slip in TOML is no other format.
     let found = errors("name = \"arm\"\ngravity: [0, 0, 1]\n");
     assert!(!found[0].message.contains("YAML"), "{found:?}");
 }
 
-/// The line is that of the value that is wrong.
 #[test]
 fn lines_and_columns() {
     for (what, by, line, column) in [
@@ -206,7 +196,6 @@ fn lines_and_columns() {
     }
 }
 
-/// Nothing hides anything else, and the order is that of the file.
 #[test]
 fn all_at_once() {
     let source = GOOD
@@ -219,7 +208,6 @@ fn all_at_once() {
     assert_eq!(lines, [1, 8, 12, 13, 13, 17]);
 }
 
-/// The printed form, with carets under what is wrong.
 #[test]
 fn rendering() {
     let source = GOOD.replace("viscous = 0.1", "\tviscuos = 0.1");
@@ -231,7 +219,6 @@ fn rendering() {
     assert_eq!(errors.to_string(), line);
 }
 
-/// Robots beyond the limits on their size.
 #[test]
 fn joints() {
     let head = "name = \"arm\"\nconvention = \"standard\"\ngravity = [0, 0, 0]\n";
@@ -250,7 +237,6 @@ fn joints() {
     has(&errors(&format!("joint = []\n{head}"))[0], "not 0", "");
 }
 
-/// Input that would cost too much is refused, quickly and with a reason.
 #[test]
 fn limits_on_the_input() {
     let long = "x".repeat(100_000);
@@ -269,7 +255,6 @@ fn limits_on_the_input() {
         has(only(&found), message, "");
         assert!(found[0].render("f", &source).len() < 1000);
     }
-    // Long literals and name lists stay within bounds too.
     let digits = "1".repeat(1000);
     let found = errors(&GOOD.replace("mass = 2", &format!("mass = 0.{digits}")));
     has(&found[0], "more than 800 digits", "");

@@ -1,6 +1,5 @@
-//! No input makes the reader panic or hang, whatever is in it: arbitrary
-//! bytes, pieces of TOML in any order, and robot files with pieces moved,
-//! doubled, cut out and overwritten.
+//! No input makes the reader panic or hang, whatever is in it: arbitrary bytes, pieces of TOML in
+//! any order, and robot files with pieces moved, doubled, cut out and overwritten.
 
 use crate::support::{data, replaced, written};
 use dalembert_model::number::Angle;
@@ -12,14 +11,12 @@ fn below(points: &mut Points, n: usize) -> usize {
     (points.bits() % n.max(1) as u64) as usize
 }
 
-/// Returns the runs of every day times `FUZZ_TIMES`.
 fn multiplied(runs: usize) -> usize {
     let times = std::env::var("FUZZ_TIMES").ok();
     let times: Option<usize> = times.and_then(|times| times.parse().ok());
     runs * times.unwrap_or(1)
 }
 
-/// Checks texts as they are drawn.
 fn fuzz(seed: u64, runs: usize, draw: impl Fn(&mut Points) -> Vec<u8>) {
     let mut random = Points::new(seed);
     (0..multiplied(runs)).for_each(|_| check(&draw(&mut random)));
@@ -37,8 +34,6 @@ fn piece(random: &mut Points) -> &'static str {
     pieces[below(random, pieces.len())]
 }
 
-/// Asserts that whatever comes back makes sense: positions within the text, errors printable,
-/// robots valid and able to go round.
 fn check(bytes: &[u8]) {
     let source = core::str::from_utf8(bytes).unwrap_or("");
     match parse_bytes(bytes) {
@@ -69,8 +64,7 @@ fn arbitrary_bytes() {
     }
 }
 
-/// Table headers, dotted keys and arrays of tables that contradict each other:
-/// where a TOML parser has its assertions.
+/// Tables that contradict each other: where a TOML parser has its assertions.
 #[test]
 fn tables_in_any_order() {
     fuzz(5, 8000, |random| {
@@ -114,7 +108,6 @@ fn mutated_robots() {
     fuzz(3, 8000, |random| mutated(&seeds, 6, random));
 }
 
-/// The same with joints that are placed: rows are derived of whatever reads.
 #[test]
 fn mutated_placements() {
     let seeds = ["scara_placed.toml", "puma560_placed.toml"].map(|name| {
@@ -123,7 +116,6 @@ fn mutated_placements() {
         replaced(&data(name), "\n[[joint]]", &format!("{ends}\n[[joint]]"))
     });
     fuzz(5, 800, |random| mutated(&seeds, 3, random));
-    // Numbers as large and as small as they may be.
     for (from, to) in [
         ("0.387", "1e300"),
         ("0.387", "1e-300"),
@@ -154,7 +146,6 @@ fn mutate(bytes: &mut Vec<u8>, random: &mut Points) {
                 *byte = random.bits() as u8;
             }
         }
-        // Digits for digits: what is still a robot file.
         _ => {
             let behind = bytes.iter_mut().skip(at);
             for byte in behind.filter(|b| b.is_ascii_digit()).take(3) {

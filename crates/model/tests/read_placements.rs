@@ -7,7 +7,6 @@ use dalembert_model::outputs::{Argument, Function};
 use dalembert_model::reference::{JointVectors, Reference};
 use dalembert_model::robot::{Placement, Robot};
 
-/// Returns two joints, nothing of them zero, with more of the robot's own keys.
 fn file(more: &str) -> String {
     format!(
         "name = \"arm\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n{more}\n\
@@ -40,8 +39,6 @@ fn read_and_written_back() {
     }
 }
 
-/// A placement that moves nothing says what leaving it out says: one hash,
-/// one plan, one text.
 #[test]
 fn what_moves_nothing_is_none() {
     let said = robot("base = { xyz = [0, 0, 0], rpy = [0, 0, 0] }\ntool = {}");
@@ -49,8 +46,7 @@ fn what_moves_nothing_is_none() {
     assert_eq!(written(&said), written(&robot("")));
 }
 
-/// A scene's payload is given in the frame that the file says, moved and turned: by
-/// Rz(π/2), x′ = −y and y′ = x.
+/// By Rz(π/2), x′ = −y and y′ = x.
 #[test]
 fn payloads_have_a_frame() {
     let read = |frame: &str, payload: &str| {
@@ -65,7 +61,6 @@ fn payloads_have_a_frame() {
     let moved = "com = [0.8, 2.1, 3.3], inertia = [0.03, 0.02, 0.04, -0.001, 0.003, -0.002]";
     let (plain, expected) = read("", moved);
     assert_eq!(carrying.joints, expected.joints);
-    // The file that says the same keeps both, and is another robot's.
     assert!(written(&reading.robot).contains(frame));
     assert_ne!(reading.robot.input_hash(), plain.robot.input_hash());
 }
@@ -85,8 +80,6 @@ fn errors_say_where_and_what() {
     assert_eq!(odd[0].line, 4);
 }
 
-/// The potential energy is from the base's origin: m g z more of it on a base that stands higher.
-/// What else a base and a tool change, `placed` sees.
 #[test]
 fn energy_is_in_base_axes() {
     let energy = |more: &str| {
@@ -136,7 +129,6 @@ fn frames_that_cannot_be_are_refused_where_they_stand() {
     }
 }
 
-/// A frame in the link's own frame is where it was before rows were derived.
 #[test]
 fn frames_move_over_with_their_links() {
     let text = "name = \"arm\"\ngravity = [0, 0, -9.81]\n\
@@ -152,12 +144,10 @@ fn frames_move_over_with_their_links() {
         reference.entries(quantity, &still).unwrap()
     };
     let close = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-15);
-    // At q = 0 the placements are the poses.
     let (one, two) = (at("forward_kinematics@one"), at("forward_kinematics@two"));
     let links = at("link_poses");
     for i in 0..3 {
         close(one[4 * i + 3], [0.1, 0.2, 0.3][i]);
-        // The second link's own frame, and half a metre along its y.
         let [along, origin] = [1, 3].map(|column| links[12 + 4 * i + column]);
         close(two[4 * i + 3], origin + 0.5 * along);
     }

@@ -11,7 +11,6 @@ fn robot(name: &str) -> Robot {
     reading(&generated(name)).robot
 }
 
-/// Numbers come from the source text: 0.4318 is 4318/10000, not a double.
 #[test]
 fn numbers_are_exact() {
     let puma = robot("puma560");
@@ -26,8 +25,6 @@ fn numbers_are_exact() {
     assert_eq!(rod.zz.to_f64(), Some(1.0 / 12.0));
 }
 
-/// The checked-in files silence what there is to say of inertias as published; without
-/// their `allow` it is said, at the lines of these inertias.
 #[test]
 fn notes() {
     for name in ROBOTS {
@@ -52,8 +49,6 @@ fn notes() {
     }
 }
 
-/// The canonical text says the same robot, and does not change again; all angles of these are
-/// right ones.
 #[test]
 fn round_trip() {
     for name in ROBOTS {
@@ -67,7 +62,6 @@ fn round_trip() {
     }
 }
 
-/// Every parameter takes part in the hash, and nothing else does.
 #[test]
 fn hash() {
     let puma = robot("puma560");
@@ -108,8 +102,6 @@ fn hash() {
     }
 }
 
-/// A robot filled in from doubles survives the text to the last bit, and so
-/// do numbers without a decimal.
 #[test]
 fn doubles_and_fractions_round_trip() {
     let mut robot = robot("stanford");
@@ -126,7 +118,6 @@ fn doubles_and_fractions_round_trip() {
     written(&robot);
 }
 
-/// None of the robots that are checked in is odd in a way that its file does not know.
 #[test]
 fn known_robots_are_not_far_off() {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
@@ -160,7 +151,6 @@ const TIED: &str = "name = \"tied\"\nconvention = \"standard\"\ngravity = [0, 0,
     [[joint]]\nname = \"b\"\nkind = \"revolute\"\na = 0.4\nmass = 0\nMIMIC\n\
     [[joint]]\nname = \"c\"\nkind = \"prismatic\"\nmass = 2\ncom = [0, 0, 0]\ninertia = [0.1, 0.1, 0.1, 0, 0, 0]\n";
 
-/// A follower of a follower is its leader's, and the text says so.
 #[test]
 fn followers_read_back() {
     let chained = "limits = { position = [-2, 1], velocity = 3 }\nmimic = { joint = 3, multiplier = -2, offset = \"pi/2\" }";
@@ -183,7 +173,6 @@ fn followers_read_back() {
     assert!(is_wrong(&torn));
 }
 
-/// What a joint mimics, and what is said of that.
 const UNFOLLOWED: &str = r#"
 joint = 2 | a joint that follows itself
 joint = "c" | one of both joints turns, and the other slides

@@ -40,21 +40,18 @@ viscous = 0.1 | coulomb = 1\ncoulomb_width = 2 | 16 | smoothed over 2 rad/s | a 
 viscous = 0.1 | coulomb = 1\ncoulomb_width = 2 | 16 | and the joint reaches 2 | of the slowest speed
 "#;
 
-/// The same of a joint that slides.
 const OF_SLIDES: &str = r#"
 offset = 0.1 | offset = 100 | 11 | | write 0.1
 [-1, 1] | [0, 500] | 17 | | write 0.5
 velocity = 2 | velocity = 500 | 17 | | write 0.5
 "#;
 
-/// Reads a file with one thing odd, and returns all that is said of it, at that line.
 fn oddity([what, by, line]: [&str; 3], good: &str) -> Diagnostic {
     let notes = reading(&replaced(good, what, by)).notes;
     assert_eq!(only(&notes).line.to_string(), line, "{by}");
     notes[0].clone()
 }
 
-/// Odd but not wrong: read, with a warning or a note on the right line.
 #[test]
 fn warnings_and_notes() {
     for [what, by, line, message] in rows(ODD) {
@@ -65,8 +62,6 @@ fn warnings_and_notes() {
     }
 }
 
-/// Numbers that look like another unit's: taken as they stand, and the help says
-/// what was probably meant.
 #[test]
 fn sizes_of_other_units() {
     let slides = "kind = \"prismatic\"\ntheta = 0\nd = 0";
@@ -81,7 +76,6 @@ fn sizes_of_other_units() {
     }
 }
 
-/// What is usual somewhere is not odd.
 #[test]
 fn sizes_that_are_none_of_our_business() {
     // Of inertia all mass further away than the arm reaches, but not far further.
@@ -105,7 +99,6 @@ viscous = 0.1 | coulomb_width = 3
     }
 }
 
-/// Three rows say what six numbers say; a massless link needs no com.
 #[test]
 fn other_ways_to_say_it() {
     let robot = |source: &str| reading(source).robot;
@@ -118,7 +111,6 @@ fn other_ways_to_say_it() {
     assert_eq!(errors(&massless), []);
     let bare = massless.replace("inertia = [1, 1, 1, 0, 0, 0]\n", "");
     let zeros = massless.replace("[1, 1, 1, 0, 0, 0]", "[0, 0, 0, 0, 0, 0]");
-    // A limits table of its own.
     let table = GOOD
         .replace("limits = {", "[joint.limits]\n")
         .replace(" }", "")
@@ -130,7 +122,6 @@ fn other_ways_to_say_it() {
         (six, nine),
         (bare, zeros),
         (table, good.clone()),
-        // Line ends of another system, and a byte order mark.
         (GOOD.replace('\n', "\r\n"), good.clone()),
         (format!("\u{feff}{GOOD}"), good),
     ] {
@@ -138,7 +129,6 @@ fn other_ways_to_say_it() {
     }
 }
 
-/// A file that knows better says so by name, and hears of the rest only.
 #[test]
 fn warnings_are_silenced_one_by_one() {
     let odd = GOOD
@@ -155,12 +145,10 @@ fn warnings_are_silenced_one_by_one() {
         ("[\"large_mass\"]", vec![inertia]),
         ("[\"impossible_inertia\"]", vec![mass]),
         ("[\"impossible_inertia\", \"large_mass\"]", vec![]),
-        // It may be said of what the file has none of.
         ("[\"loose_tolerance\"]", vec![mass, inertia]),
     ] {
         assert_eq!(doubts(&format!("allow = {allow}\n{odd}")), left, "{allow}");
     }
-    // A warning says by which name.
     let help = reading(&odd).notes[0].help.clone().unwrap();
     assert!(help.ends_with("; allow = [\"large_mass\"] silences this"));
 }
@@ -173,7 +161,6 @@ const ALLOW: &str = r#"
 "" | expected an array of the names of warnings, found the string `` | allow = ["impossible_inertia
 "#;
 
-/// What silences nothing is an error: whoever wrote it thinks that it does.
 #[test]
 fn names_of_warnings() {
     for [allow, message, help] in rows(ALLOW) {

@@ -42,12 +42,10 @@ fn scene(text: &str) -> String {
     format!("[scene.a]\n{text}\n")
 }
 
-/// Returns the robot with a scene.
 fn with(text: &str) -> String {
     ROBOT.to_owned() + &scene(text)
 }
 
-/// Returns the notes of a scene whose messages begin so, with their lines in the scene.
 fn notes(text: &str, begin: &str) -> Vec<(usize, Diagnostic)> {
     let reading = reading(&with(text));
     assert_eq!(reading.scenes.len(), 1);
@@ -57,7 +55,6 @@ fn notes(text: &str, begin: &str) -> Vec<(usize, Diagnostic)> {
     own.collect()
 }
 
-/// Every key says what it should, and what is written of it is read back.
 #[test]
 fn every_key() {
     let all = scenes(
@@ -114,7 +111,6 @@ scalar = "f64"
     assert_ne!(pick.short_hash(), other.short_hash());
 }
 
-/// One mistake each, and words of the message or the help.
 const MISTAKES: &str = r#"
 joints = [1, 4] | counted from 1 to 3
 joints = ["wirst"] | did you mean `wrist`?
@@ -176,7 +172,6 @@ fn mistakes() {
     }
 }
 
-/// A tolerance relative to the torques of the actuators.
 const ACTUATOR: &str = "tolerance = { value = 1e-3, relative_to = \"actuator\" }";
 const RANGE: &str = "tolerance = { value = 1e-3, relative_to = \"range\" }";
 
@@ -200,14 +195,11 @@ fn a_bound_needs_a_box() {
     }
 }
 
-/// A limit of zero is one, but nothing can be relative to it: said where it
-/// stands. To be at rest is a range.
 #[test]
 fn a_limit_of_zero() {
     let slow = "acceleration = 0, torque = 5 }";
     let still = replaced(ROBOT, "acceleration = 10, torque = 5 }", slow);
     let still = replaced(&still, "torque = 80", "torque = 0");
-    // The row behind one that follows another, too.
     let head = "[[joint]]\nname = \"boom\"";
     let elbow = "[[joint]]\nname = \"elbow\"\nkind = \"revolute\"\nmass = 0\n\
                  mimic = { joint = 1 }\nlimits = { torque = 7 }\n";
@@ -215,7 +207,6 @@ fn a_limit_of_zero() {
     let with = |text: &str| still.clone() + &scene(text);
     let inertia = format!("outputs = [\"inertia\"]\n{ACTUATOR}\n");
     let zero = "box = { acceleration = [0, 1, 1] }";
-    // T of D divides by the acceleration, unless nothing of that joint is asked for.
     let two = format!("{inertia}joints = [1, 3]");
     let boom = "the torque limit of joint 2 (boom) is 0";
     let waist = "the acceleration limit of joint 1 (waist) is 0";
@@ -238,13 +229,11 @@ fn a_limit_of_zero() {
     ] {
         assert_eq!(errors(&with(&good)), [], "{good}");
     }
-    // A limit that could not be read is not zero.
     let unread = self::with(ACTUATOR).replace("torque = 80", "torque = \"much\"");
     only(&errors(&unread));
 }
 
-/// What a scene has, and what is said of its box: beyond which limits it goes. Of a locked joint
-/// it says nothing.
+/// A scene, and what is said of its box.
 const BEYOND: &str = r#"
 box = { position = [[-1, 1], [0, 0.1], [-2.5, 2]] } | limits of joint 3 (wrist), -2 to 2
 box = { position = [[-1, 1], [-0.5, 0.75], [-2, 2]] } | limits of joint 2 (boom), -0.5 to 0.5
@@ -254,7 +243,6 @@ box = { position = [["-pi", "pi"], [-0.5, 0.5], [-2, 2]], velocity = [2, 1, 3] }
 box = { velocity = [2, 1, 9] }\nlock = { 3 = 0 } |
 "#;
 
-/// A box may be larger than the limits, on purpose: a warning, and the scene as it stands.
 #[test]
 fn a_box_beyond_the_limits() {
     for [text, limit] in rows(BEYOND) {
@@ -266,7 +254,6 @@ fn a_box_beyond_the_limits() {
     }
 }
 
-/// A tolerance of everything is probably meant in percent.
 #[test]
 fn a_tolerance_of_one_or_more() {
     for (value, said) in [("1", 1), ("5", 1), ("[0.1, 0.1, 2]", 1), ("0.999", 0)] {
@@ -279,7 +266,6 @@ fn a_tolerance_of_one_or_more() {
     }
 }
 
-/// A payload's inertia in kg·mm² is far beyond the arm.
 #[test]
 fn a_payload_in_other_units() {
     let load = "payload = { mass = 2, com = [0, 0, 0.1], inertia = [4e4, 4e4, 4e4, 0, 0, 0] }";
@@ -290,7 +276,6 @@ fn a_payload_in_other_units() {
     has(&note, "", "write 0.04 for 40000");
 }
 
-/// Everything at once.
 #[test]
 fn all_mistakes_of_all_scenes() {
     let bad = "joints = [7]\nlock = { 3 = 5 }\n[scene.B]\n\

@@ -7,35 +7,29 @@ use dalembert_model::read::{Diagnostic, Reading, parse};
 use dalembert_model::robot::{Robot, write};
 use nalgebra::DVector;
 
-/// The robots that golden files have.
 pub const ROBOTS: [&str; 6] = [
     "puma560", "stanford", "ur10", "panda", "planar2r", "planar3r",
 ];
 
-/// Returns a file of the tests.
 pub fn data(name: &str) -> String {
     let path = format!("{}/tests/data/{name}", env!("CARGO_MANIFEST_DIR"));
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// Returns the file of a robot that code is checked in for.
 pub fn generated(name: &str) -> String {
     data(&format!("../../../../generated/robots/{name}.toml"))
 }
 
-/// Reads a robot file that is right.
 #[track_caller]
 pub fn reading(text: &str) -> Reading {
     parse(text).unwrap_or_else(|e| panic!("{}", e.render("arm.toml", text)))
 }
 
-/// Returns what is wrong with a robot file.
 pub fn errors(text: &str) -> Vec<Diagnostic> {
     let errors = parse(text).err();
     errors.map_or_else(Vec::new, |errors| errors.0)
 }
 
-/// Returns what is said of a robot file: what is wrong, or what is odd.
 pub fn said(text: &str) -> Vec<Diagnostic> {
     match parse(text) {
         Ok(reading) => reading.notes,
@@ -43,14 +37,12 @@ pub fn said(text: &str) -> Vec<Diagnostic> {
     }
 }
 
-/// Returns the text of what is wrong with a robot file.
 #[track_caller]
 pub fn refused(text: &str) -> String {
     let errors = parse(text).expect_err(text);
     errors.render("arm.toml", text)
 }
 
-/// Returns the text of a robot, which reads as the same.
 #[track_caller]
 pub fn written(robot: &Robot) -> String {
     let text = write(robot);
@@ -58,7 +50,6 @@ pub fn written(robot: &Robot) -> String {
     text
 }
 
-/// Checks that a message and its help have these words in them.
 #[track_caller]
 pub fn has(said: &Diagnostic, message: &str, help: &str) {
     assert!(said.message.contains(message), "{message}: {said:?}");
@@ -66,14 +57,12 @@ pub fn has(said: &Diagnostic, message: &str, help: &str) {
     assert!(own.contains(help), "{help}: {said:?}");
 }
 
-/// Returns a text with its first such words replaced, which it has.
 #[track_caller]
 pub fn replaced(text: &str, what: &str, by: &str) -> String {
     assert!(text.contains(what), "{what}");
     text.replacen(what, by, 1)
 }
 
-/// Returns the only one that there is.
 #[track_caller]
 pub fn only<T: Debug>(all: &[T]) -> &T {
     let [one] = all else { panic!("{all:#?}") };

@@ -11,22 +11,16 @@ use crate::memory::{self, Layout};
 use crate::results::{self, Quantity};
 use crate::shape::{broadcast, shown};
 
-/// From so many states on, other threads of Python may run meanwhile: for fewer, letting
-/// them takes longer than computing.
+/// For fewer states, letting other threads of Python run takes longer than computing.
 const RELEASE: usize = 64;
 
-/// How a function is called.
 pub(crate) struct Call<'a> {
     pub(crate) function: &'a Compiled,
-    /// Its results.
     pub(crate) quantities: &'a [Quantity],
-    /// Whether an argument that is no number is an error.
     pub(crate) refuses_nan: bool,
-    /// How many threads share the states.
     pub(crate) threads: usize,
 }
 
-/// Arrays of a call.
 type Arrays<'py, T> = Vec<Bound<'py, PyArrayDyn<T>>>;
 
 impl Call<'_> {
@@ -38,7 +32,6 @@ impl Call<'_> {
         PyValueError::new_err(format!("{}: {error}", self.name()))
     }
 
-    /// Computes the results for the arguments, in the order of the signature.
     pub(crate) fn run<'py, T: Real + Element>(
         &self,
         py: Python<'py>,
@@ -93,8 +86,7 @@ impl Call<'_> {
         Ok(results)
     }
 
-    /// Computes the results of one state in plain arrays: the shortest way, for control
-    /// loops. `None` if it is something else.
+    /// The shortest way, for control loops of one state in plain arrays; `None` for other calls.
     fn one_state<'py, T: Real + Element>(
         &self,
         py: Python<'py>,
@@ -168,7 +160,6 @@ impl Call<'_> {
         ))
     }
 
-    /// Converts the arguments, and broadcasts their leading axes.
     fn arguments<'py, T: Real + Element>(
         &self,
         given: &[Bound<'py, PyAny>],
@@ -206,8 +197,7 @@ impl Call<'_> {
 /// An array that a call was given a copy of, to be held while it runs.
 type Copy<'py, T> = Option<Bound<'py, PyArrayDyn<T>>>;
 
-/// Takes an argument where it lies, if its states are along one axis at most; else a copy
-/// with the states one after the other.
+/// Copies an argument, states one after the other, unless they are along one axis at most.
 fn argument<'py, T: Real + Element>(
     array: &Bound<'py, PyArrayDyn<T>>,
     batch: &[usize],
@@ -229,8 +219,7 @@ fn argument<'py, T: Real + Element>(
     copied(rows.cast_into::<PyArrayDyn<T>>()?)
 }
 
-/// Takes a result where it is to lie, if that is possible and nothing else of the call is
-/// there; else new memory, to be copied from.
+/// Takes a result where it is to lie if nothing else of the call is there; else new memory.
 fn result<'py, 'l, T: Real + Element>(
     array: &Bound<'py, PyArrayDyn<T>>,
     shape: &[usize],
@@ -247,7 +236,6 @@ fn result<'py, 'l, T: Real + Element>(
     copied(memory::zeros(array.py(), &[&[states], shape].concat())?)
 }
 
-/// Takes a copy, states first.
 fn copied<T: Element>(copy: Bound<'_, PyArrayDyn<T>>) -> PyResult<(Layout<T>, Copy<'_, T>)> {
     let layout = Layout::of(&copy, 1);
     let layout = layout.ok_or_else(|| PyValueError::new_err("NumPy made no plain copy"))?;

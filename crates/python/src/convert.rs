@@ -7,7 +7,6 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Returns NumPy's name of a scalar.
 pub(crate) fn dtype(scalar: Scalar) -> &'static str {
     match scalar {
         Scalar::F64 => "float64",
@@ -15,8 +14,7 @@ pub(crate) fn dtype(scalar: Scalar) -> &'static str {
     }
 }
 
-/// Converts an argument to an array of the scalar: whole numbers and floats, but no array
-/// whose digits or imaginary parts would be lost.
+/// Takes whole numbers and floats, but no array whose digits or imaginary parts would be lost.
 pub(crate) fn array<'py, T: Real + Element>(
     object: &Bound<'py, PyAny>,
     function: &str,
@@ -45,7 +43,6 @@ pub(crate) fn array<'py, T: Real + Element>(
     Ok(cast.cast_into::<PyArrayDyn<T>>()?)
 }
 
-/// Returns the exception for an error: of what a user asked for, or of this package.
 pub(crate) fn raised(error: &LoadError) -> PyErr {
     match error {
         LoadError::Compile(..) => PyRuntimeError::new_err(error.to_string()),

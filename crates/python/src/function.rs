@@ -53,7 +53,6 @@ pub struct Function {
 }
 
 impl Function {
-    /// Finds the function of a name in every scalar.
     pub(crate) fn new(
         arm: &Arc<dalembert_jit::Arm>,
         name: &str,
@@ -85,13 +84,11 @@ impl Function {
         })
     }
 
-    /// Returns the code, in each scalar that there is code for.
     fn compiled(&self) -> impl Iterator<Item = &Compiled> {
         let all = self.arm.functions();
         self.places.iter().map(|&place| &all[place])
     }
 
-    /// Returns true if it turns payloads into loads.
     fn is_load(&self) -> bool {
         let mut all = self.compiled();
         all.any(|own| own.output() == Output::Load)
@@ -194,7 +191,6 @@ impl Function {
 }
 
 impl Function {
-    /// Returns the arguments in order, given by place or by name.
     fn given<'py>(
         &self,
         args: &Bound<'py, PyTuple>,

@@ -25,7 +25,6 @@ const PATIENCE: Duration = Duration::from_millis(50);
 /// Deep expressions of large arms.
 const STACK: usize = 64 << 20;
 
-/// Who waits: what to show, and whether to end.
 #[derive(Default)]
 struct Waiting {
     last: Mutex<Option<Progress>>,
@@ -43,7 +42,6 @@ impl Observer for Waiting {
 }
 
 impl Waiting {
-    /// Shows how far it is: a text, and a part of one.
     fn show(&self, progress: &Bound<'_, PyAny>) -> PyResult<()> {
         let last = *self.last.lock().unwrap_or_else(PoisonError::into_inner);
         let (text, done) = match last {
@@ -141,7 +139,6 @@ impl<'py> Options<'_, 'py> {
     }
 }
 
-/// Reads a limit of acceleration.
 fn acceleration(text: String) -> PyResult<Rational> {
     let number = parse_decimal(&text).ok();
     let number = number.filter(|number| *number > Rational::default());
@@ -152,7 +149,6 @@ fn acceleration(text: String) -> PyResult<Rational> {
     })
 }
 
-/// Reads the name of a robot, as robot files have it.
 fn name(text: String) -> PyResult<String> {
     let good = suggested_name(&text);
     if good.as_ref() == Some(&text) {
@@ -164,7 +160,6 @@ fn name(text: String) -> PyResult<String> {
     )))
 }
 
-/// Reads the request.
 fn wanted(options: &Options<'_, '_>) -> PyResult<Load> {
     let mut load = Load::default();
     load.urdf.base = options.get("base")?;

@@ -26,7 +26,6 @@ use pyo3::prelude::*;
 
 use crate::xla;
 
-/// An array as the compiled code reads it: state by state, entry by entry.
 pub(crate) struct Layout<T> {
     data: *mut T,
     length: usize,
@@ -40,8 +39,7 @@ unsafe impl<T: Send> Send for Layout<T> {}
 unsafe impl<T: Sync> Sync for Layout<T> {}
 
 impl<T: Element> Layout<T> {
-    /// Returns the layout of an array whose first axes, so many, count states: none or one.
-    /// `None` where the array must be copied first.
+    /// The first axes, none or one, count states. `None` where the array must be copied first.
     pub(crate) fn of(array: &Bound<'_, PyArrayDyn<T>>, state_axes: usize) -> Option<Layout<T>> {
         let size = size_of::<T>();
         let (shape, strides) = (array.shape(), array.strides());
@@ -76,7 +74,6 @@ impl<T: Element> Layout<T> {
         })
     }
 
-    /// Returns the entries to be read.
     pub(crate) fn slice(&self) -> &[T] {
         if self.length == 0 {
             return &[];
@@ -85,7 +82,6 @@ impl<T: Element> Layout<T> {
         unsafe { std::slice::from_raw_parts(self.data, self.length) }
     }
 
-    /// Returns the entries to be written.
     pub(crate) fn slice_mut(&mut self) -> &mut [T] {
         if self.length == 0 {
             return &mut [];
@@ -95,18 +91,15 @@ impl<T: Element> Layout<T> {
         unsafe { std::slice::from_raw_parts_mut(self.data, self.length) }
     }
 
-    /// Returns the argument.
     pub(crate) fn rows(&self) -> (&[T], Place) {
         (self.slice(), self.place.clone())
     }
 
-    /// Returns the result.
     pub(crate) fn rows_mut(&mut self) -> (&mut [T], Place) {
         let place = self.place.clone();
         (self.slice_mut(), place)
     }
 
-    /// Finds an entry that is such: its state, and its place there.
     pub(crate) fn find(&self, is_such: impl Fn(&T) -> bool) -> Option<(usize, usize)> {
         let data = self.slice();
         for state in 0..self.states {
@@ -127,9 +120,6 @@ impl<T: Element> Layout<T> {
 }
 
 /// Makes an array of zeros for results: what is left out is nothing.
-///
-/// # Errors
-/// NumPy's, of arrays that no memory holds.
 pub(crate) fn zeros<'py, T: Element>(
     py: Python<'py>,
     shape: &[usize],
@@ -146,7 +136,6 @@ pub(crate) fn zeros<'py, T: Element>(
     Ok(array.cast_into()?)
 }
 
-/// Returns the numbers of an array with one axis, one after the other.
 pub(crate) fn entries<'a, T: Element>(array: &'a Bound<'_, PyArrayDyn<T>>) -> Option<&'a [T]> {
     if array.ndim() != 1 || !array.is_c_contiguous() || !array.is_aligned() {
         return None;
@@ -155,7 +144,6 @@ pub(crate) fn entries<'a, T: Element>(array: &'a Bound<'_, PyArrayDyn<T>>) -> Op
     Some(unsafe { std::slice::from_raw_parts(array.data(), array.len()) })
 }
 
-/// Makes an array and fills it.
 pub(crate) fn filled<'py, T: Element>(
     py: Python<'py>,
     shape: &[usize],
@@ -210,7 +198,6 @@ struct MetadataExtension {
     metadata: *mut Metadata,
 }
 
-/// Arguments, or results.
 #[repr(C)]
 struct Buffers {
     size: usize,
@@ -240,7 +227,6 @@ struct Attributes {
     items: *const *const Attribute,
 }
 
-/// An attribute that is a number.
 #[repr(C)]
 struct Attribute {
     dtype: i32,
@@ -264,7 +250,6 @@ struct ErrorCreate {
     code: i32,
 }
 
-/// A call: its head, and what is passed.
 #[repr(C)]
 struct Frame {
     size: usize,
@@ -322,8 +307,6 @@ unsafe extern "C" fn handle(frame: *mut Frame) -> *mut c_void {
     unsafe { (api.error_create)(&mut error) }
 }
 
-/// Computes what a frame asks for.
-///
 /// # Safety
 /// The frame is XLA's, and lives as long as this runs.
 unsafe fn answer(frame: &Frame) -> Result<(), String> {
@@ -346,8 +329,6 @@ unsafe fn answer(frame: &Frame) -> Result<(), String> {
     }
 }
 
-/// Computes a function on buffers of a scalar, which XLA calls by a number.
-///
 /// # Safety
 /// As for [`answer`].
 unsafe fn computed<T: Real>(

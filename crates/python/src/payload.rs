@@ -5,7 +5,6 @@ use dalembert_model::robot::Inertia;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// The numbers of a payload.
 type Numbers = [f64; 10];
 
 /// A load: what ``arm.load(payload)`` returns, and what the arm's other functions take as
@@ -69,8 +68,7 @@ pub(crate) fn check(payloads: &Bound<'_, PyAny>) -> PyResult<()> {
     }
 }
 
-/// Returns why no body has these numbers, if none has. Moments may be rounded to six digits, as in
-/// generated code.
+/// Moments may be rounded to six digits, as in generated code.
 fn defect(payload: &Numbers) -> Option<String> {
     let [mass, _, _, _, moments @ ..] = payload;
     if !payload.iter().all(|x| x.is_finite()) {

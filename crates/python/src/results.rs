@@ -12,8 +12,6 @@ use crate::shape::shown;
 /// A result: its name, and its shape for one state.
 pub(crate) type Quantity = (&'static str, Vec<usize>);
 
-/// Returns the arrays for results of states with these leading axes: new ones, or the
-/// caller's, if they fit.
 pub(crate) fn arrays<'py, T: Real + Element>(
     py: Python<'py>,
     function: &str,
@@ -43,7 +41,6 @@ pub(crate) fn arrays<'py, T: Real + Element>(
         .collect()
 }
 
-/// Returns an array of the caller's, if a result fits into it.
 fn checked<'py, T: Real + Element>(
     function: &str,
     object: Bound<'py, PyAny>,

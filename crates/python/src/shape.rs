@@ -1,6 +1,5 @@
 //! Shapes: how Python writes them, and how leading axes are broadcast.
 
-/// Writes a shape as Python does.
 pub(crate) fn shown(shape: &[usize]) -> String {
     match shape {
         [one] => format!("({one},)"),

@@ -4,11 +4,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use dalembert_jit::{Arm, Function, Place, Real};
 
-/// What programs may call: an arm, and the place of the function among its own. XLA keeps
-/// programs for as long as it likes, so nothing is taken out.
+/// XLA keeps programs for as long as it likes, so nothing is taken out.
 static KNOWN: Mutex<Vec<(Arc<Arm>, usize)>> = Mutex::new(Vec::new());
 
-/// Makes a function known, and returns its number.
 pub(crate) fn register(arm: &Arc<Arm>, place: usize) -> u64 {
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     let same = |(other, at): &(Arc<Arm>, usize)| Arc::ptr_eq(arm, other) && *at == place;
@@ -19,16 +17,12 @@ pub(crate) fn register(arm: &Arc<Arm>, place: usize) -> u64 {
     number as u64
 }
 
-/// Finds the function of a number.
 pub(crate) fn find(number: u64) -> Option<(Arc<Arm>, usize)> {
     let known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     known.get(usize::try_from(number).ok()?).cloned()
 }
 
 /// Computes the results of as many states as the arguments have, row by row.
-///
-/// # Errors
-/// The buffers are not of as many states, each of the function's lengths.
 pub(crate) fn run<T: Real>(
     function: &Function,
     arguments: &[&[T]],

@@ -16,12 +16,9 @@ pub trait Angle:
     const INVERSE: Self;
     /// 1.5·2^(p−1): next to it the floats are the integers.
     const SHIFT: Self;
-    /// π/2 in three parts; a count of quarter turns times one of the first two
-    /// is exact.
+    /// π/2 in three parts; a count of quarter turns times one of the first two is exact.
     const QUARTER: [Self; 3];
-    /// 1/2
     const HALF: Self;
-    /// 1
     const ONE: Self;
 
     /// Returns (r − sin r)/r³ and (cos r − 1 + r²/2)/r⁴ of z = r² and w = z².
@@ -31,9 +28,8 @@ pub trait Angle:
     fn library(self) -> (Self, Self);
 }
 
-/// The shifted count of quarter turns of an angle, and sine and cosine of what
-/// is left of it. The documentation of the crate says why every line is as exact
-/// as is needed.
+/// The shifted count of quarter turns, and sine and cosine of what is left of the angle. The
+/// crate's documentation says why every line is exact enough.
 #[inline(always)]
 pub fn rest<T: Angle, P: Products<T>, V: Number<T>>(x: V) -> (V, V, V) {
     let shifted = P::plus(P::of(x, x.all(T::INVERSE)), x.all(T::SHIFT));
@@ -42,8 +38,7 @@ pub fn rest<T: Angle, P: Products<T>, V: Number<T>>(x: V) -> (V, V, V) {
     let rest = P::taken(x, P::of(k, x.all(much)));
     let second = P::of(k, x.all(little));
     let r = P::taken(rest, second);
-    // What r lacks, with the other sign: subtracted below, so that the sine of
-    // -0 is -0.
+    // The part that r lacks, with the other sign: subtracted below, so that the sine of -0 is -0.
     let third = P::of(k, x.all(least));
     let lacks = P::less(third, P::taken(rest - r, second));
 
@@ -77,7 +72,6 @@ pub(crate) fn turned<T: Angle, V: Floats<T>>(shifted: V, sin: V, cos: V) -> (V, 
     )
 }
 
-/// Returns one after the other, to the same bits.
 #[inline(never)]
 pub(crate) fn singly<T: Angle, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
     let (mut sines, mut cosines) = ([T::default(); N], [T::default(); N]);
@@ -97,8 +91,7 @@ pub fn alone<T: Angle, P: Products<T>>(angle: T) -> (T, T) {
     }
 }
 
-/// Computes sines and cosines, four angles at a time and the last ones in pairs, and returns
-/// whether the polynomials are for all of them.
+/// Four angles at a time, the last ones in pairs; true if the polynomials are for all of them.
 #[inline(always)]
 pub fn together<T, P, V, const N: usize>(angles: &[V; N]) -> ([V; N], [V; N], bool)
 where
@@ -134,7 +127,6 @@ where
     (sines, cosines, usual)
 }
 
-/// Computes the angles that the polynomials are not for.
 #[cold]
 #[inline(never)]
 pub fn unusual<T: Angle>(angles: &[T], sines: &mut [T], cosines: &mut [T]) {

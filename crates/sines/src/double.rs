@@ -28,8 +28,7 @@ pub(crate) const COSINE: [f64; 6] = [
     -1.1359934021914191e-11,
 ];
 
-/// Returns the polynomial of degree 5, in halves: shorter than one product after the
-/// other.
+/// Returns the polynomial of degree 5, in halves: shorter than one product after the other.
 #[inline(always)]
 fn polynomial<P: Products<f64>, V: Number<f64>>(c: [f64; 6], z: V, w: V) -> V {
     let low = P::plus(P::of(z, z.all(c[1])), z.all(c[0]));

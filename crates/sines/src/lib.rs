@@ -136,9 +136,7 @@ mod vectors {
     #[cfg(test)]
     pub(crate) use crate::angle::singly as together;
 
-    /// Without vectors, one number.
     pub type TwoDoubles = f64;
-    /// Without vectors, one number.
     pub type FourFloats = f32;
 }
 
@@ -154,8 +152,7 @@ pub mod text {
 /// Roots, correctly rounded: libm's, for code that has all from here.
 pub use libm::{sqrt, sqrtf};
 
-/// Up to this magnitude, 1303 turns, angles are computed here; libm takes the
-/// others.
+/// Up to this magnitude, 1303 turns, angles are computed here; libm takes the others.
 pub const LARGEST: f64 = 8192.0;
 
 /// [`LARGEST`] in f32: 15 turns.

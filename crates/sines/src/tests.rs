@@ -23,7 +23,6 @@ fn magnitude(x: Rational) -> Rational {
     if x < whole(0) { -x } else { x }
 }
 
-/// Returns log₂ of a positive number.
 fn bits(x: &Rational) -> f64 {
     f64::nearest_rational(x).log2()
 }
@@ -101,12 +100,10 @@ fn polynomials_are_as_near_as_stated() {
     }
 }
 
-/// The largest count of quarter turns.
 fn counts(largest: f64) -> u64 {
     (largest / core::f64::consts::FRAC_PI_2).round() as u64
 }
 
-/// Counts the significant bits of a number.
 fn width(x: f64) -> u32 {
     let significand = (x.to_bits() & ((1 << 52) - 1)) | 1 << 52;
     53 - significand.trailing_zeros()
@@ -134,7 +131,6 @@ fn the_parts_are_of_a_quarter_turn() {
     }
 }
 
-/// How near floats come to a multiple of π/2, by all multiples.
 #[test]
 fn no_angle_is_nearer_to_a_quarter_turn_than_stated() {
     let nearest = |most: u64, round: fn(&Rational) -> f64| {
@@ -152,8 +148,7 @@ fn no_angle_is_nearer_to_a_quarter_turn_than_stated() {
     assert!((-26.33..-26.32).contains(&single), "{single}");
 }
 
-/// Which of the two is taken is a matter of time alone: whole vectors, a rest,
-/// unusual angles among others.
+/// Covers whole vectors, a rest, and unusual angles among others.
 #[test]
 fn vectors_and_single_angles_have_the_same_bits() {
     let mut points = Points::new(1);

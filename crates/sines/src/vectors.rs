@@ -12,11 +12,9 @@ use wide::{f32x4, f32x8, f64x2, f64x4, u32x4, u32x8, u64x2, u64x4};
 use crate::angle::{Angle, rest, singly, turned, unusual};
 use crate::number::{Floats, Number, Rounded};
 
-/// A scalar whose angles are put into vectors.
 pub trait Vectored: Angle {
     /// For one or two angles, or of f32 up to four.
     type Narrow: Vector<Self>;
-    /// For all others.
     type Wide: Vector<Self>;
 }
 
@@ -46,8 +44,7 @@ pub(crate) fn all<T: Vectored, const N: usize>(angles: &[T; N]) -> ([T; N], [T; 
     }
 }
 
-/// Computes as many angles at a time as a vector holds, the last few in a narrow one if that
-/// has room.
+/// The last few angles go into a narrow vector if that has room.
 #[inline(always)]
 pub(crate) fn together<T: Vectored, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
     let (mut sines, mut cosines) = ([T::default(); N], [T::default(); N]);
@@ -66,7 +63,6 @@ pub(crate) fn together<T: Vectored, const N: usize>(angles: &[T; N]) -> ([T; N],
     (sines, cosines)
 }
 
-/// Angles side by side.
 pub trait Vector<T: Angle>: Floats<T> {
     const LANES: usize;
 
@@ -213,23 +209,19 @@ vector!(FourDoubles, f64x4, u64x4, f64, 4);
 vector!(FourFloats, f32x4, u32x4, f32, 4);
 vector!(EightFloats, f32x8, u32x8, f32, 8);
 
-/// Further operations that batches need of vectors.
 macro_rules! batched {
     ($vector:ident, $wide:ident, $float:ident, $lanes:literal) => {
         impl $vector {
-            /// Returns the vector of an array.
             #[inline(always)]
             pub fn from_array(array: [$float; $lanes]) -> Self {
                 $vector($wide::new(array))
             }
 
-            /// Returns the array of a vector.
             #[inline(always)]
             pub fn to_array(self) -> [$float; $lanes] {
                 self.0.to_array()
             }
 
-            /// Returns the roots.
             #[inline(always)]
             pub fn root(self) -> Self {
                 $vector(self.0.sqrt())

@@ -15,10 +15,8 @@ use reference::{Reference, ulp, ulps};
 /// The bounds of the documentation, of sines and cosines.
 const PROVED: [f64; 2] = [0.90, 0.85];
 
-/// The number of angles in one call.
 const TOGETHER: usize = 8;
 
-/// The worst of sines and cosines so far, and where.
 #[derive(Clone, Copy, Default)]
 struct Worst {
     sin: (f64, f64),
@@ -47,7 +45,6 @@ impl Worst {
     }
 }
 
-/// Measures f64 at these points.
 fn doubles(what: &str, points: impl Iterator<Item = f64>) {
     let (reference, mut worst) = (Reference::new(), Worst::default());
     let mut points = points.filter(|x| x.abs() <= LARGEST).peekable();
@@ -62,8 +59,7 @@ fn doubles(what: &str, points: impl Iterator<Item = f64>) {
     worst.is_as_proved(what);
 }
 
-/// Returns the neighbours of every multiple of π/4 on both sides, where the remainder is small
-/// and where the quarter turn changes.
+/// Neighbours of multiples of π/4: there the remainder is small, or the quarter turn changes.
 fn near_quarters(neighbours: u64) -> impl Iterator<Item = f64> {
     (1..=10430u64).flat_map(move |k| {
         let middle = (k as f64 * core::f64::consts::FRAC_PI_4).to_bits();
@@ -91,8 +87,7 @@ fn measure_doubles(points: u64, neighbours: u64) {
     doubles("next to multiples of pi/4", near_quarters(neighbours));
 }
 
-/// Measures these f32, by their bits; and that −x has the same bits but for the
-/// sine's sign.
+/// Checks as well that −x has the same bits but for the sine's sign.
 fn singles(bits: impl Iterator<Item = u32>) {
     let (mut worst, mut bits) = (Worst::default(), bits.peekable());
     while bits.peek().is_some() {
@@ -107,8 +102,8 @@ fn singles(bits: impl Iterator<Item = u32>) {
             let error = |found: f32, exact: f64| {
                 let near = (exact as f32).abs();
                 let size = f64::from(near.next_up()) - f64::from(near);
-                // Where rounding to f32 reaches the next power of two, an ulp
-                // below it is half as large.
+                // Where rounding to f32 reaches the next power of two, an ulp below it is half as
+                // large.
                 let below = f64::from(near) > exact.abs() && near.to_bits().is_multiple_of(1 << 23);
                 let size = if below { size / 2.0 } else { size };
                 (f64::from(found) - exact).abs() / size
@@ -141,7 +136,6 @@ fn by_hand_every_single_in_range() {
     singles(0..=LARGEST_F32.to_bits());
 }
 
-/// The reference is what it says, also where it is hard.
 #[test]
 fn against_the_wide_float() {
     let reference = Reference::new();

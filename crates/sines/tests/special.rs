@@ -11,7 +11,6 @@ fn bitsf<const N: usize>((sin, cos): ([f32; N], [f32; N])) -> [(u32, u32); N] {
     std::array::from_fn(|i| (sin[i].to_bits(), cos[i].to_bits()))
 }
 
-/// Returns whether two values are equal to the last bit, or neither is a number.
 fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan())
 }
@@ -37,7 +36,6 @@ fn what_polynomials_are_not_for_is_libms() {
     }
 }
 
-/// Zeros keep their sign, and so small angles are their own sines.
 #[test]
 fn what_is_tiny_is_its_own_sine() {
     for x in [0.0, 5e-324, f64::MIN_POSITIVE, 1e-300, 1e-30, 1e-9] {
@@ -65,7 +63,6 @@ fn the_ends_of_the_range_are_computed() {
     }
 }
 
-/// Compares lists with one unusual angle with the bits of each angle alone.
 fn are_computed_for_themselves<const N: usize>() {
     for odd in 0..N {
         let mut angles: [f64; N] = std::array::from_fn(|i| 0.7 * i as f64 - 2.3 * odd as f64);

@@ -34,7 +34,6 @@ impl<const N: usize> Bench<N> {
         core::array::from_fn(|i| tick(&self.servos[i], self.state.q[i]))
     }
 
-    /// Holds the arm still by hand until the support is full.
     fn hold(&mut self) {
         for _ in 0..2100 {
             self.cycle.step(&self.ticks());
@@ -62,7 +61,6 @@ impl<const N: usize> Bench<N> {
     }
 }
 
-/// Returns the tick that a servo reads.
 fn tick(servo: &Servo, q: f64) -> u16 {
     let turns = f64::from(servo.sign) * q / std::f64::consts::TAU;
     (turns * f64::from(servo.ticks) + f64::from(servo.zero)).round() as u16
@@ -84,7 +82,6 @@ fn so101_at(q: [f64; so101::N], known: [Servo; so101::N]) -> Bench<{ so101::N }>
     }
 }
 
-/// Poses in which both arms need support.
 const POSES: [[f64; so101::N]; 3] = [
     [0.0, 0.0, 0.0, 0.0, 0.0],
     [0.5, 0.6, -0.8, 0.4, 0.2],
@@ -126,7 +123,6 @@ fn an_open_manipulator_floats() {
     assert_eq!(bench.cycle.stop(), None);
 }
 
-/// The mistakes that happen first: signs, zeros and cables.
 #[test]
 fn mistakes_are_noticed() {
     let mut wrong = SO101_SERVOS;
@@ -168,7 +164,6 @@ fn support_grows() {
     }
 }
 
-/// The f32 function agrees with f64 within 1e-6 N·m.
 #[test]
 fn f32_is_enough() {
     for q in POSES {

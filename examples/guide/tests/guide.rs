@@ -7,7 +7,6 @@ use std::path::Path;
 use guide::simulate::{State, step};
 use guide::{Joints, arm, carrying, control, hold, picking};
 
-/// Returns the texts of the files with an extension in a folder and below it.
 fn texts(folder: &Path, ending: &str) -> Vec<String> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -74,7 +73,6 @@ fn a_payload_is_found() {
     assert_eq!(hold::measured(&[Q], -0.7), None);
 }
 
-/// Gravity loads the first joint of an arm on a wall, but not of an arm on the floor.
 #[test]
 fn a_tool_is_held_on_a_wall() {
     let empty = hold::measured(&[Q], 0.0).unwrap()[0].1;
@@ -89,7 +87,6 @@ fn a_motion_is_followed() {
     assert!(error < 1e-4, "{error:e}");
 }
 
-/// The scene's torques stay within its tolerance at a state inside its limits.
 #[test]
 fn picking_is_within_its_tolerance() {
     let (q, qd, qdd) = ([0.0, 0.7, -1.1], [0.0, 1.5, -2.0], [0.0, 8.0, 5.0]);

@@ -106,7 +106,6 @@ fn rate(state: &State, torque: f64) -> State {
     State::new(qd1, qd2, qdd1, qdd2)
 }
 
-/// Returns the derivatives of (q̇, q̈) with respect to the state and the torque.
 fn rate_slopes(state: &State, torque: f64) -> Slopes {
     let [q1, q2, qd1, qd2] = (*state).into();
     let slopes = planar2r::forward_dynamics_derivatives(&[q1, q2], &[qd1, qd2], &[0.0, torque]);

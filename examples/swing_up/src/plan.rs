@@ -24,7 +24,6 @@ const END: State = State::new(1000.0, 1000.0, 100.0, 100.0);
 const ENOUGH: f64 = 1e-4;
 /// The smallest extra cost of a change of the next state.
 const LEAST_CAUTION: f64 = 1e-6;
-/// The largest number of rounds.
 const ROUNDS: usize = 400;
 
 /// Torques, and the states that they lead to.
@@ -95,7 +94,6 @@ pub fn holding(period: f64) -> State {
 }
 
 impl Plan {
-    /// Returns the plan that stays, without torques, in an equilibrium state.
     fn still(state: State, steps: usize) -> Plan {
         Plan {
             torques: vec![0.0; steps],

@@ -7,7 +7,6 @@ use swing_up::follow::follow;
 use swing_up::model::{State, bends, slopes, step};
 use swing_up::plan::{Derivatives, Plan, plan};
 
-/// Second derivatives need fewer rounds for a plan that is as good.
 #[test]
 fn the_arm_swings_up_and_stays() {
     let [first, second] = [Derivatives::First, Derivatives::Second].map(plan);

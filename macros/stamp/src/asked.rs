@@ -58,7 +58,6 @@ impl fmt::Display for NotAsked {
 
 impl std::error::Error for NotAsked {}
 
-/// Returns `true` for words that differ by one letter, or by a plural's.
 fn is_near(name: &str, found: &str) -> bool {
     let (one, other) = (name.as_bytes(), found.as_bytes());
     let before = one.iter().zip(other).take_while(|(a, b)| a == b).count();
@@ -163,7 +162,6 @@ impl fmt::Display for Asked {
 impl std::str::FromStr for Asked {
     type Err = NotAsked;
 
-    /// Reads what is written: options with a semicolon between two.
     fn from_str(text: &str) -> Result<Asked, NotAsked> {
         let mut asked = Asked::default();
         for option in text.split(';').map(str::trim).filter(|own| !own.is_empty()) {

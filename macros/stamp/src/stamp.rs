@@ -28,7 +28,6 @@ pub enum Comment {
 }
 
 impl Comment {
-    /// Returns the marks before the first line, before each other one and behind the last.
     fn marks(self) -> [&'static str; 3] {
         match self {
             Comment::Line => ["// ", "// ", ""],
@@ -67,7 +66,6 @@ pub fn hash(text: &str) -> String {
     digits
 }
 
-/// The words of a seal before the hash.
 const SEAL: &str = ", text = ";
 
 /// Writes a line before a text that names its writer and has the hash of the text: of files without a
@@ -137,7 +135,6 @@ fn chain_word(options: &[(String, String)]) -> String {
     word
 }
 
-/// Reads options from a word.
 fn chain_of(word: &str) -> Option<Vec<(String, String)>> {
     let read = |pair: &str| {
         let mut parts = pair.split('%');

@@ -15,17 +15,15 @@ use crate::states::JointState;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Exact, Rational, Rounded};
 
-/// What a step reads, or stands in a node's place. Both know nodes: inputs and steps alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Value {
     /// ±node
     Node(usize, bool),
-    /// A constant.
     Known(f64),
 }
 
 impl Value {
-    /// Returns whether it is the same node, zero too, or another constant too.
+    /// True for the same node, for two zeros, and for two other constants, equal or not.
     pub(super) fn is_like(&self, other: &Value) -> bool {
         match (self, other) {
             (Value::Known(a), Value::Known(b)) => (*a == 0.0) == (*b == 0.0),
@@ -33,7 +31,6 @@ impl Value {
         }
     }
 
-    /// Returns the value or its negative.
     pub(super) fn negated_if(self, negative: bool) -> Value {
         match self {
             Value::Known(c) => Value::Known(if negative { -c } else { c }),
@@ -42,22 +39,19 @@ impl Value {
     }
 }
 
-/// An operation on two values, nodes without a sign.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NodeStep {
     pub operation: Operation,
     pub operands: [Value; 2],
 }
 
-/// A program with the values that its inputs take. Its nodes are the inputs,
-/// by which steps name them, then the steps; constants may change.
+/// The nodes are the inputs, by which steps name them, then the steps. Constants may change.
 #[derive(Clone, Debug)]
 pub(super) struct Nodes {
     pub inputs: Vec<Input>,
     pub steps: Vec<NodeStep>,
     pub outputs: Vec<Value>,
     pub samples: usize,
-    /// Values of the inputs, node after node.
     pub columns: Vec<f64>,
 }
 
@@ -90,7 +84,6 @@ impl Nodes {
         nodes
     }
 
-    /// Moves the same program to other states.
     pub(super) fn move_to(&mut self, states: &[JointState]) {
         let inputs = self.inputs.iter();
         let columns = inputs.flat_map(|&input| states.iter().map(move |state| at(input, state)));
@@ -98,7 +91,6 @@ impl Nodes {
         self.samples = states.len();
     }
 
-    /// Turns every sample to a position; its motion stays.
     pub(super) fn turn_to(&mut self, position: &JointState) {
         for (column, &input) in self
             .columns
@@ -111,7 +103,6 @@ impl Nodes {
         }
     }
 
-    /// Returns the outputs, output after output.
     pub(super) fn values(&self, columns: &[f64]) -> Vec<f64> {
         let outputs = 0..self.outputs.len();
         outputs
@@ -119,7 +110,6 @@ impl Nodes {
             .collect()
     }
 
-    /// Returns an output at every sample.
     pub(super) fn output(&self, output: usize, columns: &[f64]) -> Vec<f64> {
         let m = self.samples;
         match self.outputs[output] {
@@ -136,7 +126,6 @@ impl Nodes {
         self.inputs.len() + self.steps.len()
     }
 
-    /// Returns the columns of every node under edits (one slot a node).
     pub(super) fn run(&self, edits: &[Option<Value>]) -> Vec<f64> {
         let m = self.samples;
         let mut columns = vec![0.0; self.len() * m];
@@ -147,7 +136,6 @@ impl Nodes {
         columns
     }
 
-    /// Computes one node's column from those before it.
     pub(super) fn node(&self, node: usize, edit: Option<Value>, before: &[f64], out: &mut [f64]) {
         let m = self.samples;
         match edit {
@@ -170,7 +158,6 @@ impl Nodes {
         }
     }
 
-    /// Returns what an operation reads, from the columns of the nodes before it.
     pub(super) fn column<'c>(&self, operand: Value, before: &'c [f64]) -> Column<'c> {
         match operand {
             Value::Node(node, _) => Column::Each(&before[node * self.samples..][..self.samples]),
@@ -178,9 +165,6 @@ impl Nodes {
         }
     }
 
-    /// Computes ∂output/∂node at every sample under edits, node after node; `of` is where it is
-    /// written: what many outputs share need not be had from the system for each.
-    ///
     /// The pass is of its own, since edits stand in the places of inputs as well as of steps, and
     /// since all samples go through an operation together.
     pub(super) fn adjoints(
@@ -227,7 +211,6 @@ impl Nodes {
         }
     }
 
-    /// Constants that were changed, as short decimals.
     pub(super) fn shorten(&mut self, original: &Nodes) {
         for (step, original) in self.steps.iter_mut().zip(&original.steps) {
             for (now, was) in step.operands.iter_mut().zip(original.operands) {
@@ -242,8 +225,6 @@ impl Nodes {
         }
     }
 
-    /// Returns the edits as the program knows them; constants are those that differ
-    /// from the original.
     pub(super) fn edits(&self, original: &Nodes, edits: &[Option<Value>]) -> Vec<Edit> {
         let inputs = self.inputs.len();
         let pairs = edits.iter().enumerate();
@@ -287,7 +268,6 @@ impl Nodes {
     }
 }
 
-/// Returns the number with seven digits.
 pub(super) fn short(x: f64) -> f64 {
     f64::nearest_rational(&digits(x))
 }
@@ -296,7 +276,6 @@ fn digits(x: f64) -> Rational {
     parse_decimal(&format!("{x:.6e}")).unwrap_or_default()
 }
 
-/// Returns the decimal with seven digits if it is the number, or the number.
 fn decimal(x: f64) -> Exact {
     let short = digits(x);
     Exact::from(if f64::nearest_rational(&short) == x {

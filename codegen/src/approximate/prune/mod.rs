@@ -1,13 +1,11 @@
 //! Choosing: the cheapest edits that a certificate admits.
 //!
-//! A greedy search ranks edits of the *emitted* program by error for each
-//! operation saved, constants corrected for what is left out; parts of what
-//! it chose are taken back at random and chosen anew. Errors are measured at
-//! sampled positions, there as the certificate measures them. What the search
-//! finds counts only if [`bound`](crate::bound::magnitude) certifies it. The edited
-//! program is then simplified, which may save more, and edited again. In
-//! which regrouping the exact program is matters more than how small it is there
-//! (`approximate/regrouping.rs`).
+//! A greedy search ranks edits of the *emitted* program by error for each operation saved,
+//! constants corrected for what is left out; parts of what it chose are taken back at random and
+//! chosen anew. Errors are measured at sampled positions, there as the certificate measures them.
+//! What the search finds counts only if [`bound`](crate::bound::magnitude) certifies it. The edited
+//! program is then simplified, which may save more, and edited again. In which regrouping the exact
+//! program is matters more than how small it is there (`approximate/regrouping.rs`).
 //!
 //! - `search`: guesses, each certified
 //! - `greedy`: the ranking
@@ -42,7 +40,6 @@ use search::Search;
 pub(crate) use search::cost;
 use tally::Tally;
 
-/// Of the samples and of what is taken back.
 const SEED: u64 = 0x9121;
 
 /// How hard to search, counted, never timed.
@@ -54,9 +51,8 @@ pub struct PruneSettings {
     pub guesses: usize,
     /// Times that a part is taken back and chosen anew.
     pub retries: usize,
-    /// Programs to edit one after the other: the first ones may use a part of
-    /// the allowance, so that what goes in any case is gone, and the rest
-    /// simplified, before it gets tight.
+    /// Programs to edit one after the other. The first ones may use a part of the allowance, so
+    /// that what goes in any case is gone before it gets tight.
     pub stages: usize,
     /// Other values tried in the place of each, those that run most alike.
     pub alike: usize,
@@ -68,8 +64,8 @@ pub struct PruneSettings {
     pub effort: Effort,
     /// The last guesses whose worst positions stay among the samples.
     pub worst: usize,
-    /// Smaller models to start from as well; none where work is limited, of which a
-    /// thread counts its own.
+    /// Smaller models to start from as well; none where work is limited, of which a thread counts
+    /// its own.
     pub models: usize,
     /// Times that the best starts are edited again, with other samples, if they are left with
     /// some 300 operations, fewer times if with less; and that the best programs are, if they
@@ -148,13 +144,10 @@ impl PruneSettings {
         }
     }
 
-    /// Returns how often the best programs are edited again, the best being of such a cost.
     pub(crate) fn rounds(&self, best: usize) -> u64 {
         50 * self.restarts / (best as u64).max(1)
     }
 
-    /// Returns how often the best starts of a program of so many steps are edited again, the
-    /// best being left with such a cost.
     pub(crate) fn again(&self, steps: usize, best: usize) -> u64 {
         if self.hurries(steps) {
             return 0;
@@ -163,7 +156,6 @@ impl PruneSettings {
         ((best as u64).saturating_mul(restarts) / 300).clamp(2.min(restarts), restarts)
     }
 
-    /// Returns the positions that may be sampled after a guess, of so many outputs.
     fn positions(&self, steps: usize, outputs: usize) -> usize {
         let rounds = if self.hurries(steps) {
             WORST
@@ -173,15 +165,13 @@ impl PruneSettings {
         self.samples.saturating_add(rounds.saturating_mul(outputs))
     }
 
-    /// Returns what a stage may use of the allowances.
     fn part(&self, stage: usize) -> f64 {
         let ramp = RAMP.get(stage).filter(|_| stage + 1 < self.stages);
         ramp.copied().unwrap_or(1.0)
     }
 
-    /// Guesses in a stage. Of long programs, of which one takes a while, the first stages
-    /// take what goes in any case: how far sampled and certified errors are apart is
-    /// learned where it decides.
+    /// The first stages of long programs take what goes in any case: how far sampled and certified
+    /// errors are apart is learned where it decides.
     fn guesses(&self, stage: usize, steps: usize) -> usize {
         match self.part(stage) < 1.0 && steps > LONG {
             true => 1,
@@ -189,8 +179,7 @@ impl PruneSettings {
         }
     }
 
-    /// Returns whether a program is so long that who waits for a quick search would wait for
-    /// minutes, were it not for what is about as good.
+    /// True for a program so long that a quick search of it would take minutes.
     fn hurries(&self, steps: usize) -> bool {
         self.effort == Effort::Quick && steps > LONG
     }
@@ -202,48 +191,37 @@ impl PruneSettings {
     }
 }
 
-/// The guesses whose worst positions stay, where time is short: what one goes through grows
-/// with them, and what was worst long ago no longer is.
+/// Few where time is short: each makes every later guess slower, and old worst positions no longer
+/// are the worst.
 const WORST: usize = 2;
 
-/// A program of more steps is long.
 const LONG: usize = 400;
 
-/// The parts of the allowances that the first stages may use.
 const RAMP: [f64; 2] = [0.5, 0.8];
 
-/// Programs that are edited beyond those of the settings, as long as each leaves
-/// much of the allowances.
+/// Stages beyond those of the settings, as long as each leaves much of the allowances.
 const MAX_MORE: usize = 3;
 
-/// Stages in which multiples may stand in for values, once nothing else does.
 const WITH_SPARES: usize = 2;
 
-/// An output that uses less of its allowance leaves much.
 const MUCH: f64 = 0.8;
 
-/// Returns whether no output uses up its allowance.
 fn leaves(best: &Pruned, allowances: &[f64]) -> bool {
     let mut pairs = best.errors.iter().zip(allowances);
     has_edits(&best.stages) && pairs.all(|(error, allowance)| *error <= MUCH * allowance)
 }
 
-/// The aim of a search for a variant.
 #[derive(Clone, Copy)]
 pub(crate) struct Target<'a> {
-    /// The exact program.
     pub exact: &'a Program,
-    /// Where errors count.
     pub limits: &'a InputBox,
     /// The largest error of each output, in its unit.
     pub allowances: &'a [f64],
     pub settings: &'a PruneSettings,
-    /// Where it is over, the search ends with its best.
     pub watch: FunctionWatch<'a>,
 }
 
 impl Target<'_> {
-    /// Returns the number of operations of the exact program.
     pub(super) fn steps(&self) -> usize {
         self.exact.dag.operations().count()
     }
@@ -267,9 +245,9 @@ pub fn prune(
     pruned(target, None)
 }
 
-/// Returns the cheapest variant found, as [`prune`] does. `start` is another program to edit in
-/// the exact one's place. If it is equal, the first stage has no edits and leads there; if not,
-/// the result is bounded against the exact program directly, and has no stages but that one.
+/// `start` is another program to edit in the exact one's place. If it is equal, the first stage has
+/// no edits and leads there; if not, the result is bounded against the exact program directly, and
+/// has no stages but that one.
 pub(crate) fn pruned(target: Target<'_>, start: Option<&Program>) -> Pruned {
     let (program, settings) = (target.exact, target.settings);
     let is_direct = start.is_some_and(|start| prove_same(start, program).is_err());
@@ -290,13 +268,11 @@ pub(crate) fn pruned(target: Target<'_>, start: Option<&Program>) -> Pruned {
     let mut random = Random::new(SEED + settings.seed);
     let motions = Motions::new(program, target.limits);
     let mut positions = motions::positions(target.limits, settings.samples, &mut random);
-    // What a model errs is no guess.
     let mut share = match is_direct {
         true => search::CLOSE,
         false => search::SHARE,
     };
     let mut edited = |best: &Pruned, stage: usize, spares: bool| {
-        // What a smaller model left may be used at once.
         let part = if is_direct { 1.0 } else { settings.part(stage) };
         let allowances: Vec<f64> = target.allowances.iter().map(|a| a * part).collect();
         let mut base = best.clone();
@@ -320,7 +296,6 @@ pub(crate) fn pruned(target: Target<'_>, start: Option<&Program>) -> Pruned {
         (search.run(&mut positions, &mut share, &mut random), part)
     };
     for stage in 0..settings.stages + MAX_MORE {
-        // What is left of the allowances may do for one more.
         if stage >= settings.stages && !leaves(&best, target.allowances) {
             break;
         }
@@ -346,7 +321,6 @@ pub(crate) fn pruned(target: Target<'_>, start: Option<&Program>) -> Pruned {
     }
 }
 
-/// Returns another program as it is, if it is cheaper and certified to be within the allowances.
 pub(crate) fn unedited(target: Target<'_>, start: &Program) -> Option<Pruned> {
     let start = Pruned {
         stages: vec![Stage::unedited(target.exact.clone())],
@@ -356,8 +330,6 @@ pub(crate) fn unedited(target: Target<'_>, start: &Program) -> Option<Pruned> {
     direct(target, start)
 }
 
-/// Returns a program that is no edit of the exact one, if it is cheaper and certified to be
-/// within the allowances.
 fn direct(target: Target<'_>, mut best: Pruned) -> Option<Pruned> {
     if search::cost(&best.program) >= search::cost(target.exact) {
         return None;
@@ -371,8 +343,7 @@ fn direct(target: Target<'_>, mut best: Pruned) -> Option<Pruned> {
     Some(best)
 }
 
-/// Estimates what [`prune`] would leave of a program: operations, sines and cosines weighed.
-/// Errors at so many samples decide, nothing is certified.
+/// Errors at a few samples decide; nothing is certified.
 pub(crate) fn appraise(target: Target<'_>, program: &Program) -> u32 {
     let mut random = Random::new(SEED);
     let motions = Motions::new(target.exact, target.limits);

@@ -7,7 +7,6 @@ use crate::program::{Input, Operation};
 /// A sine/cosine pair weighs as much as this many operations, which its polynomials take.
 pub(super) const SINCOS: u32 = 8;
 
-/// Operations that stay, sines and cosines weighed.
 pub(super) fn price(nodes: &Nodes, edits: &[Option<Value>], scratch: &mut Scratch) -> u32 {
     let inputs = nodes.inputs.len();
     let Scratch { folded, live } = scratch;
@@ -53,20 +52,16 @@ pub(super) fn price(nodes: &Nodes, edits: &[Option<Value>], scratch: &mut Scratc
     total
 }
 
-/// Buffers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scratch {
     folded: Vec<Folded>,
-    /// Which nodes the last priced program computes.
     pub live: Vec<bool>,
 }
 
-/// A node after folding: another value, or an operation.
 #[derive(Clone, Copy, Debug)]
 struct Folded {
     value: Value,
     operands: Option<[Value; 2]>,
-    /// c and x of a product c·x.
     scaled: Option<(f64, Value)>,
 }
 
@@ -80,7 +75,6 @@ impl Folded {
     }
 }
 
-/// Returns what stands for a value, as far as nodes are folded.
 fn resolved(value: Value, folded: &[Folded]) -> Value {
     match value {
         Value::Node(node, negative) => folded[node].value.negated_if(negative),
@@ -141,8 +135,6 @@ mod tests {
     use crate::function::{Argument, Function};
     use crate::program::Program;
 
-    /// Returns the price of a pattern whose constants come from edits: they are inputs, which edits
-    /// replace by their values.
     fn price_of(pattern: &str) -> u32 {
         let mut builder = Builder::new(Folding::Syntactic);
         let mut replaced: Vec<(Input, f64)> = Vec::new();

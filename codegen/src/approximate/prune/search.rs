@@ -17,56 +17,42 @@ use crate::random::Random;
 use crate::search::{Effort, search};
 use crate::states::JointState;
 
-/// Rounds in which constants are corrected after edits are chosen.
 const POLISH: usize = 12;
 
 /// How much of the allowance sampled errors may use at first.
 pub(super) const SHARE: f64 = 0.8;
 
-/// The same where most of the error is a model's, which was fitted.
+/// [`SHARE`] where most of the error is a model's, which was fitted.
 pub(super) const CLOSE: f64 = 0.95;
 
 /// An output whose certified error is less than this part of its allowance
 /// may use more of it; the bound is not tight there.
 const USED_ENOUGH: f64 = 0.88;
 
-/// Guesses that are added as long as none was certified, and how much less each
-/// leaves out.
 const MORE: usize = 4;
 const CAUTION: f64 = 0.8;
 
 /// In place of the ratio of errors where D may be singular.
 const SINGULAR: f64 = 4.0;
 
-/// One program to edit.
 pub(super) struct Search<'a> {
     pub target: Target<'a>,
-    /// What was edited before.
     pub base: Pruned,
-    /// What its program costs.
     pub paid: usize,
     pub motions: &'a Motions,
     pub tally: &'a Tally<'a>,
-    /// Guesses of how far sampled and certified errors are apart.
     pub guesses: usize,
-    /// Times that a part is taken back and chosen anew.
     pub retries: usize,
-    /// `true` if the first program to edit is not equal to the full one.
     pub is_direct: bool,
 }
 
-/// A certified variant and how it was found.
 struct Found {
     pruned: Pruned,
     state: State,
-    /// What sampled errors may use of each output's allowance.
     shares: Vec<f64>,
 }
 
 impl Search<'_> {
-    /// Returns the cheapest variant found, if it is cheaper than what was there.
-    /// `share`: how much of the allowances sampled errors may use at first, and, of long
-    /// programs, what was learned of that.
     pub(super) fn run(
         &self,
         positions: &mut Vec<Vec<f64>>,
@@ -76,7 +62,6 @@ impl Search<'_> {
         if self.tally.is_over() && has_edits(&self.base.stages) {
             return None;
         }
-        // Outputs that use up their allowance are dear.
         let mut prices = vec![1.0; self.target.allowances.len()];
         let found = self.guess(positions, *share, &mut prices, random)?;
         if self.hurries() {
@@ -101,8 +86,7 @@ impl Search<'_> {
     ) -> Option<Found> {
         let mut shares = vec![share; self.target.allowances.len()];
         let mut best: Option<Found> = None;
-        // The first guess at a long program tries most of what cannot be, and the others
-        // need not.
+        // The first guess at a long program tries most of what cannot be, and the others need not.
         let mut never = Vec::new();
         for round in 0..self.guesses + MORE {
             let enough = round >= self.guesses || self.tally.is_over();
@@ -158,7 +142,6 @@ impl Search<'_> {
         best
     }
 
-    /// Takes parts back and chooses anew.
     fn again(
         &self,
         found: Found,
@@ -209,8 +192,6 @@ impl Search<'_> {
         pruned
     }
 
-    /// Returns the program to edit at states, and the exact program's outputs there, output after
-    /// output.
     fn sampled(&self, states: &[JointState]) -> (Nodes, Vec<f64>) {
         let truth = self.target.exact.in_doubles().run_at_many(states);
         (Nodes::new(&self.base.program, states), truth.concat())
@@ -233,8 +214,6 @@ impl Search<'_> {
         Greedy::new(nodes, self.motions, truth, allowances, prices, settings)
     }
 
-    /// Returns the variant, and the certified error of each output against its
-    /// allowance.
     fn certify(
         &self,
         original: &Nodes,
@@ -248,15 +227,13 @@ impl Search<'_> {
         pruned.errors = magnitude::judged(&error, limits, allowances, self.target.settings.budget);
         let pairs = pruned.errors.iter().zip(allowances);
         let mut ratios: Vec<f64> = pairs.map(|(&e, &a)| magnitude::relative(e, a)).collect();
-        // Too much went as well if D may become singular: the next guess
-        // leaves out less.
+        // Too much went as well if D may become singular: the next guess leaves out less.
         if within(&ratios) && !self.is_definite(&pruned.program) {
             ratios.fill(SINGULAR);
         }
         (pruned, ratios)
     }
 
-    /// Returns the variant, if every output is certified to be within its allowance.
     fn certified(
         &self,
         original: &Nodes,
@@ -270,7 +247,6 @@ impl Search<'_> {
         self.is_definite(&pruned.program).then_some(pruned)
     }
 
-    /// Returns the variant, its errors still to be found, and the program of them.
     fn variant(&self, original: &Nodes, state: &State, greedy: &mut Greedy<'_>) -> (Pruned, Dag) {
         let mut stages = self.base.stages.clone();
         stages.push(Stage {
@@ -290,12 +266,10 @@ impl Search<'_> {
         (pruned, error)
     }
 
-    /// Returns whether D, if it is an output, is positive definite.
     fn is_definite(&self, program: &Program) -> bool {
         !has_inertia(program) || is_definite(program, ScalarType::F64, &[], self.target.limits)
     }
 
-    /// Positions where the error is large join the samples.
     fn adversaries(&self, stages: &[Stage], positions: &mut Vec<Vec<f64>>, random: &mut Random) {
         let Some(last) = stages.last() else { return };
         let edited = last.program(Folding::Syntactic);
@@ -328,12 +302,10 @@ impl Search<'_> {
     }
 }
 
-/// Returns whether no certified error is above its allowance.
 fn within(ratios: &[f64]) -> bool {
     ratios.iter().all(|ratio| *ratio <= 1.0)
 }
 
-/// Returns the last stage's edited program, simplified by an effort if there is one.
 fn finish(stages: &[Stage], effort: Option<Effort>) -> Program {
     let last = &stages[stages.len() - 1];
     let graph = [last.edited(Folding::Semantic)];
@@ -345,8 +317,6 @@ fn finish(stages: &[Stage], effort: Option<Effort>) -> Program {
     last.program.with_graph(graph)
 }
 
-/// Operations, and a few more for each sine and cosine: what
-/// `price` gives, of a program that is built.
 pub(crate) fn cost(program: &Program) -> usize {
     let counts = program.counts();
     counts.operations() + SINCOS as usize * counts.sincos

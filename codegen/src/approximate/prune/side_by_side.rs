@@ -3,17 +3,13 @@
 
 use crate::program::Operation;
 
-/// An operand of an operation over columns.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::approximate::prune) enum Column<'c> {
-    /// A value of each state.
     Each(&'c [f64]),
-    /// One for all.
     All(f64),
 }
 
 impl Operation {
-    /// Computes the operation at every state, in one loop: no state waits for another.
     pub(in crate::approximate::prune) fn at_each(self, operands: [Column<'_>; 2], out: &mut [f64]) {
         let out = out.iter_mut();
         match self {
@@ -24,7 +20,6 @@ impl Operation {
         }
     }
 
-    /// Computes [`Operation::parts`] at every state, that of one side added to `sums`.
     pub(in crate::approximate::prune) fn add_parts(
         self,
         side: usize,
@@ -53,7 +48,6 @@ impl Operation {
     }
 }
 
-/// Shows each state's item with its operands.
 #[inline]
 fn zip<T>(items: impl Iterator<Item = T>, operands: [Column<'_>; 2], show: impl Fn(T, f64, f64)) {
     match operands {
@@ -85,7 +79,6 @@ mod tests {
     use super::*;
     use crate::random::Random;
 
-    /// At many states side by side, each gets the bits that it has alone.
     #[test]
     fn states_side_by_side_have_the_parts_of_each() {
         let mut random = Random::new(0x51de);

@@ -15,10 +15,8 @@ use dalembert_model::number::{Exact, Rational};
 /// Values that run less alike are no use.
 const LEAST: f64 = 0.6;
 
-/// Spares before a step at most.
 pub(super) const MOST: usize = 2;
 
-/// Returns the program with spares before its steps, by the values at states.
 pub(super) fn spared(program: &Program, motions: &Motions, states: &[JointState]) -> Program {
     let nodes = Nodes::new(program, states);
     let columns = nodes.run(&vec![None; nodes.len()]);
@@ -86,8 +84,6 @@ mod tests {
     use crate::verify::exact::prove_same;
     use dalembert_model::number::Rounded;
 
-    /// 3·c₁ + ⅛·s₁ is nearly a multiple of c₁: before the sum stands that multiple, and the
-    /// program computes what it did.
     #[test]
     fn the_nearest_multiple_stands_before_a_sum() {
         let mut builder = Builder::new(Folding::Syntactic);
@@ -117,7 +113,6 @@ mod tests {
                 other => panic!("{other:?}"),
             }
         });
-        // Of c₁ itself, and of 3·c₁.
         let mut factors: Vec<f64> = factors.collect();
         factors.sort_by(f64::total_cmp);
         assert!((factors[0] - 1.0).abs() < 0.1, "{factors:?}");

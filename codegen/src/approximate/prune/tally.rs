@@ -7,7 +7,6 @@ use crate::bound::work::Meter;
 use crate::program::Program;
 use crate::watch::{FunctionWatch, Part};
 
-/// How far a search for omissions has come.
 pub(super) struct Tally<'a> {
     watch: FunctionWatch<'a>,
     done: Cell<usize>,
@@ -28,7 +27,6 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// Tells that a round begins, with the best program so far.
     pub(super) fn round(&self, best: &Program) {
         let done = self.done.get();
         let rounds = [done, self.rounds.max(done + 1)];
@@ -37,7 +35,6 @@ impl<'a> Tally<'a> {
         self.done.set(done + 1);
     }
 
-    /// Returns whether the one who watches wants an end, or the work is done.
     pub(super) fn is_over(&self) -> bool {
         self.meter.is_over() || self.watch.is_over()
     }

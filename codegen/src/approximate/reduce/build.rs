@@ -15,7 +15,6 @@ use crate::seeds::start::Problem;
 use crate::seeds::{regrouped, skeleton, tuned};
 use crate::setup::{FittedLink, Setup};
 
-/// A writer of programs for the models of one function.
 pub(super) struct Builder<'a> {
     pub setup: &'a Setup,
     pub exact: &'a Program,
@@ -23,14 +22,12 @@ pub(super) struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// Estimates what a model costs: its formulas traced, no factor being special.
     pub(super) fn price(&self, terms: &[usize]) -> u64 {
         let factors: Vec<f64> = (0..terms.len()).map(|k| 1.37 + 0.1709 * k as f64).collect();
         let fitted = self.fitted(terms, &factors);
         traced(&fitted, self.exact.function).map_or(u64::MAX, |graph| cost(&graph))
     }
 
-    /// Searches for the program of a model; outputs that it has not are zero.
     pub(super) fn program(&self, model: &Solution) -> Option<Program> {
         let fitted = self.fitted(&model.terms, &model.factors);
         let (function, effort) = (self.exact.function, Effort::Quick);
@@ -50,7 +47,6 @@ impl Builder<'_> {
         Some(self.exact.with_graph(&builder.finish(outputs)))
     }
 
-    /// Returns the chain with these terms, and the rows that are not zero.
     fn fitted(&self, terms: &[usize], factors: &[f64]) -> Setup {
         let mut links = nothing(&skeleton(self.setup));
         for (&term, &factor) in terms.iter().zip(factors) {
@@ -74,7 +70,6 @@ fn add(link: &mut FittedLink, unit: &FittedLink, factor: &Exact) {
     link.viscous = link.viscous.add(&unit.viscous.mul(factor));
 }
 
-/// Rounds to five digits: literals that can be read.
 fn short(x: f64) -> Exact {
     let digits: Rational = parse_decimal(&format!("{x:.4e}")).unwrap_or_default();
     Exact::from(digits)

@@ -8,7 +8,6 @@
 use super::terms::Terms;
 use crate::approximate::prune::dot;
 
-/// Iterations, if they are needed.
 const ROUGH: usize = 12;
 const FINE: usize = 24;
 
@@ -18,27 +17,19 @@ const RIDGE: f64 = 1e-11;
 /// Errors of a row below this part of its block's largest weigh no more.
 const FLOOR: f64 = 0.02;
 
-/// The products of all terms, block by block: what least squares need.
 pub(super) struct Fit<'t> {
     pub terms: &'t Terms,
-    /// Rows a block.
     block: usize,
-    /// Of each block: products of the terms with each other and with the function.
     products: Vec<Vec<f64>>,
-    /// The size of each column.
     sizes: Vec<f64>,
 }
 
-/// A model: terms with factors.
 #[derive(Clone, Debug)]
 pub(super) struct Solution {
-    /// Those that were asked for.
     pub terms: Vec<usize>,
-    /// A factor a term.
     pub factors: Vec<f64>,
     /// The largest error at the samples, one being the allowance.
     pub error: f64,
-    /// Returns by how much the squares grow without each term.
     pub saliency: Vec<f64>,
     /// (JᵀWJ)⁻¹, row after row.
     pub inverse: Vec<f64>,
@@ -78,13 +69,10 @@ impl<'t> Fit<'t> {
         }
     }
 
-    /// Returns whether a term does anything at all.
     pub(super) fn is_something(&self, term: usize) -> bool {
         self.sizes[term] > 1e-9 * largest(&self.sizes)
     }
 
-    /// Fits terms so that the largest error is small; ends as soon as it is at most
-    /// `enough`.
     pub(super) fn solve(&self, of: &[usize], enough: f64) -> Solution {
         let blocks = self.products.len();
         let mut weights = vec![1.0 / blocks as f64; blocks];
@@ -108,7 +96,6 @@ impl<'t> Fit<'t> {
         best.unwrap_or_else(|| self.weighed(of, &weights))
     }
 
-    /// Fits more closely than [`Fit::solve`], row by row, from its solution.
     pub(super) fn refine(&self, from: Solution, enough: f64) -> Solution {
         let of = &from.terms.clone();
         let mut weights = vec![1.0; self.products.len()];
@@ -147,7 +134,6 @@ impl<'t> Fit<'t> {
         best
     }
 
-    /// Returns what the terms leave of the function, relative to the allowances.
     fn residual(&self, of: &[usize], factors: &[f64]) -> Vec<f64> {
         let mut left = self.terms.whole.clone();
         for (&term, factor) in of.iter().zip(factors) {
@@ -168,7 +154,6 @@ impl<'t> Fit<'t> {
         self.of_blocks(&self.residual(of, factors))
     }
 
-    /// Solves the least squares with a weight a row.
     fn least_squares(&self, of: &[usize], rows: &[f64]) -> Vec<f64> {
         let scaled: Vec<Vec<f64>> = of
             .iter()
@@ -228,13 +213,11 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().copied().fold(0.0, f64::max)
 }
 
-/// Returns the place of a pair in a triangle.
 fn at(a: usize, b: usize) -> usize {
     let (a, b) = (a.max(b), a.min(b));
     a * (a + 1) / 2 + b
 }
 
-/// Factors a symmetric matrix, given by its lower triangle, row by row, into L Lᵀ.
 fn cholesky(mut l: Vec<f64>, n: usize) -> Vec<f64> {
     for a in 0..n {
         for b in 0..=a {
@@ -252,7 +235,6 @@ fn cholesky(mut l: Vec<f64>, n: usize) -> Vec<f64> {
     l
 }
 
-/// Solves L Lᵀ x = b.
 fn solved(l: &[f64], mut x: Vec<f64>) -> Vec<f64> {
     let n = x.len();
     for a in 0..n {

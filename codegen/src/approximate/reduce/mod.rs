@@ -1,10 +1,9 @@
 //! Smaller models: fewer inertial parameters, fitted to the torques of the robot.
 //!
-//! Editing the exact program one value at a time never leaves what all of its values
-//! share: the wrist's sines stay as long as anything reads them. Torques are linear in
-//! the moments of the links about their joints, so a model with few of them is found by
-//! linear algebra, and the exact search then writes a program for it that shares nothing
-//! with the exact one:
+//! Editing the exact program one value at a time never leaves what all of its values share: the
+//! wrist's sines stay as long as anything reads them. Torques are linear in the moments of the
+//! links about their joints, so a model with few of them is found by linear algebra, and the exact
+//! search then writes a program for it that shares nothing with the exact one:
 //!
 //! 1. [`terms`]: a column for each moment, armature and viscous friction of each link,
 //!    at sampled positions and all motions there
@@ -32,18 +31,15 @@ use build::Builder;
 use fit::Fit;
 use terms::Terms;
 
-/// The seed of the sampled positions.
 const SEED: u64 = 0x5eed;
 
-/// Sampled positions.
 const POSITIONS: usize = 48;
 
 /// The parts of the allowances that tried models use: the rest is for pruning.
 const USES: [f64; 8] = [0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.8, 0.93];
 
-/// Returns programs of smaller models than the exact program's, from those that leave most
-/// of the allowances to the smallest; none for a function that is not linear in the links'
-/// moments, or where nothing may go.
+/// From the model that leaves most of the allowances to the smallest; empty for a function that is
+/// not linear in the links' moments, or where nothing may go.
 pub(super) fn programs(setup: &Setup, target: Target<'_>) -> Vec<Program> {
     let positions = motions::positions(target.limits, POSITIONS, &mut Random::new(SEED));
     let terms = Terms::new(setup, target, &positions);
@@ -58,7 +54,6 @@ pub(super) fn programs(setup: &Setup, target: Target<'_>) -> Vec<Program> {
     let is_over = || target.watch.is_over();
     let fit = Fit::new(&terms);
     let models = path::eliminate(&builder, &fit, &is_over);
-    // The smallest that leaves so much.
     let of = |most: &f64| models.iter().rposition(|model| model.error <= *most);
     let mut places: Vec<usize> = USES.iter().filter_map(of).collect();
     places.dedup();

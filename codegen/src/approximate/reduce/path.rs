@@ -4,20 +4,16 @@ use super::build::Builder;
 use super::fit::{Fit, Solution};
 use crate::parallel;
 
-/// The largest error that a fit at the samples may have.
 const MOST: f64 = 0.95;
 
 /// Fits that are no worse than this may be made good enough.
 const NEARLY: f64 = 1.25;
 
-/// Fits that are no worse need not be made better.
 const ENOUGH: f64 = 0.2;
 
-/// Candidates whose programs are counted, and those of which a fit is tried, in each step.
 const COUNTED: usize = 8;
 const TRIED: usize = 5;
 
-/// Returns the models on the way from all terms to few.
 pub(super) fn eliminate(
     builder: &Builder<'_>,
     fit: &Fit<'_>,
@@ -56,7 +52,6 @@ pub(super) fn eliminate(
     models
 }
 
-/// Returns what can come next, one term less or two tied, with what the squares lose.
 fn candidates(fit: &Fit<'_>, solution: &Solution) -> Vec<(f64, Vec<usize>)> {
     let now = &solution.terms;
     let n = now.len();

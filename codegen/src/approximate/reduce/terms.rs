@@ -17,12 +17,9 @@ use crate::states::JointState;
 /// An output that is never more than this part of its allowance is zero.
 const NOTHING: f64 = 0.97;
 
-/// A parameter, or two that are tied.
 #[derive(Clone, Debug)]
 pub(super) struct Term {
-    /// The segment of the chain.
     pub link: usize,
-    /// The link that the segment moves if the parameter is one.
     pub unit: FittedLink,
     /// Those that together can do what it does: it may stand in their place.
     pub stands_for: Option<[usize; 2]>,
@@ -30,19 +27,15 @@ pub(super) struct Term {
     pub column: Vec<f64>,
 }
 
-/// The terms of a function, and its own column.
 pub(super) struct Terms {
     pub all: Vec<Term>,
-    /// The function's own column.
     pub whole: Vec<f64>,
-    /// The places of the outputs that are not zero.
     pub outputs: Vec<usize>,
     pub motions: Motions,
 }
 
 impl Terms {
-    /// Computes the columns at sampled positions; `None` where results are no linear
-    /// function of the links' parameters, one a row.
+    /// `None` unless the results are linear in the links' parameters, and one a row.
     pub(super) fn new(setup: &Setup, target: Target<'_>, positions: &[Vec<f64>]) -> Option<Terms> {
         let Target {
             exact, allowances, ..
@@ -96,7 +89,6 @@ impl Terms {
         Some(terms)
     }
 
-    /// Runs a program: for each output, the monomials at each position.
     fn values(&self, program: &Program, states: &[JointState]) -> Vec<Vec<f64>> {
         let code = program.in_doubles();
         let mut values = code.run_at_many(states);
@@ -107,7 +99,6 @@ impl Terms {
     }
 }
 
-/// Returns a chain's formulas as they stand; `None` if it has none.
 pub(super) fn traced(setup: &Setup, function: Function) -> Option<Dag> {
     let skeleton = skeleton(setup);
     let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
@@ -115,7 +106,6 @@ pub(super) fn traced(setup: &Setup, function: Function) -> Option<Dag> {
     Some(trace_chain(setup.task(function), &chain, form, Folding::Semantic).0)
 }
 
-/// Returns links without mass, drives without inertia or friction.
 pub(super) fn nothing(skeleton: &Skeleton<Exact>) -> Vec<FittedLink> {
     skeleton.links.iter().map(|_| zero()).collect()
 }

@@ -8,48 +8,39 @@ use crate::bound::input_box::InputBox;
 use crate::bound::work;
 use crate::interval::Interval;
 
-/// Terms that are put together in about the time of a point.
 const TERMS: usize = 64;
 
 /// The part of a bound that one of the first cells may cost. Smaller cells are more of them; of
 /// larger ones what was shown of the other angles is more often in vain.
 const FIRST: f64 = 0.077;
 
-/// The most first cells.
 const MOST_FIRST: f64 = 64.0;
 
-/// A bound to show.
 pub(super) struct Cells<'a> {
     pub layout: &'a Layout,
-    /// Before each joint, and after the last: columns of values, of which the
-    /// last one counts.
+    /// Before each joint, and after the last: columns of values, of which the last one counts.
     buffers: Vec<Vec<f64>>,
-    /// Whether the value at a point is at most a bound.
     accept: &'a dyn Fn(&[f64], f64) -> bool,
-    /// True if the values are terms of one polynomial: something is known of it before all
-    /// of its angles are put in.
+    /// True if the values are terms of one polynomial, of which something is known before all of
+    /// its angles are put in.
     pub is_sum: bool,
     /// F, if the box is a part of the circles.
     whole: Option<f64>,
     ranges: Vec<Interval>,
-    /// Points that may still be tried.
     pub points: usize,
-    /// Of the first angle's range, the part that was shown before the cell that was
-    /// looked at last.
+    /// Of the first angle's range, the part that was shown before the cell that was looked at last.
     pub reached: f64,
-    /// The angles put in, and those where the value was above its bound last.
     angles: Vec<f64>,
     above: Vec<f64>,
 }
 
-/// The part of a joint's range around an angle.
 struct Cell {
     middle: f64,
     half: f64,
 }
 
 impl<'a> Cells<'a> {
-    /// Makes the cells over the whole circles, or, given F of these, over the box.
+    /// Covers the box if F over the whole circles is given, else the whole circles.
     pub(super) fn new(
         layout: &'a Layout,
         limits: &InputBox,
@@ -72,25 +63,21 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// Returns the joint's range, unless it goes round.
     pub(super) fn part(&self, level: usize) -> Option<(Interval, f64)> {
         let whole = self.whole.filter(|_| self.layout.part[level])?;
         Some((self.ranges[level], whole))
     }
 
-    /// Returns where the joint's angles begin, and how far they reach.
     pub(super) fn span(&self, level: usize) -> (f64, f64) {
         self.part(level)
             .map_or((0.0, 2.0 * PI), |(range, _)| (range.low(), range.width()))
     }
 
-    /// Returns the values before a joint, those of the angles put in last.
     pub(super) fn values(&self, level: usize) -> &[f64] {
         let buffer = &self.buffers[level];
         &buffer[buffer.len() - self.layout.len(level)..]
     }
 
-    /// Puts an angle in.
     pub(super) fn place(&mut self, level: usize, angle: f64) {
         self.buffers[level + 1].clear();
         self.fold(level, &[angle]);
@@ -104,15 +91,13 @@ impl<'a> Cells<'a> {
         self.layout.fold(level, angles, before, &mut after[0]);
     }
 
-    /// Counts what takes about as long as a point as one.
     pub(super) fn charge(&mut self, level: usize) {
         let points = 1 + self.layout.len(level) / TERMS;
         work::count(points);
         self.points = self.points.saturating_sub(points);
     }
 
-    /// Returns whether the maximum over the joints from `level` on is at most a bound:
-    /// `true` is a proof.
+    /// Over the joints from `level` on; `true` is a proof.
     pub(super) fn below(&mut self, level: usize, bound: f64) -> bool {
         if level == self.layout.joints.len() {
             let below = (self.accept)(self.values(level), bound);
@@ -162,7 +147,6 @@ impl<'a> Cells<'a> {
             middle: from + width * (k as f64 + 0.5) / count as f64,
             half: 0.5 * width / count as f64,
         });
-        // Cells whose angles were put in; the last one is next.
         let mut cells: Vec<Cell> = Vec::new();
         self.buffers[level + 1].clear();
         loop {
@@ -199,8 +183,7 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// Returns whether the value is above a bound at the angles where one was last, those
-    /// before a level being put in already: what is refuted there need not be looked at.
+    /// A bound that is refuted at the angles where one was last need not be looked at.
     fn is_above(&mut self, level: usize, bound: f64) -> bool {
         let last = self.layout.joints.len();
         if level == last || self.above.is_empty() {
@@ -213,7 +196,6 @@ impl<'a> Cells<'a> {
         !(self.accept)(self.values(last), bound)
     }
 
-    /// Returns how many cells are looked at first.
     fn first(&self, level: usize, width: f64, bound: f64, bend: f64) -> usize {
         // By the degree or by the second derivative, whichever is wider.
         let degree = f64::from(self.layout.degrees[level]);

@@ -1,17 +1,15 @@
 //! The least eigenvalue of a symmetric matrix of trigonometric polynomials.
 //!
-//! **Soundness.** Let μ be the least eigenvalue of A over the box, at x₀ with
-//! the unit vector v, and Λ at least |A| everywhere. F = Λ − vᵀAv is a
-//! trigonometric polynomial, 0 ≤ F ≤ 2Λ, and over the box it is largest at x₀,
-//! Λ − μ. So what holds of |T| holds of F: μ ≥ Λ − B is shown by showing
-//! Λ − λ_min(A) ≤ B·cos(d·δ) at the cells' middles, since F there is at most
-//! that. For whole circles F's maximum must be that of all circles: then the
-//! box is all of them; parts use the bound 2Λ of F over circles.
+//! **Soundness.** Let μ be the least eigenvalue of A over the box, at x₀ with the unit vector v,
+//! and Λ at least |A| everywhere. F = Λ − vᵀAv is a trigonometric polynomial, 0 ≤ F ≤ 2Λ, and over
+//! the box it is largest at x₀, Λ − μ. So what holds of |T| holds of F: μ ≥ Λ − B is shown by
+//! showing Λ − λ_min(A) ≤ B·cos(d·δ) at the cells' middles, since F there is at most that. For
+//! whole circles F's maximum must be that of all circles: then the box is all of them; parts use
+//! the bound 2Λ of F over circles.
 //!
-//! At a point, λ_min(A) ≥ t is shown by a Cholesky factorisation of A − t·1:
-//! if it runs through in floating point, the matrix is positive up to
-//! (n + 1)·u·trace; four times that, and what the entries' arithmetic costs,
-//! are taken off t.
+//! At a point, λ_min(A) ≥ t is shown by a Cholesky factorisation of A − t·1: if it runs through in
+//! floating point, the matrix is positive up to (n + 1)·u·trace; four times that, and what the
+//! entries' arithmetic costs, are taken off t.
 
 use super::NEGLIGIBLE;
 use super::cells::Cells;
@@ -22,31 +20,24 @@ use crate::bound::input_box::InputBox;
 use crate::interval::Interval;
 use crate::random::Random;
 
-/// Sampled positions for a first guess.
 const SAMPLES: usize = 500;
 
-/// Parts of the sampled least eigenvalue that are tried, the tightest first.
 const PARTS: [f64; 4] = [0.8, 0.5, 0.2, 0.02];
 
-/// So many of all points are tried first, and say how far all of them would go.
+/// A part of the points is tried first, and says how far all of them would go.
 const TRIAL: usize = 16;
 
 /// Where all of them would not go this part of the way, the rest are not tried: of
 /// the angles some are harder than others, but not by that much.
 const HOPELESS: f64 = 0.1;
 
-/// What is to be shown of a least eigenvalue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::bound) enum Wanted {
-    /// As much as can be.
     Most,
-    /// That it is above zero, by whatever: the easiest.
     Any,
 }
 
-/// Returns a lower bound, above zero, of the least eigenvalue over a box of the matrix
-/// with these entries (row by row, lower triangle), each known up to `errors`;
-/// `None` if what is wanted was not shown within so many points.
+/// Each entry is known up to `errors`. `None` if `wanted` was not shown within so many points.
 pub(in crate::bound) fn least_eigenvalue(
     entries: &[Polynomial],
     errors: &[f64],
@@ -72,7 +63,6 @@ pub(in crate::bound) fn least_eigenvalue(
                 return None;
             }
             size[index] += x.magnitude();
-            // What is this small is left out.
             let radius = match x.magnitude().next_up() <= least {
                 true => x.magnitude(),
                 false => x.radius(),
@@ -97,7 +87,6 @@ pub(in crate::bound) fn least_eigenvalue(
         }
         matrix
     };
-    // At the end of the sums: is Λ − λ_min ≤ bound?
     let accept =
         |values: &[f64], bound: f64| exceeds(matrix(values), n, (most - bound).next_up() + lost);
     let whole = layout.part.contains(&true).then_some(2.0 * most);
@@ -129,7 +118,6 @@ pub(in crate::bound) fn least_eigenvalue(
     }
 }
 
-/// Estimates the least eigenvalue at sampled positions, by halving.
 fn sampled(cells: &mut Cells<'_>, matrix: &dyn Fn(&[f64]) -> Vec<f64>, n: usize, most: f64) -> f64 {
     let mut random = Random::new(0xde7);
     let (last, mut least) = (cells.layout.joints.len(), most);
@@ -156,7 +144,7 @@ fn place(i: usize, j: usize) -> usize {
     row * (row + 1) / 2 + column
 }
 
-/// Returns whether the least eigenvalue is at least t; `true` is a proof.
+/// `true` is a proof.
 fn exceeds(mut a: Vec<f64>, n: usize, t: f64) -> bool {
     let trace: f64 = (0..n).map(|i| a[place(i, i)].abs()).sum();
     let margin = 4.0 * (n as f64 + 2.0) * f64::EPSILON * (trace + n as f64 * t.abs());

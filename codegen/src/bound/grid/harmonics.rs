@@ -1,35 +1,29 @@
 //! Powers of cosines written as multiples of angles.
 //!
-//! cos²θ = ½ + ½·cos 2θ: written in powers, terms undo each other that are
-//! larger than their sum; cos kθ and sin kθ do not. And what the two come to
-//! together is known: |a·cos kθ + b·sin kθ| ≤ √(a² + b²), for products of
-//! several angles too, since (cos kθ, sin kθ) are vectors of length one and so
-//! are their tensor products.
+//! cos²θ = ½ + ½·cos 2θ: written in powers, terms undo each other that are larger than their sum;
+//! cos kθ and sin kθ do not. And what the two come to together is known: |a·cos kθ + b·sin kθ| ≤
+//! √(a² + b²), for products of several angles too, since (cos kθ, sin kθ) are vectors of length one
+//! and so are their tensor products.
 //!
 //! **Soundness.** Identities, in coefficients that are dyadic and exact.
 
 use crate::bound::expand::{Key, Polynomial, added_up, powers, shift};
 use crate::interval::Interval;
 
-/// Reads of a key whose joints have multiples in place of powers the multiple k of a joint's
-/// angle, and whether it is sin kθ.
+/// The multiple k of a joint's angle, and `true` for sin kθ.
 pub(super) fn multiple(key: Key, joint: usize) -> (u32, bool) {
     let (k, sine) = powers(key, joint);
     (k, sine == 1)
 }
 
-/// Returns the bits that tell sines from cosines.
 pub(super) fn phases(joints: usize) -> Key {
     (0..joints).fold(0, |bits, joint| bits | 16u128 << shift(joint))
 }
 
-/// Returns the bits of a joint in a key.
 pub(super) fn bits(joint: usize) -> Key {
     31u128 << shift(joint)
 }
 
-/// Returns the polynomial in multiples of its angles: in each key a joint's power of
-/// the cosine is replaced by the multiple. `None` if a multiple does not fit.
 pub(in crate::bound) fn harmonics(polynomial: &Polynomial, joints: usize) -> Option<Polynomial> {
     let mut terms = polynomial.clone();
     let mut known: [Option<Vec<(u32, f64)>>; 32] = [const { None }; 32];
@@ -74,7 +68,6 @@ fn of_power((c, s): (u32, u32)) -> Vec<(u32, f64)> {
                 for (k, half) in [(k + 1.0, 0.5), (k - 1.0, -0.5)] {
                     parts[k.abs() as usize] += half * part * k.signum();
                 }
-                // sin 0θ is nothing.
                 parts[0] = 0.0;
             }
         }

@@ -8,7 +8,6 @@ use crate::bound::expand::{Key, rates};
 use crate::bound::input_box::InputBox;
 use crate::interval::Interval;
 
-/// Angles that are put in side by side.
 pub(super) const LANES: usize = 8;
 
 /// Multiples of an angle up to the 15th: their cosines and sines, and 1.
@@ -16,56 +15,43 @@ const BASES: usize = 32;
 
 /// Values that differ by sine and cosine alone.
 pub(super) struct Group {
-    /// Where it ends.
     pub end: u32,
-    /// How large its rates are.
     pub size: f64,
-    /// The square of the multiple of the joint's angle.
     pub square: f64,
 }
 
-/// Bounds of a polynomial without looking at its angles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Crude {
-    /// At least its magnitude.
     pub most: f64,
     /// At least the magnitude of its second derivative by the next angle.
     pub bend: f64,
 }
 
-/// Trigonometric polynomials in multiples of their angles, angle after angle.
 pub(super) struct Layout {
     pub joints: Vec<usize>,
     pub degrees: Vec<u32>,
     /// What rounding costs, against the sum of all terms' magnitudes.
     pub rounding: f64,
-    /// Of each joint: the multiples that occur, and whether of the sine.
+    /// For each joint, the multiples that occur, `true` for the sine.
     bases: Vec<Vec<(u32, bool)>>,
     pub coefficients: Vec<f64>,
-    /// Of each joint: (base, to) of each value that goes in, and how many come
-    /// out.
+    /// For each joint: pairs (base, to) of the values that go in, and how many come out.
     folds: Vec<(Vec<[u32; 2]>, usize)>,
-    /// Of each joint: values that go in and differ by sine and cosine alone,
-    /// one after the other.
+    /// For each joint, the values that go in and differ by sine and cosine alone, side by side.
     pub groups: Vec<Vec<Group>>,
-    /// The range of the rates of each value that comes out.
     pub output: Vec<(f64, f64)>,
-    /// Of each value that comes out, the factors that are at their worst together with
-    /// those of the others.
+    /// For each value that comes out, the factors that are at their worst together with others.
     factors: Vec<Option<(usize, usize)>>,
-    /// No products of these factors.
     corners: Option<Corners>,
-    /// What is left of the key of each value that comes out.
     pub rest: Vec<Key>,
     pub slack: f64,
-    /// Whether a joint has less than the whole circle.
+    /// True for a joint with less than the whole circle.
     pub part: Vec<bool>,
 }
 
 impl Layout {
-    /// Lays out a polynomial in multiples; `range` of what is not an angle in a key. Terms of at
-    /// most `least` are left to the slack. The joint of the highest degree is the last one: its
-    /// sums are the shortest.
+    /// Terms of at most `least` are left to the slack. The joint of the highest degree is the last
+    /// one: its sums are the shortest.
     pub(super) fn new(
         polynomial: &[(Key, Interval)],
         limits: &InputBox,
@@ -130,7 +116,6 @@ impl Layout {
                     .collect(),
             );
             let rest = |key: Key| key & !bits(joint);
-            // In their new order, each with where it comes from.
             let mut moved: Vec<((Key, Key), usize)> = (terms.iter().enumerate())
                 .map(|(from, &key)| (place(rest(key)), from))
                 .collect();
@@ -181,7 +166,6 @@ impl Layout {
         }
     }
 
-    /// Returns how many values there are before a joint, or after the last one.
     pub(super) fn len(&self, level: usize) -> usize {
         match level.checked_sub(1) {
             None => self.coefficients.len(),
@@ -189,10 +173,8 @@ impl Layout {
         }
     }
 
-    /// Returns bounds without looking at angles, of the magnitude and of that of the second
-    /// derivative by the joint's angle: each group's is the length of its coefficients.
+    /// Each group counts with the length of its coefficients.
     pub(super) fn crude(&self, level: usize, values: &[f64]) -> Crude {
-        // After the last angle only rates are left.
         let Some(groups) = self.groups.get(level) else {
             return Crude {
                 most: self.each_at_worst(values) * (1.0 + 1e-9),
@@ -215,8 +197,6 @@ impl Layout {
         }
     }
 
-    /// Puts angles into the values before a joint: a column of values each joins
-    /// those in `after`.
     pub(super) fn fold(&self, level: usize, angles: &[f64], before: &[f64], after: &mut Vec<f64>) {
         for angles in angles.chunks(LANES) {
             match angles.len() {
@@ -227,8 +207,7 @@ impl Layout {
         }
     }
 
-    /// Evaluates up to W angles side by side: each sum is the one that an angle by itself would
-    /// have.
+    /// Each sum is the one that an angle by itself would have.
     fn columns<const W: usize>(
         &self,
         level: usize,
@@ -265,12 +244,10 @@ impl Layout {
         }
     }
 
-    /// Returns whether the value at a point is at most a bound.
     pub(super) fn is_below(&self, values: &[f64], bound: f64) -> bool {
         self.each_at_worst(values) <= bound || self.value(values) <= bound
     }
 
-    /// Returns the value at a point, monomial by monomial at its worst.
     fn each_at_worst(&self, values: &[f64]) -> f64 {
         let (mut low, mut high) = (0.0, 0.0);
         for (x, &(least, greatest)) in values.iter().zip(&self.output) {
@@ -281,7 +258,6 @@ impl Layout {
         f64::max(high, -low) + self.slack
     }
 
-    /// Returns the value at a point, rates at their worst.
     pub(super) fn value(&self, values: &[f64]) -> f64 {
         let Some(mut corners) = self.corners.clone() else {
             return self.each_at_worst(values);
@@ -333,8 +309,7 @@ fn factors(
 /// Returns what rounding costs a value at a point, against the sum of the magnitudes
 /// of all its terms.
 ///
-/// For each angle a term is multiplied by a sine or cosine of a multiple and
-/// added to others:
+/// For each angle a term is multiplied by a sine or cosine of a multiple and added to others:
 ///
 /// - libm's pair errs by less than 2·√2·u; each addition theorem adds to the
 ///   last multiple's error (as a vector) the first's and its own roundings,

@@ -1,35 +1,30 @@
 //! The largest magnitude of a trigonometric polynomial over a box, from its
 //! values at points that lie close where it is large.
 //!
-//! **Soundness.** Let |T| be largest, M, at x₀ and some rates; hold these
-//! rates. Of the first angle's cells one contains x₀'s; c is its middle, δ its
-//! half width, d the degree of T in that angle. The angle is at x₀ where T's
-//! derivative by it is 0, unless that is an end of its range.
+//! **Soundness.** Let |T| be largest, M, at x₀ and some rates; hold these rates. Of the first
+//! angle's cells one contains x₀'s; c is its middle, δ its half width, d the degree of T in that
+//! angle. The angle is at x₀ where T's derivative by it is 0, unless that is an end of its range.
 //!
 //! - *Whole circle.* M. Riesz: |T(c, x₀₂, …)| ≥ M·cos(d·δ) for d·δ ≤ π/2. So
 //!   M ≤ m(c)/cos(d·δ), m(c) being the maximum over the other angles at c.
-//! - *Anywhere.* M ≤ m(c) + ½δ²·K with K ≥ |∂²T|: each multiple k of the
-//!   angle by itself, k² times what it is without looking at the angles that are
-//!   left. Most multiples are small, and of those angles that were put in K
-//!   knows the values, so that it is mostly far below M·d².
+//! - *Anywhere.* M ≤ m(c) + ½δ²·K with K ≥ |∂²T|: each multiple k of the angle by itself, k² times
+//!   what it is without looking at the angles that are left. Most multiples are small, and of those
+//!   angles that were put in K knows the values, so that it is mostly far below M·d².
 //! - *Ends* of a part of the circle are points of their own.
 //!
-//! So M ≤ B is shown by showing m(c) ≤ max(B·cos(d·δ), B − ½δ²·K) for every
-//! cell, angle after angle; a cell for which that fails is cut in three. Every B that is tried is a
-//! value that T takes and a little more. For each point the rates are at their
-//! worst: accelerations and squares one by one, products of velocities together
-//! ([`corners`](super::corners)).
+//! So M ≤ B is shown by showing m(c) ≤ max(B·cos(d·δ), B − ½δ²·K) for every cell, angle after
+//! angle; a cell for which that fails is cut in three. Every B that is tried is a value that T
+//! takes and a little more. For each point the rates are at their worst: accelerations and squares
+//! one by one, products of velocities together ([`corners`](super::corners)).
 //!
 //! What the arithmetic costs: coefficients are intervals, of which the points
 //! take the middle; their radii are added to each value, and so is what
 //! rounding costs on the way from coefficients to a value (`layout`).
 //!
-//! - `narrow`: angles of small ranges, written in multiples of another that
-//!   goes round
+//! - `narrow`: angles of small ranges, written in multiples of another that goes round
 //! - `harmonics`: multiples of angles in place of powers
 //! - `layout`: terms regrouped so that points are quick
-//! - `cells`: the bound; where sines cannot make up the difference any more, no
-//!   angle is looked at
+//! - `cells`: the bound; where sines cannot make up the difference any more, no angle is looked at
 //! - [`least_eigenvalue`]: the same for a symmetric matrix
 
 mod cells;
@@ -51,38 +46,31 @@ pub(super) use harmonics::harmonics;
 use layout::Layout;
 use narrow::narrowed;
 
-/// Terms smaller than this part of the largest are not looked at one by one:
-/// most are what rounding left of terms that cancel, and would make the degree
-/// higher.
+/// Terms smaller than this part of the largest are not looked at one by one: most are what rounding
+/// left of terms that cancel, and would make the degree higher.
 const NEGLIGIBLE: f64 = 1e-8;
 
 /// What the highest multiples of narrow angles may come to, against what a bound
 /// may exceed a value by.
 const CUT: f64 = 0.3;
 
-/// The least bound that is tried, against the one without angles.
 const LEAST: f64 = 1e-15;
 
-/// The largest relative step from a bound that could not be shown to the next.
 const MAX_STEP: f64 = 0.15;
 
 /// Cells that cost less than this part of a bound are not cut: with four angles they take
 /// 1.6 of the two hundredths.
 const FINEST: f64 = 0.004;
 
-/// How much work a bound may take.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct GridEffort {
-    /// Points at most; with none, no angle is looked at.
     pub points: usize,
     /// What a bound exceeds a value that is taken by, relative.
     pub close: f64,
-    /// Places to climb from to such a value.
     pub starts: usize,
 }
 
 impl GridEffort {
-    /// Returns the effort for bounds that count by themselves.
     pub(super) fn fine(points: usize) -> GridEffort {
         GridEffort {
             points,
@@ -92,7 +80,6 @@ impl GridEffort {
     }
 }
 
-/// Returns which joints slide: a position that is read as it stands.
 pub(super) fn sliding(graph: &Dag, joints: usize) -> Vec<bool> {
     let mut sliding = vec![false; joints];
     for node in &graph.nodes {
@@ -103,24 +90,19 @@ pub(super) fn sliding(graph: &Dag, joints: usize) -> Vec<bool> {
     sliding
 }
 
-/// What a bound is for. Over whole circles, the bounds that are tried do not
-/// depend on it: what was shown for one aim is shown again for another.
+/// Over whole circles, the bounds that are tried do not depend on it: a bound shown for one aim is
+/// shown again for another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Aim {
-    /// As small as can be shown.
     Least,
-    /// At most this, or it does not matter.
     Within(f64),
     /// At most this, which need not be smaller than [`ENOUGH`] of it; or, where that cannot
     /// be shown, about the largest value that is taken, as a number above it.
     Judged(f64),
 }
 
-/// The part of a limit below which no bound need be.
 const ENOUGH: f64 = 0.85;
 
-/// Returns the largest magnitude over a box of a polynomial in multiples of its angles
-/// ([`harmonics`]).
 pub(super) fn magnitude(
     polynomial: Polynomial,
     limits: &InputBox,
@@ -147,7 +129,6 @@ pub(super) fn magnitude(
     bound(&layout, limits, aim, closeness)
 }
 
-/// Returns a bound over the box.
 fn bound(layout: &Layout, limits: &InputBox, aim: Aim, closeness: GridEffort) -> f64 {
     let points = closeness.points;
     let crude = layout.crude(0, &layout.coefficients).most;
@@ -191,12 +172,10 @@ fn bound(layout: &Layout, limits: &InputBox, aim: Aim, closeness: GridEffort) ->
     found.unwrap_or(above.min(crude))
 }
 
-/// Bounds to try: from a value that is taken up to the crude bound.
 fn tries(taken: f64, slack: f64, crude: f64, close: f64) -> Vec<f64> {
     let mut tries = Vec::new();
     let mut more = close;
-    // From so far below the crude bound that no smaller one matters, and a step
-    // up is one.
+    // From so far below the crude bound that no smaller one matters, and a step up is one.
     let mut next = (taken * (1.0 + more) + slack).max(LEAST * crude);
     while f64::MIN_POSITIVE < next && next < crude {
         tries.push(next);
@@ -206,8 +185,7 @@ fn tries(taken: f64, slack: f64, crude: f64, close: f64) -> Vec<f64> {
     tries
 }
 
-/// Returns the least of the bounds after the first, which was not shown: a larger one takes
-/// fewer points, so halving finds it.
+/// The first bound was not shown. A larger one takes fewer points, so halving finds the least.
 fn least_shown(tries: &[f64], shown: &mut dyn FnMut(f64) -> bool) -> Option<f64> {
     let (mut failed, mut held) = (0, tries.len());
     while held > failed + 1 {
@@ -221,7 +199,6 @@ fn least_shown(tries: &[f64], shown: &mut dyn FnMut(f64) -> bool) -> Option<f64>
     tries.get(held).copied()
 }
 
-/// Returns a value that is taken: the largest of some places, each climbed from.
 fn climb(cells: &mut Cells<'_>, starts: usize, value: &dyn Fn(&[f64]) -> f64) -> f64 {
     let count = cells.layout.joints.len();
     // The first angles of which the values are still there need not be put in;
@@ -272,7 +249,6 @@ fn climb(cells: &mut Cells<'_>, starts: usize, value: &dyn Fn(&[f64]) -> f64) ->
     best
 }
 
-/// Returns the range of a key's rates.
 fn range(key: Key, limits: &InputBox) -> Interval {
     match rates(key) {
         [a, b] if a == b && a != 0 => limits.rate(a).square(),
@@ -289,9 +265,6 @@ mod tests {
     use super::*;
     use crate::bound::expand::shift;
 
-    /// Σ of products of cosines and sines of multiples up to the fourth, which are the smaller
-    /// the higher: over whole circles and parts of them, no value at a dense grid is above
-    /// the bound, and one is just below.
     #[test]
     fn bounds_of_small_high_multiples_are_tight() {
         let mut random = Random::new(11);
@@ -299,7 +272,6 @@ mod tests {
             let reach = if round % 2 == 0 { PI } else { 1.9 };
             let limits = InputBox::symmetric(&[reach; 2], &[2.0; 2], &[3.0; 2]);
             let mut terms = Polynomial::new();
-            // Of q̇₁·q̇₂, of q̇₂ and of q̈₁.
             for rates in [1 << 8 | 2, 2, 3] {
                 for first in 0..=4u32 {
                     for second in 0..=4u32 {

@@ -1,11 +1,10 @@
 //! Angles of small ranges, written in multiples of another angle that goes
 //! round.
 //!
-//! Between the points of a grid over a part of a circle, a polynomial is
-//! bounded by its size over the whole circle, and what is left out of a
-//! program for the sake of a narrow box may be a hundred times larger outside
-//! the box. So with θ = c + r·cos ψ, which takes every angle of the range,
-//! (Jacobi and Anger)
+//! Between the points of a grid over a part of a circle, a polynomial is bounded by its size over
+//! the whole circle, and what is left out of a program for the sake of a narrow box may be a
+//! hundred times larger outside the box. So with θ = c + r·cos ψ, which takes every angle of the
+//! range, (Jacobi and Anger)
 //!
 //! - cos(k·r·cos ψ) = J₀ + 2·Σ (−1)^m·J₂ₘ·cos 2mψ, J at k·r
 //! - sin(k·r·cos ψ) = 2·Σ (−1)^m·J₂ₘ₊₁·cos (2m + 1)ψ
@@ -13,10 +12,9 @@
 //! and cos kθ, sin kθ follow by the addition theorems. The box is then all of
 //! the circle of ψ, and nothing outside of it counts.
 //!
-//! **Soundness.** |Jₘ(x)| ≤ (x/2)^m/m!, so what is left of the series is at
-//! most a known number for every ψ: it widens the coefficient of cos 0ψ. With
-//! it each coefficient contains, state by state, one with which the polynomial
-//! has its value; radii are added to every value.
+//! **Soundness.** |Jₘ(x)| ≤ (x/2)^m/m!, so what is left of the series is at most a known number for
+//! every ψ: it widens the coefficient of cos 0ψ. With it each coefficient contains, state by state,
+//! one with which the polynomial has its value; radii are added to every value.
 
 use std::collections::BTreeMap;
 
@@ -27,17 +25,12 @@ use crate::bound::expand::{Key, Polynomial, added_up, shift};
 use crate::bound::input_box::InputBox;
 use crate::interval::Interval;
 
-/// The largest multiple of a half range whose series is short.
 const MAX_REACH: f64 = 1.25;
 
-/// The highest multiple that a key holds.
 const MAX_MULTIPLE: usize = 15;
 
-/// Terms of a series below this are left to the rest.
 const REST: f64 = 1e-12;
 
-/// Returns a polynomial in multiples of its angles, those of small ranges replaced, and
-/// the joints of these.
 pub(super) fn narrowed(
     polynomial: Polynomial,
     limits: &InputBox,
@@ -58,9 +51,8 @@ pub(super) fn narrowed(
     (terms, narrow)
 }
 
-/// Returns the polynomial without its highest multiples of angles that were replaced, as
-/// far as they come to no more than an allowance: they are what a value may be
-/// off, and the grid need not be as fine as they would have it.
+/// The multiples left out come to no more than an allowance: a value may be off by them, and the
+/// grid need not be as fine as they would have it.
 pub(super) fn cut(
     polynomial: &mut Polynomial,
     narrow: &[usize],
@@ -109,8 +101,7 @@ fn replaced(terms: &Polynomial, joint: usize, range: Interval) -> Polynomial {
 /// five series would be a hundred times more terms than count.
 const SMALL: f64 = 1e-9;
 
-/// Returns what is small is added to what its rates' coefficient without angles may be
-/// off.
+/// Adds small terms to the error of their rates' coefficient without angles.
 fn pruned(terms: Polynomial, limits: &InputBox) -> Polynomial {
     let size = |&(key, x): &(Key, Interval)| x.magnitude() * super::range(key, limits).magnitude();
     let least = SMALL * terms.iter().map(size).fold(0.0, f64::max);
@@ -130,12 +121,10 @@ fn pruned(terms: Polynomial, limits: &InputBox) -> Polynomial {
     kept
 }
 
-/// Returns cos kθ or sin kθ as Σ part·cos mψ, by m.
 fn of_multiple((k, sine): (u32, bool), range: Interval) -> Vec<Interval> {
     let k = Interval::point(f64::from(k));
     let centre = k * Interval::point(range.mid());
     let reach = k * Interval::point(range.radius());
-    // The factors of the even and of the odd terms.
     let (even, odd) = match sine {
         true => (centre.sin(), centre.cos()),
         false => (centre.cos(), -centre.sin()),
@@ -183,7 +172,6 @@ mod tests {
     use crate::bound::expand::rates;
     use crate::random::Random;
 
-    /// Against the multiples themselves, densely.
     #[test]
     fn a_narrow_range_is_written_without_a_loss() {
         let mut random = Random::new(7);
@@ -215,7 +203,6 @@ mod tests {
         }
     }
 
-    /// Wide ranges and rates stay as they are.
     #[test]
     fn only_angles_of_narrow_ranges_are_replaced() {
         let limits = InputBox::symmetric(&[3.0, 0.2], &[1.0; 2], &[1.0; 2]);
@@ -223,7 +210,6 @@ mod tests {
         let (terms, narrow) = narrowed(vec![(key, Interval::ONE)], &limits, &[false, false]);
         assert_eq!(narrow, [1]);
         for (key, x) in terms {
-            // What is small has lost its angles.
             if x.mid() != 0.0 {
                 assert_eq!((multiple(key, 0), rates(key)), ((1, false), [0, 2]));
             }

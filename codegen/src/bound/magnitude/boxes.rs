@@ -4,8 +4,7 @@
 //! of them holds by [`Forms`]; their largest is a bound over the box. The
 //! search only decides which sub-box to halve next.
 //!
-//! Deterministic: sub-boxes are counted, never timed, and ties go to the one
-//! made first.
+//! Deterministic: sub-boxes are counted, never timed, and ties go to the one made first.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -15,10 +14,8 @@ use super::{BoxEffort, relative};
 use crate::bound::input_box::InputBox;
 use crate::dag::Dag;
 
-/// Positions of a smaller range are not halved.
 const NARROW: f64 = 1e-9;
 
-/// Bounds as [`magnitudes`](super::magnitudes), by sub-boxes alone.
 pub(super) fn branch_and_bound(
     graph: &Dag,
     whole: &InputBox,
@@ -34,7 +31,6 @@ pub(super) fn branch_and_bound(
         |magnitudes: &[f64], made: usize| (priority(magnitudes, scales).to_bits(), Reverse(made));
     let first = forms.magnitudes(whole);
     let mut made: usize = 1;
-    // What is not halved yet.
     let mut leaves = BTreeMap::from([(place(&first, made), (whole.clone(), first))]);
     while made < budget.boxes {
         let Some(worst) = leaves.last_entry() else {
@@ -66,7 +62,6 @@ pub(super) fn branch_and_bound(
     most
 }
 
-/// Returns the widest position that matters, the first of equal ones.
 fn widest(forms: &Forms, sub: &InputBox) -> Option<usize> {
     let width = |joint: &usize| sub.position[*joint].width();
     let joints = forms.positions.iter().copied().rev();
@@ -74,8 +69,7 @@ fn widest(forms: &Forms, sub: &InputBox) -> Option<usize> {
     wide.max_by(|a, b| width(a).total_cmp(&width(b)))
 }
 
-/// Returns the worst output against its scale. A scale of zero demands an exact
-/// output.
+/// A scale of zero demands an exact output.
 fn priority(magnitudes: &[f64], scales: &[f64]) -> f64 {
     let pairs = magnitudes.iter().zip(scales);
     pairs.fold(0.0, |worst, (&x, &scale)| worst.max(relative(x, scale)))

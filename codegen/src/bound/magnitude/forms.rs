@@ -15,13 +15,11 @@
 //! has the node's value. Sums and products of polynomials keep it, since
 //! interval arithmetic does, and so does replacing a variable by its range.
 //!
-//! Which monomials occur is decided once, from the graph alone; a sub-box is
-//! then a flat run over arrays. That run is no
-//! [`Program`](crate::program::Program): a coefficient is the sum of up to
-//! hundreds of products, and adding them in place keeps one interval for it,
-//! where straight-line code would keep two for each product. And the product of
-//! a coefficient with itself is its square, which an operation on two values
-//! that do not know each other cannot see.
+//! Which monomials occur is decided once, from the graph alone; a sub-box is then a flat run over
+//! arrays. That run is no [`Program`](crate::program::Program): a coefficient is the sum of up to
+//! hundreds of products, and adding them in place keeps one interval for it, where straight-line
+//! code would keep two for each product. And the product of a coefficient with itself is its
+//! square, which an operation on two values that do not know each other cannot see.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -37,7 +35,6 @@ const MAX_PRODUCTS: usize = 400_000;
 /// At most two rates, 1 … 2n and sorted; 0 is none.
 type Monomial = [u8; 2];
 
-/// A term that is added to a coefficient, the first number.
 #[derive(Clone, Copy, Debug)]
 enum Work {
     Constant(u32, Interval),
@@ -48,26 +45,20 @@ enum Work {
     Mul(u32, u32, u32, u32),
 }
 
-/// A graph compiled to polynomials.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Forms {
     work: Vec<Work>,
-    /// Ranges that products put into coefficients, by what they are made of.
     factors: Vec<Vec<u8>>,
     coefficients: u32,
-    /// The monomials and coefficients of each output, but for its sign.
     outputs: Vec<Vec<(Monomial, u32)>>,
-    /// Position joints that matter.
     pub positions: BTreeSet<usize>,
 }
 
 impl Forms {
-    /// Compiles a graph's live part; `None` if it is no polynomial.
     pub(super) fn new(graph: &Dag, joints: usize) -> Option<Forms> {
         Forms::compile(graph, joints, true).or_else(|| Forms::compile(graph, joints, false))
     }
 
-    /// Compiles with rates as variables, which may be too much work, or as plain intervals.
     fn compile(graph: &Dag, joints: usize, rates: bool) -> Option<Forms> {
         let mut forms = Forms::default();
         let mut slots: Vec<BTreeMap<Monomial, u32>> = Vec::with_capacity(graph.nodes.len());
@@ -100,7 +91,6 @@ impl Forms {
                     let out = place([0, rate], &mut forms);
                     forms.work.push(match rate {
                         0 => Work::Input(out, *input),
-                        // As a variable its coefficient is one.
                         _ => Work::Constant(out, Interval::ONE),
                     });
                     if let Input::Sin(joint)
@@ -120,7 +110,6 @@ impl Forms {
                         }
                     }
                 }
-                // No polynomial.
                 Node::Apply(Operation::Div, _) => return None,
                 Node::Apply(Operation::Mul | Operation::Fused, [a, b]) => {
                     products += slots[*a as usize].len() * slots[*b as usize].len();
@@ -149,7 +138,6 @@ impl Forms {
         Some(forms)
     }
 
-    /// Returns bounds of the outputs' magnitudes over a sub-box.
     pub(super) fn magnitudes(&self, sub: &InputBox) -> Vec<f64> {
         let factors: Vec<_> = self.factors.iter().map(|rest| range(rest, sub)).collect();
         let mut values = vec![Interval::ZERO; self.coefficients as usize];
@@ -188,8 +176,7 @@ impl Forms {
     }
 }
 
-/// Returns the product of two monomials: what is kept, and the variables that go into
-/// the coefficient.
+/// The monomial that is kept, and the variables that go into the coefficient.
 fn multiply(left: &Monomial, right: &Monomial) -> (Monomial, Vec<u8>) {
     let mut rates: Vec<u8> = [*left, *right].concat();
     rates.retain(|&v| v != 0);
@@ -203,7 +190,6 @@ fn multiply(left: &Monomial, right: &Monomial) -> (Monomial, Vec<u8>) {
     (kept, rest)
 }
 
-/// Returns the range of a product of variables, sorted; of none it is one.
 fn range(variables: &[u8], sub: &InputBox) -> Interval {
     let mut product = Interval::ONE;
     for power in variables.chunk_by(|a, b| a == b) {

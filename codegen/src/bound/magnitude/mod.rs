@@ -43,15 +43,13 @@ pub fn magnitudes(graph: &Dag, whole: &InputBox, scales: &[f64], budget: BoxEffo
     bounds(graph, whole, scales, budget, 0.0, |_| Aim::Least)
 }
 
-/// Returns the same for who searches: an output is shown to be at most its limit, and need not be
-/// shown to be much below; or, where it cannot be, the number is larger, about as large as the
-/// output is, and no bound.
+/// For a search only: stops as soon as a limit is proved. Above its limit a value is an estimate,
+/// not a bound.
 pub(crate) fn judged(graph: &Dag, whole: &InputBox, limits: &[f64], budget: BoxEffort) -> Vec<f64> {
     bounds(graph, whole, limits, budget, 1.0, Aim::Judged)
 }
 
-/// Returns the same as [`magnitudes`], if every output is shown to be at most its limit; at a
-/// grid, the first for which it is not ends the search.
+/// At a grid, the first output that is not shown to be at most its limit ends the search.
 pub(crate) fn magnitudes_within(
     graph: &Dag,
     whole: &InputBox,
@@ -63,8 +61,6 @@ pub(crate) fn magnitudes_within(
     within.then_some(most)
 }
 
-/// Bounds every output for what is aimed at with its scale; by boxes, until the largest
-/// |output|/scale is at most the goal.
 fn bounds(
     graph: &Dag,
     whole: &InputBox,
@@ -88,8 +84,6 @@ fn bounds(
     distinct.scatter(&most)
 }
 
-/// Bounds at a grid, if there is one. After the first that is not within what it is to be, no
-/// other is looked for.
 fn written_out(
     graph: &Dag,
     whole: &InputBox,
@@ -146,7 +140,6 @@ mod tests {
     use crate::program::Input;
     use dalembert_model::number::{Exact, Rational};
 
-    /// A rate that is always zero: its terms are nothing, not the least double.
     #[test]
     fn what_never_moves_is_bounded_by_nothing() {
         let mut builder = Builder::new(Folding::Syntactic);
@@ -161,12 +154,10 @@ mod tests {
         let zero = builder.zero();
         let zero = builder.finish(vec![zero]);
         assert_eq!(magnitudes(&zero, &limits, &[0.0], BoxEffort::QUICK), [0.0]);
-        // Nor is there a step from one subnormal to the next.
         limits.velocity = vec![Interval::symmetric(5e-324)];
         assert!(bound(&limits) < 1e-150);
     }
 
-    /// A bound that is the limit itself is within it.
     #[test]
     fn what_is_just_within_is_within() {
         for limit in [0.3, 7.0, 1e-12, 97.6] {
@@ -176,7 +167,6 @@ mod tests {
         }
     }
 
-    /// What is left out may be a rate alone, with no angle to cut: 4e-5·q̈₁.
     #[test]
     fn an_error_without_angles_is_bounded() {
         let mut builder = Builder::new(Folding::Syntactic);

@@ -24,22 +24,17 @@ const CLOSE: f64 = 0.1;
 const FULL: usize = 2048;
 const FEWEST: usize = 64;
 
-/// Places to climb from.
 const STARTS: usize = 2;
 
-/// Bounds of magnitudes over a box, node by node.
 #[derive(Clone, Debug)]
 pub(super) struct Extremes {
-    /// Bounds of each operation's value.
     pub values: Vec<f64>,
-    /// Bounds of the derivatives of each output with respect to each operation, sine and cosine;
-    /// zero where it does not depend on it.
+    /// For each output and each operation, sine and cosine; zero where the output does not depend
+    /// on it.
     pub adjoints: Vec<Vec<f64>>,
 }
 
 impl Extremes {
-    /// Bounds the values and adjoints of a program over a box, each with at most `points` points
-    /// of a grid; with none, no angle is looked at. `None` if the polynomials are too large.
     pub(super) fn new(program: &Program, limits: &InputBox, points: usize) -> Option<Extremes> {
         let (graph, rows) = gradient(program);
         let sliding = grid::sliding(&graph, limits.joints());
@@ -72,9 +67,7 @@ impl Extremes {
     }
 }
 
-/// Returns a graph whose outputs are the value of each operation and, output by output, the
-/// derivatives of the output with respect to each operation, sine and cosine that it depends on;
-/// and these outputs, the values first, with the node that each is of.
+/// The values come first, then the derivatives output by output; each has the node that it is of.
 fn gradient(program: &Program) -> (Dag, Vec<Vec<(Id, Edge)>>) {
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
     let dag = &program.dag;
@@ -99,7 +92,6 @@ fn gradient(program: &Program) -> (Dag, Vec<Vec<(Id, Edge)>>) {
     (builder.finish(outputs), rows)
 }
 
-/// Returns true if a node may be off by more than its literal: operations, sines and cosines.
 fn errs(node: &Node) -> bool {
     match node {
         Node::Apply(..) | Node::Input(Input::Sin(_) | Input::Cos(_)) => true,

@@ -1,10 +1,9 @@
 //! Adjoints in interval arithmetic over sub-boxes, sound as [`rounding`](crate::interval::rounding)
 //! says.
 //!
-//! The dependency of values on common angles is lost: for programs that were
-//! searched, the bound is hundreds of times what is seen unless the box is
-//! small. For large errors, as those of coarse polynomials for sines, it is the
-//! better one.
+//! The dependency of values on common angles is lost: for programs that were searched, the bound is
+//! hundreds of times what is seen unless the box is small. For large errors, as those of coarse
+//! polynomials for sines, it is the better one.
 
 use dalembert_model::number::Exact;
 
@@ -18,8 +17,6 @@ use crate::program::{Input, Operation, Program, ScalarType, Speed};
 use crate::sincos::AngleKernel;
 use crate::sincos::proof::Errors;
 
-/// Bounds over a box, one an output: the worst of at most `boxes` sub-boxes,
-/// which halve the positions in turn.
 pub(super) fn rounding(
     constants: &Constants<'_>,
     limits: &InputBox,
@@ -35,9 +32,8 @@ pub(super) fn rounding(
     worst
 }
 
-/// Says which steps may overflow over a box, from at most `boxes` sub-boxes; sines are
-/// libm's where there are no polynomials for them. The intervals contain what is computed, not
-/// only what is exact.
+/// Sines are libm's where there are no polynomials for them. The intervals contain the computed
+/// values, not only the exact ones.
 pub(crate) fn overflows(
     program: &Program,
     scalar: ScalarType,
@@ -62,13 +58,10 @@ pub(crate) fn overflows(
         .collect()
 }
 
-/// A program's constants in a scalar, with what rounding takes from them: exact
-/// numbers are slow to bound, so it is done once and not in every sub-box.
-/// And the errors of polynomials for sines, which hold in every sub-box.
+/// Rounded once, not in every sub-box: exact numbers are slow to bound.
 pub(super) struct Constants<'p> {
     pub program: &'p Program,
     scalar: ScalarType,
-    /// The range and the error of each node that is a constant.
     nodes: Vec<Option<(Interval, f64)>>,
     sines: Vec<(usize, Errors)>,
     /// What 1/√(q̇² + w²) of a joint may be, as it is computed.
@@ -76,7 +69,6 @@ pub(super) struct Constants<'p> {
 }
 
 impl<'p> Constants<'p> {
-    /// Rounds a program's constants.
     pub(super) fn new(
         program: &'p Program,
         scalar: ScalarType,
@@ -96,12 +88,10 @@ impl<'p> Constants<'p> {
         }
     }
 
-    /// Returns what a constant or an input may be in a box, and what it is off.
     pub(super) fn leaf(&self, id: Id, node: &Node, sub: &InputBox) -> (Interval, f64) {
         let input = match (self.nodes[id as usize], node) {
             (Some(known), _) => return known,
             (None, Node::Input(input)) => *input,
-            // No leaf.
             (None, _) => return (Interval::ALL, f64::INFINITY),
         };
         match input {
@@ -122,7 +112,6 @@ impl<'p> Constants<'p> {
         }
     }
 
-    /// Bounds what an operation rounds, whose exact result is at most so large.
     pub(super) fn rounding(&self, id: Id, size: f64) -> f64 {
         let dag = &self.program.dag;
         let eta = match dag.underflows(id) {
@@ -154,13 +143,11 @@ impl<'p> Constants<'p> {
         }
     }
 
-    /// Returns what is read of a joint's speed.
     fn speed(&self, joint: usize) -> Interval {
         let found = self.speeds.iter().find(|(known, _)| *known == joint);
         found.map_or(Interval::ALL, |(_, range)| *range)
     }
 
-    /// Returns the proved error of a polynomial for a sine or cosine; `None` for a library's.
     fn sine(&self, input: Input) -> Option<f64> {
         let joint = input.angle()?;
         let (_, errors) = self.sines.iter().find(|(known, _)| *known == joint)?;
@@ -179,7 +166,6 @@ fn speed(own: &Speed, scalar: ScalarType) -> (usize, Interval) {
     (own.joint, Interval::new(0.0, most).unwrap_or(Interval::ALL))
 }
 
-/// Returns a constant with its literal, and how far they are apart.
 fn rounded(constant: &Exact, scalar: ScalarType) -> (Interval, f64) {
     let exact = Interval::exact(constant);
     let rounded = Interval::point(scalar.round(constant));
@@ -191,7 +177,6 @@ fn rounded(constant: &Exact, scalar: ScalarType) -> (Interval, f64) {
     (exact.hull(rounded), (exact - rounded).magnitude())
 }
 
-/// Runs a program with every operation widened by its rounding.
 fn forward(constants: &Constants<'_>, sub: &InputBox) -> Forward {
     let leaf = |id, node: &Node| constants.leaf(id, node, sub);
     rounding::forward(&constants.program.dag, leaf, |id, _, exact| {
@@ -199,7 +184,7 @@ fn forward(constants: &Constants<'_>, sub: &InputBox) -> Forward {
     })
 }
 
-/// Bounds over one sub-box: the error of a leaf counts with its whole adjoint, not use by use.
+/// The error of a leaf counts with its whole adjoint, not use by use.
 fn over(constants: &Constants<'_>, sub: &InputBox) -> Vec<Rounding> {
     let Forward { values, own } = forward(constants, sub);
     let dag = &constants.program.dag;

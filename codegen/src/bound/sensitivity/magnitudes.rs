@@ -1,19 +1,16 @@
 //! Largest values times largest adjoints.
 //!
-//! **Soundness.** For each node let V ≥ |x|, A ≥ |a| over the box, a the
-//! adjoint at exact values. Forwards, E ≥ |x̂ − x| follows node by node:
-//! |x̂ ∘ ŷ| ≤ V + δ with δ = E_x + E_y for a sum and
-//! δ = V_x·E_y + V_y·E_x + E_x·E_y for a product x·y, so the node's own
-//! rounding is r ≤ u·(V + δ) + η, or half an ulp of V + δ, and E = δ + r; a product
-//! that a sum takes has none. Backwards, D ≥ |ā − a|:
-//! a product's ā passes on ā·y to x and ā·x̂ to y, so with |ā| ≤ A + D
+//! **Soundness.** For each node let V ≥ |x|, A ≥ |a| over the box, a the adjoint at exact values.
+//! Forwards, E ≥ |x̂ − x| follows node by node: |x̂ ∘ ŷ| ≤ V + δ with δ = E_x + E_y for a sum and δ
+//! = V_x·E_y + V_y·E_x + E_x·E_y for a product x·y, so the node's own rounding is r ≤ u·(V + δ) +
+//! η, or half an ulp of V + δ, and E = δ + r; a product that a sum takes has none. Backwards, D ≥
+//! |ā − a|: a product's ā passes on ā·y to x and ā·x̂ to y, so with |ā| ≤ A + D
 //!
 //! - D_x grows by D·V_y
 //! - D_y grows by D·V_x + (A + D)·E_x
 //!
-//! and a sum passes D on. The error of an output is at most Σ (A + D)·r.
-//! Sums here have no negative terms: a few thousand roundings are made up for
-//! by a factor.
+//! and a sum passes D on. The error of an output is at most Σ (A + D)·r. Sums here have no negative
+//! terms: a few thousand roundings are made up for by a factor.
 
 use super::Rounding;
 use super::extremes::Extremes;
@@ -32,7 +29,6 @@ struct Known {
     own: f64,
 }
 
-/// Bounds over the box of the extremes, one an output.
 pub(super) fn rounding(
     constants: &Constants<'_>,
     limits: &InputBox,
@@ -88,7 +84,6 @@ pub(super) fn rounding(
                 continue;
             };
             let [x, y] = operands.map(|id| known[id as usize]);
-            // What a constant's error counts with, and what is off.
             let (parts, offs) = match operation {
                 Operation::Add | Operation::Sub => ([mixed; 2], [off_here; 2]),
                 Operation::Mul | Operation::Fused => (

@@ -1,24 +1,20 @@
 //! What rounding costs.
 //!
-//! **Model** (named in certificates). Every operation gives
-//! (x ∘ y)(1 + δ) + η with |δ| ≤ u, |η| ≤ half the least subnormal for
-//! products and η = 0 for sums; literals are constants rounded once; `sin`
-//! and `cos` are a library's within one ulp, which is at most u·2 relative and u
-//! absolute, or within the errors that are proved of polynomials; nothing is contracted
-//! to a fused multiply-add but what the program fuses: there the product has
-//! neither δ nor η, and the sum that takes it an η as products have.
+//! **Model** (named in certificates). Every operation gives (x ∘ y)(1 + δ) + η with |δ| ≤ u, |η| ≤
+//! half the least subnormal for products and η = 0 for sums; literals are constants rounded once;
+//! `sin` and `cos` are a library's within one ulp, which is at most u·2 relative and u absolute, or
+//! within the errors that are proved of polynomials; nothing is contracted to a fused multiply-add
+//! but what the program fuses: there the product has neither δ nor η, and the sum that takes it an
+//! η as products have.
 //!
-//! **Why nothing of second order is left.** Let x̂ be the computed value of a
-//! node, x the exact one, e = x̂ − x. For a product x·y the error is
-//! x̂·e_y + y·e_x + r, for a sum e_x + e_y + r, where r is the node's own
-//! rounding, |r| ≤ u·|x̂ ∘ ŷ| + η. These are identities, so the error of an
-//! output is exactly Σ r_node·ā_node with adjoints ā that take the partial
-//! derivatives at x̂ and y instead of x and y. There are two bounds of this
-//! sum, both sound, and the smaller counts:
+//! **Why nothing of second order is left.** Let x̂ be the computed value of a node, x the exact
+//! one, e = x̂ − x. For a product x·y the error is x̂·e_y + y·e_x + r, for a sum e_x + e_y + r,
+//! where r is the node's own rounding, |r| ≤ u·|x̂ ∘ ŷ| + η. These are identities, so the error of
+//! an output is exactly Σ r_node·ā_node with adjoints ā that take the partial derivatives at x̂ and
+//! y instead of x and y. There are two bounds of this sum, both sound, and the smaller counts:
 //!
-//! - `extremes`, `magnitudes`: the largest |value| and |adjoint| of each node
-//!   over the box, written out as trigonometric polynomials; their products,
-//!   and what mixed adjoints can be off
+//! - `extremes`, `magnitudes`: the largest |value| and |adjoint| of each node over the box, written
+//!   out as trigonometric polynomials; their products, and what mixed adjoints can be off
 //! - `intervals`: interval arithmetic over sub-boxes; for programs that are
 //!   too large to be written out, narrow boxes and large errors
 
@@ -36,8 +32,7 @@ use extremes::Extremes;
 use intervals::Constants;
 pub(crate) use intervals::overflows;
 
-/// How fine a bound is: the finer, the tighter and the dearer. Every one is
-/// sound.
+/// The fineness of a bound: a finer one is tighter and dearer. Every one is sound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BoundEffort {
     /// For the bound of the edits.
@@ -76,12 +71,10 @@ pub struct Rounding {
 }
 
 impl Rounding {
-    /// Returns both together.
     pub(crate) fn total(self) -> f64 {
         self.arithmetic + self.sincos
     }
 
-    /// Returns the smaller or the larger of both causes.
     fn each(self, other: Rounding, of: fn(f64, f64) -> f64) -> Rounding {
         Rounding {
             arithmetic: of(self.arithmetic, other.arithmetic),
@@ -89,7 +82,6 @@ impl Rounding {
         }
     }
 
-    /// Adds a node's error to its cause: sines, or arithmetic.
     fn note(&mut self, node: &Node, error: f64) {
         match node {
             Node::Input(_) => self.sincos += error,
@@ -98,11 +90,8 @@ impl Rounding {
     }
 }
 
-/// Sub-boxes of a bound that is found at once.
 const FEW: usize = 64;
 
-/// Bounds the rounding over a box at once, one bound an output. Sines are libm's where there are
-/// no polynomials for them, whose errors are as they are claimed.
 pub(crate) fn rounding(
     program: &Program,
     scalar: ScalarType,
@@ -112,8 +101,7 @@ pub(crate) fn rounding(
     intervals::rounding(&Constants::new(program, scalar, sines), limits, FEW)
 }
 
-/// What every bound of a program's rounding over a box needs, whatever the
-/// scalar and the sines: the longest to find.
+/// The dearest part of every bound of a program's rounding over a box, for any scalar and sines.
 #[derive(Clone, Debug)]
 pub struct Sensitivity {
     of: Program,

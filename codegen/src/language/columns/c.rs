@@ -8,15 +8,10 @@ use crate::language::c99::{
 use crate::language::{Language, list};
 use crate::program::{Code, Literal, Program};
 
-/// The parts of a function of any number of states.
 struct Columns {
-    /// After the number of states.
     parameters: Vec<String>,
-    /// The lines that take a state out of the columns, and make room for its results.
     gathered: String,
-    /// What the function of one state is called with.
     passed: Vec<String>,
-    /// The lines that write its results.
     stored: String,
 }
 
@@ -74,8 +69,6 @@ impl Columns {
         }
     }
 
-    /// Returns the lines that call the function of one state, and write its results; of one that
-    /// is told whether angles may be far, by another name.
     fn call(&self, function: Function, names: &Names, is_told: bool) -> String {
         let passed = self.passed.join(", ");
         let mut call = match is_told {
@@ -89,8 +82,6 @@ impl Columns {
     }
 }
 
-/// Prints the function of any number of states, in columns: entry i of state s is at
-/// `i * n + s`.
 pub(crate) fn batch(program: &Program, code: &Code, names: &Names) -> String {
     if names.language() == Language::Cuda {
         return kernel(program, names);
@@ -103,7 +94,6 @@ pub(crate) fn batch(program: &Program, code: &Code, names: &Names) -> String {
         let call = columns.call(function, names, is_told);
         format!("    for (s = 0U; s < n; ++s) {{\n{gathered}{when}{call}    }}\n")
     };
-    // Where an angle may be far, once more.
     let mut again = String::new();
     if is_told {
         let (scalar, joints) = (code.scalar, program.joints);
@@ -126,8 +116,7 @@ pub(crate) fn batch(program: &Program, code: &Code, names: &Names) -> String {
     )
 }
 
-/// Prints the kernel: a thread for each state, and for every state after as many as there are
-/// threads.
+/// Each thread takes its own state, then every state after as many as there are threads.
 fn kernel(program: &Program, names: &Names) -> String {
     let function = program.function;
     let columns = Columns::of(program, names, "__restrict__");

@@ -24,11 +24,9 @@ use crate::language::dialect::{Dialect, Lines};
 use crate::language::{function, list, trig};
 use crate::program::{Code, Program};
 
-/// The largest error of a sine or cosine with fused products, in u: the documentation of
-/// `dalembert-sines` proves it.
+/// In u; the documentation of `dalembert-sines` proves it.
 const FUSED_ERROR: f64 = 0.83;
 
-/// Prints the function of columns, and the type that it is computed by.
 pub(crate) fn columns(program: &Program, code: &Code) -> String {
     let name = program.function.name();
     let kind = format!("{}Batch", program.function.camel());
@@ -77,12 +75,10 @@ pub(crate) fn columns(program: &Program, code: &Code) -> String {
     text
 }
 
-/// Returns true if products are fused in the sines that are given, as they are in what reads them.
 fn fuses_sines(code: &Code) -> bool {
     code.counts().fma > 0 && trig::taken(code).next().is_some()
 }
 
-/// Prints the methods that compute in vectors.
 fn write_vectors(text: &mut String, program: &Program, code: &Code) {
     write_angles(text, program, code);
     let dialect = Dialect::vectors(code.scalar);
@@ -130,12 +126,10 @@ fn write_vectors(text: &mut String, program: &Program, code: &Code) {
     *text += &format!("        [{results}]\n    }}\n");
 }
 
-/// Returns the name of an argument, marked where it is not read.
 fn marked(name: &str, is_read: bool) -> String {
     format!("{}{name}", if is_read { "" } else { "_" })
 }
 
-/// Prints which angles sines are given of.
 fn write_angles(text: &mut String, program: &Program, code: &Code) {
     let (n, count) = (program.joints, program.arguments.len());
     let angles: Vec<_> = trig::taken(code).map(|pair| pair.joint).collect();

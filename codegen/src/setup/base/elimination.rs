@@ -12,11 +12,8 @@ use crate::function::{Columns, Function, Quantity};
 use crate::program::Input;
 use crate::setup::Setup;
 
-/// A seed of its own.
 const SEED: u64 = 0x6261_7365;
 
-/// Returns the columns, each over the rows of enough random states for every independent pair to
-/// differ; `None` if a constant has no value.
 pub(super) fn values<const P: u64>(
     setup: &Setup,
     quantity: Quantity,
@@ -46,17 +43,14 @@ pub(super) fn values<const P: u64>(
     Some(found)
 }
 
-/// Columns over those that are independent.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Reduced<T> {
-    /// The columns that do not depend on those before them, ascending.
     pub(super) pivots: Vec<usize>,
     /// Each column as a combination: places in `pivots`, with their factors.
     pub(super) coefficients: Vec<Vec<(usize, T)>>,
 }
 
 impl Reduced<Exact> {
-    /// Returns the combinations in fractions that both primes confirm; none if there are none.
     pub(super) fn confirmed(
         first: Reduced<Field>,
         second: Reduced<SecondField>,
@@ -81,7 +75,6 @@ impl Reduced<Exact> {
     }
 }
 
-/// Eliminates columns from the first to the last, each against those before it.
 pub(super) fn reduced<const P: u64>(columns: Vec<Vec<Modulo<P>>>) -> Reduced<Modulo<P>> {
     let mut found = Reduced {
         pivots: Vec::new(),
@@ -127,15 +120,12 @@ pub(super) fn reduced<const P: u64>(columns: Vec<Vec<Modulo<P>>>) -> Reduced<Mod
     found
 }
 
-/// Computes a − factor · b
 fn subtract<const P: u64>(a: &mut [Modulo<P>], factor: &Modulo<P>, b: &[Modulo<P>]) {
     for (x, y) in a.iter_mut().zip(b) {
         *x = x.sub(&factor.mul(y));
     }
 }
 
-/// Returns the fraction that has these residues; none if there is none that is short.
-///
 /// A fraction n/d with 2·|n|·d < p is a step of Euclid's algorithm on its residue (Wang 1981).
 /// Nearly every residue has such a step, so that one alone shows nothing: the step is taken that
 /// the second prime confirms, of less than a hundred, by chance once in 10¹⁶ times.
@@ -179,8 +169,6 @@ mod tests {
         }
     }
 
-    /// Most residues of numbers that are no short fractions have one all the same: here π to 60
-    /// digits, then random ones.
     #[test]
     fn a_fraction_of_one_prime_alone_is_none() {
         let digits = "3141592653589793238462643383279502884197169399375105820974944";
@@ -195,7 +183,6 @@ mod tests {
             let x = Field::from_rational(&wanted).unwrap();
             let y = SecondField::from_rational(&wanted).unwrap();
             assert_eq!(fraction(x, y), None);
-            // The false constant that the first prime shows is what it says there.
             let short = (1..1 << 15).find_map(|d: i64| {
                 let n = x.mul(&Field::from_i64(d));
                 let n = n.min(n.neg()).value();

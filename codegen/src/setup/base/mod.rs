@@ -8,11 +8,10 @@
 //! exact combination of what links keep: of a link that turns two first moments
 //! and five second moments, of one that slides its mass and first moments.
 //!
-//! An arm and a scene may leave more unfelt (axes that are parallel or vertical,
-//! rates that are zero, joints that nobody asks for). It shows as columns that
-//! vanish or depend on others. They are found by elimination modulo
-//! two primes at random states: columns that are independent there are
-//! independent. That the others depend on them as they seem to is only a finding;
+//! An arm and a scene may leave more unfelt (axes that are parallel or vertical, rates that are
+//! zero, joints that nobody asks for). It shows as columns that vanish or depend on others. They
+//! are found by elimination modulo two primes at random states: columns that are independent there
+//! are independent. That the others depend on them as they seem to is only a finding;
 //! [`crate::verify::parameters`] proves it.
 //!
 //! - `moments`: the moments that links keep; `origins`: about which points
@@ -51,7 +50,6 @@ pub enum Parameter {
 }
 
 impl Parameter {
-    /// Returns the parameter of a drive's column.
     pub(crate) fn of_drive(column: &Column<Exact>) -> Parameter {
         match column.of {
             Probed::Viscous => Parameter::Viscous(column.joint),
@@ -79,10 +77,8 @@ pub struct BaseParameters {
     pub combinations: Vec<Vec<(Parameter, Exact)>>,
 }
 
-/// The way out where there are no base parameters.
 const FULL: &str = "ask for `full_regressor`, over all parameters of all links";
 
-/// Complains of a coefficient that has too many sines and cosines of constant angles.
 fn large(joint: usize) -> Complaint {
     let message = format!(
         "the base parameters that the link of joint {} is part of have more than {MAX_TERMS} products \
@@ -92,14 +88,12 @@ fn large(joint: usize) -> Complaint {
     no_base(message, "give angles that are multiples of pi/2 as such")
 }
 
-/// Complains that there are no base parameters; the way out is the fix, or the full regressor.
 fn no_base(message: impl Into<String>, help: &str) -> Complaint {
     let gap = if help.is_empty() { "" } else { ", or " };
     Complaint::new(message, format!("{help}{gap}{FULL}"))
 }
 
 impl BaseParameters {
-    /// Returns the base parameters of a robot in its scene, for a quantity over them.
     pub(super) fn find(setup: &Setup, quantity: Quantity) -> Result<BaseParameters, Complaint> {
         let robot = setup.robot();
         if setup.has_coulomb() {
@@ -117,7 +111,6 @@ impl BaseParameters {
         let chain = Chain::new(&origins::without_bodies(&skeleton), &regrouping);
 
         let mut candidates: Vec<Column<Exact>> = Vec::new();
-        // A link of the chain, and a moment that it keeps.
         let mut places: Vec<(usize, Moment)> = Vec::new();
         for (link, segment) in skeleton.links.iter().enumerate() {
             let (turned, moved) = &segment.dh;
@@ -152,7 +145,6 @@ impl BaseParameters {
         let columns = reduced.pivots.iter().map(|&c| candidates[c].clone());
         let columns: Vec<Column<Exact>> = columns.collect();
         let mut combinations = vec![Vec::new(); columns.len()];
-        // Each candidate as a combination of the base columns.
         let over = &reduced.coefficients;
         for (link, segment) in chain.links.iter().enumerate() {
             for probe in &segment.probes {

@@ -11,7 +11,6 @@ use dalembert_model::scalar::Scalar;
 /// every odd angle between two joints multiplies them.
 pub(super) const MAX_TERMS: usize = 400;
 
-/// A moment of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Moment {
     Mass,
@@ -20,7 +19,6 @@ pub(super) enum Moment {
 }
 
 impl Moment {
-    /// Returns a body that has a unit of it and nothing else.
     pub(super) fn unit(self) -> Body<Exact> {
         let mut body = Body::zero();
         match self {
@@ -36,7 +34,6 @@ impl Moment {
         body
     }
 
-    /// Returns the moment of a body.
     pub(super) fn read(self, body: &Body<Exact>) -> &Exact {
         match self {
             Moment::Mass => &body.mass,
@@ -46,7 +43,6 @@ impl Moment {
     }
 }
 
-/// Returns the moments that a link keeps where everything moves that can.
 pub(super) fn kept(kind: JointKind) -> &'static [Moment] {
     match kind {
         JointKind::Revolute => &[
@@ -67,8 +63,6 @@ pub(super) fn kept(kind: JointKind) -> &'static [Moment] {
     }
 }
 
-/// Returns the part of a unit body that each link keeps; `None` where a constant grows too
-/// large.
 pub(super) fn parts(
     chain: &Chain<Exact>,
     link: usize,
@@ -87,7 +81,6 @@ pub(super) fn parts(
     Some(parts)
 }
 
-/// Returns the most monomials of a number of a body.
 fn terms(body: &Body<Exact>) -> usize {
     let mut most = 0;
     body.map(|x| most = most.max(x.terms()));

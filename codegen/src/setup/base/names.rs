@@ -6,12 +6,10 @@ use num_traits::{One, Signed};
 
 use super::Parameter;
 
-/// Returns a decimal, or a fraction if it is none.
 fn decimal(value: &Rational) -> String {
     write_decimal(value).unwrap_or_else(|| value.to_string())
 }
 
-/// Returns a constant without factors of one and signs after signs.
 fn plain(constant: &Exact) -> String {
     let mut text = String::new();
     for c in constant.to_string().chars() {
@@ -28,7 +26,7 @@ fn plain(constant: &Exact) -> String {
     text.replace("+-", " - ").replace('+', " + ")
 }
 
-/// Returns a combination in words, exactly: `Izz2 + 0.25 m3 - mx4`.
+/// For example `Izz2 + 0.25 m3 - mx4`.
 pub(super) fn combination(terms: &[(Parameter, Exact)]) -> String {
     let mut text = String::new();
     for (parameter, factor) in terms {

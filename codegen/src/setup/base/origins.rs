@@ -1,10 +1,9 @@
 //! About which points base parameters are taken.
 //!
-//! A link that turns may have its origin anywhere on its axis, one that slides
-//! anywhere at all: another origin adds columns to others, and the columns stay
-//! as many. Where axes of earlier joints pass through it, though, these have no
-//! lever, and a column costs less. So the operations of all columns are counted
-//! as they are written, for the points where frames are anyway.
+//! A link that turns may have its origin anywhere on its axis, one that slides anywhere at all:
+//! another origin adds columns to others, and the columns stay as many. Where axes of earlier
+//! joints pass through it, though, these have no lever, and a column costs less. So the operations
+//! of all columns are counted as they are written, for the points where frames are anyway.
 
 use dalembert_model::equations::chain::composite::CompositeOrder;
 use dalembert_model::equations::chain::{Body, Chain, Probe, Probed, Regrouping, Skeleton};
@@ -17,8 +16,6 @@ use dalembert_model::scalar::count::{Count, Counter};
 
 use super::moments::kept;
 
-/// Returns the base regrouping with the origins that cost least, link after link from
-/// the hand.
 pub(super) fn chosen(skeleton: &Skeleton<Exact>) -> Regrouping<Exact> {
     let frames = without_bodies(skeleton);
     let mut best = Regrouping::base(&frames);
@@ -36,7 +33,6 @@ pub(super) fn chosen(skeleton: &Skeleton<Exact>) -> Regrouping<Exact> {
     best
 }
 
-/// Returns the frames alone.
 pub(super) fn without_bodies(skeleton: &Skeleton<Exact>) -> Skeleton<Exact> {
     let mut empty = skeleton.clone();
     empty
@@ -46,7 +42,6 @@ pub(super) fn without_bodies(skeleton: &Skeleton<Exact>) -> Skeleton<Exact> {
     empty
 }
 
-/// Returns the points where the joint's step and the next one begin.
 fn candidates(skeleton: &Skeleton<Exact>, link: usize) -> Vec<Vector<Exact>> {
     let own = &skeleton.links[link].link;
     let next = skeleton.links.get(link + 1);
@@ -65,7 +60,6 @@ fn candidates(skeleton: &Skeleton<Exact>, link: usize) -> Vec<Vector<Exact>> {
     candidates
 }
 
-/// Returns the operations of all base columns, as they are written.
 fn cost(frames: &Skeleton<Exact>, regrouping: &Regrouping<Exact>) -> u64 {
     let mut chain = Chain::new(frames, regrouping);
     for link in &mut chain.links {

@@ -12,7 +12,6 @@ use super::exact::{Angle, fixed};
 use super::robot::{File, Payload, number_of};
 use super::screw::{Body, Pose, Scalar, cross, scaled};
 
-/// Bits behind the point.
 const BITS: u32 = 256;
 /// The digits to which both agree, relative to the largest of what is compared.
 const DIGITS: u32 = 16;
@@ -50,7 +49,6 @@ impl Neg for Fixed {
 
 impl Scalar for Fixed {}
 
-/// A reader of so many digits.
 struct Digits;
 
 impl Reading for Digits {
@@ -68,10 +66,8 @@ impl Reading for Digits {
     }
 }
 
-/// The parts that are compared, each by its name.
 type Parts = Vec<(String, Vec<Fixed>)>;
 
-/// Returns mass, first moments and tensor of a body in a frame.
 fn weighed(name: &str, (body, centre): (Body<Fixed>, Pose<Fixed>), frame: &Pose<Fixed>) -> Parts {
     let mut at = frame.then(&centre);
     let first = scaled(body.mass.clone(), at.origin);
@@ -85,8 +81,7 @@ fn weighed(name: &str, (body, centre): (Body<Fixed>, Pose<Fixed>), frame: &Pose<
     ]
 }
 
-/// Returns axes, masses and frames of a robot file, and a payload, whose frame is that of the file
-/// unless it is in the last link's.
+/// The frame of a payload is that of the file, unless it is in the last link's.
 fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Parts, String> {
     let gravity = Digits.list(entries(Some(&file.gravity)))?;
     let mut all = vec![("gravity".to_owned(), gravity.to_vec())];
@@ -134,7 +129,6 @@ fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Part
     Ok(all)
 }
 
-/// Returns the payload in a scene.
 fn payload<'f>(file: &'f File, scene: Option<&str>) -> Option<&'f Payload> {
     file.scene.get(scene?)?.payload.as_ref()
 }

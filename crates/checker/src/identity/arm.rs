@@ -24,13 +24,10 @@ pub struct Joint {
     line: (i64, [Number; 2], Number),
     /// The origin of the frame whose z the axis is, and whether the joint moves it.
     pub(super) origin: (Vector, bool),
-    /// The link's frame of the table.
     pub(super) link: Pose,
     /// The link's frame in `link_poses`.
     pub(super) shown: Pose,
-    /// The link's mass.
     pub(super) body: Body,
-    /// The body about its centre of mass, and where that is.
     pub(super) given: (Body, Pose),
     /// Viscous friction, N·m·s/rad or N·s/m.
     pub viscous: Number,
@@ -41,7 +38,6 @@ pub struct Joint {
 }
 
 impl Joint {
-    /// Returns the motion of the joint at a state.
     pub(super) fn motion(&self, state: &State) -> Pose {
         let (leader, factor) = self.leader;
         let (turns, offset, length) = self.line;
@@ -51,14 +47,11 @@ impl Joint {
     }
 }
 
-/// The name of the frame that is meant where none is named.
 pub(super) const HAND: &str = "hand";
 
-/// A frame of a link, at q = 0.
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
     pub(super) name: String,
-    /// The row of the link.
     pub(super) row: usize,
     pub(super) pose: Pose,
 }
@@ -68,9 +61,7 @@ pub(super) struct Frame {
 pub struct Arm {
     /// The rows of the table, from the base outward.
     pub joints: Vec<Joint>,
-    /// The rows whose joints move by themselves.
     pub(super) movers: Vec<usize>,
-    /// Those of their joints that are locked.
     pub(super) locked: Vec<usize>,
     /// The acceleration of gravity, m/s².
     pub(super) gravity: Vector,
@@ -83,12 +74,10 @@ pub struct Arm {
 /// The joint that moves a row and how many times as far, and what is added.
 type Line = ((usize, Number), (i64, [Number; 2], Number));
 
-/// Returns sine and cosine of the sum of two angles.
 fn turned([sin, cos]: [Number; 2], [other, by]: [Number; 2]) -> [Number; 2] {
     [sin * by + cos * other, cos * by - sin * other]
 }
 
-/// Returns sine and cosine of so many times an angle.
 fn times([sin, cos]: [Number; 2], count: i64) -> [Number; 2] {
     let one = [if count < 0 { -sin } else { sin }, cos];
     (0..count.abs()).fold([0.into(), 1.into()], |all, _| turned(all, one))
@@ -97,15 +86,12 @@ fn times([sin, cos]: [Number; 2], count: i64) -> [Number; 2] {
 /// A body about its centre of mass, and where that is.
 pub(super) type Carried<N> = (Body<N>, Pose<N>);
 
-/// A reader of the numbers of a robot file.
 pub(super) trait Reading {
-    /// The numbers that it gives.
     type Number: Scalar;
 
     /// Reads a number; one that is missing is zero.
     fn entry(&self, text: Option<&String>) -> Result<Self::Number, String>;
 
-    /// Reads an angle, of which it gives sine and cosine.
     fn sines(&self, text: Option<&String>) -> Result<[Self::Number; 2], String>;
 
     fn list<const K: usize>(
@@ -133,7 +119,6 @@ pub(super) trait Reading {
         Ok(pose)
     }
 
-    /// Returns a body about its centre of mass, and where that is.
     fn body(
         &self,
         mass: Option<&String>,
@@ -147,7 +132,6 @@ pub(super) trait Reading {
         Ok((body, Pose::shift(self.list(entries(com))?)))
     }
 
-    /// Returns the ways before and behind a joint's axis.
     fn ways(&self, row: &Row, convention: Option<&str>) -> Result<[Pose<Self::Number>; 2], String> {
         let (theta, d) = match row.turns() {
             true => (&row.offset, &row.d),
@@ -168,7 +152,6 @@ pub(super) trait Reading {
         }
     }
 
-    /// Returns the axis of a joint, between these ways.
     fn axis(&self, row: &Row) -> Result<[Self::Number; 3], String> {
         match &row.axis {
             Some(axis) => self.list(entries(Some(axis))),
@@ -190,7 +173,6 @@ impl Reading for Point {
 }
 
 impl Point {
-    /// Returns the joint that moves a row, and along which line.
     fn line(&self, setting: &Setting, row: usize) -> Result<Line, String> {
         let own = &setting.follows[row];
         let whole = |times: &Rational| times.to_i64().unwrap_or_default();
@@ -215,7 +197,6 @@ pub(super) fn entries<const K: usize>(list: Option<&[String; K]>) -> [Option<&St
 }
 
 impl Row {
-    /// Refuses a joint that the equations do not have, or with a key that they would not read.
     fn check(&self, convention: Option<&str>) -> Result<(), &'static str> {
         let is_zero = |text: &Option<String>| {
             let value = number_of(text.as_ref());
@@ -349,8 +330,7 @@ impl Arm {
         }
     }
 
-    /// Returns the arm with these numbers as payload, in the frame of the robot file: the mass, the
-    /// centre of mass and the tensor about it.
+    /// In the frame of the robot file: mass, centre of mass, and the tensor about it.
     pub(super) fn carrying(
         mut self,
         setting: &Setting,
@@ -379,8 +359,7 @@ impl Arm {
         links.chain(armatures).chain(viscous).collect()
     }
 
-    /// Returns 1 where the axes of two joints that turn are parallel at q = 0, −1 where they point
-    /// against each other, and none of others.
+    /// 1 where the axes of two joints that turn are parallel at q = 0, −1 where they are opposite.
     pub(crate) fn parallel(&self, joints: [usize; 2]) -> Option<f64> {
         let [a, b] = joints.map(|own| self.joints[self.movers[own]].axis.0);
         let is_zero = |own: Number| !own.is_nonzero();
@@ -389,7 +368,6 @@ impl Arm {
         Some(if is_same { 1.0 } else { -1.0 })
     }
 
-    /// Returns the rates of rows, from those of joints.
     pub(super) fn spread(&self, rates: &[Number]) -> Vec<Number> {
         let leaders = self.joints.iter().map(|own| own.leader);
         leaders
@@ -397,7 +375,6 @@ impl Arm {
             .collect()
     }
 
-    /// Returns the loads of joints, from those of rows: of a joint that others follow all.
     pub(super) fn gathered(&self, loads: impl IntoIterator<Item = Number>) -> Vec<Number> {
         let mut all = vec![Number::default(); self.movers.len()];
         for (joint, load) in self.joints.iter().zip(loads) {

@@ -11,7 +11,6 @@ use super::state::State;
 use super::table::Function;
 use crate::program::{Program, argument};
 
-/// The number of points.
 const POINTS: usize = 12;
 /// The largest degree of a difference.
 const MOST_DEGREE: f64 = (1u64 << 30) as f64;
@@ -67,7 +66,6 @@ pub fn check(own: Statement, texts: &[&str]) -> Result<(), String> {
     Ok(())
 }
 
-/// Compares at a point.
 fn at_point(own: Statement, point: &Point) -> Result<(), String> {
     let (setting, function, base) = (own.setting, own.function, own.base);
     let mut arm = Arm::read(setting, point)?;
@@ -132,7 +130,6 @@ fn at_point(own: Statement, point: &Point) -> Result<(), String> {
     }
 }
 
-/// Returns true if no combination is the sum of multiples of others.
 fn are_independent(base: &[Combination], point: &Point) -> bool {
     let mut known: Vec<BTreeMap<usize, Number>> = Vec::new();
     base.iter().all(|combination| {
@@ -161,8 +158,6 @@ fn are_independent(base: &[Combination], point: &Point) -> bool {
     })
 }
 
-/// Returns the columns of all parameters, from those of base parameters, over n rows; none if there
-/// are no such columns.
 fn spread(
     found: &[Number],
     base: &[Combination],

@@ -11,11 +11,8 @@ use num_traits::{Euclid, One, Pow, Signed, ToPrimitive, Zero};
 
 use super::number::{Draws, Number};
 
-/// The longest number that is read.
 const MOST_DIGITS: usize = 1 << 12;
-/// The longest constant.
 const MOST_BYTES: usize = 1 << 15;
-/// The most sines and cosines of a product.
 const MOST_FACTORS: u32 = 1 << 6;
 /// Bits behind the point where sines are rounded, and where products with them are.
 const BITS: u32 = 320;
@@ -96,7 +93,6 @@ impl Angle {
         }
     }
 
-    /// Returns the radians, in units of 2 to the power of −`bits`.
     pub(super) fn scaled(&self, bits: u32) -> BigInt {
         let arc = |under: u32| {
             // arctan 1/n

@@ -18,7 +18,6 @@ pub(super) fn minus(a: &[Number], b: &[Number]) -> Vec<Number> {
     a.iter().zip(b).map(|(a, b)| *a - *b).collect()
 }
 
-/// Returns M x.
 pub(super) fn times(matrix: &Matrix, x: &[Number]) -> Vec<Number> {
     matrix.iter().map(|row| product(row, x)).collect()
 }

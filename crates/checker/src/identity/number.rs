@@ -32,7 +32,6 @@ impl Number {
         step
     }
 
-    /// Returns r, r₁, r₂ or r₃ modulo a prime.
     fn entry(self, part: usize, prime: u64) -> u64 {
         match self.prime {
             0 if prime > 0 => (self.parts[part] as i64).rem_euclid(prime as i64) as u64,
@@ -58,7 +57,6 @@ impl Number {
         }
     }
 
-    /// Combines the parts of two numbers.
     fn with(self, other: Number, combine: impl Fn(u64, [u64; 4], [u64; 4]) -> [u64; 4]) -> Number {
         let prime = self.prime.max(other.prime);
         let parts = |own: Number| match own.prime == prime {
@@ -206,7 +204,6 @@ impl Draws {
         Hash::hash(&[self.seed.as_slice(), &self.count.to_le_bytes()].concat())
     }
 
-    /// Returns the next number of 64 bits.
     fn next(&mut self) -> u64 {
         let hash = self.next_hash();
         u64::from_be_bytes(from_fn(|k| hash[k]))

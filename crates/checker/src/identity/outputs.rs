@@ -15,9 +15,7 @@ struct At<'a> {
     arm: &'a Arm,
     state: &'a State,
     view: &'a View,
-    /// Each joint's axis.
     axes: Vec<Screw>,
-    /// Each link's mass.
     bodies: Vec<Body>,
     /// What the base has moved by, and then each link.
     poses: Vec<Pose>,
@@ -41,7 +39,6 @@ impl<'a> At<'a> {
         }
     }
 
-    /// Returns the number of joints that move by themselves.
     fn count(&self) -> usize {
         self.arm.movers.len()
     }
@@ -93,7 +90,6 @@ impl<'a> At<'a> {
         plus(loads, &drag)
     }
 
-    /// Returns a number of each row times its rate, over joints.
     fn drives(&self, number: impl Fn(&Joint) -> Number, rates: &[Number]) -> Vec<Number> {
         let rows = self.arm.joints.iter().zip(self.arm.spread(rates));
         let drives = rows.map(|(own, rate)| number(own) * rate);
@@ -109,14 +105,12 @@ impl<'a> At<'a> {
         self.loads(&self.zeros(), &self.zeros(), self.arm.gravity)
     }
 
-    /// Returns D, whose columns are the loads of accelerations from rest.
     fn inertia(&self) -> Matrix {
         let column = |unit: Vec<Number>| self.loads(&self.zeros(), &unit, Vector::default());
         let columns = units(self.count()).into_iter().map(column).collect();
         transposed(&columns)
     }
 
-    /// Returns rows over joints, with zero for those that are locked.
     fn moving(&self, mut rows: Matrix) -> Matrix {
         for &joint in &self.arm.locked {
             rows.iter_mut().for_each(|row| row[joint] = 0.into());
@@ -138,7 +132,6 @@ impl<'a> At<'a> {
         self.loads(qd, &self.zeros(), Vector::default())
     }
 
-    /// Returns D q̇.
     fn momentum(&self) -> Vec<Number> {
         self.loads(&self.zeros(), self.given("qd"), Vector::default())
     }
@@ -150,7 +143,6 @@ impl<'a> At<'a> {
         twice.into_iter().map(|own| own * self.arm.half).collect()
     }
 
-    /// Returns the columns of C(q̇).
     fn columns_of_coriolis(&self) -> Matrix {
         let column = |unit: Vec<Number>| self.across(self.given("qd"), &unit);
         units(self.count()).into_iter().map(column).collect()
@@ -166,8 +158,6 @@ impl<'a> At<'a> {
         self.driven(vec![rest]).concat()
     }
 
-    /// Returns the row of the link that has the hand, or the frame in its place, and its pose; of a
-    /// frame that is not there nothing.
     fn hand(&self) -> Option<(usize, Pose)> {
         let name = match self.view.frame.as_str() {
             "" => HAND,
@@ -178,8 +168,7 @@ impl<'a> At<'a> {
         Some((own.row, pose.then(&own.pose)))
     }
 
-    /// Returns the components that are asked for of a motion of the hand's link, linear over
-    /// angular.
+    /// Linear components stand over angular ones.
     fn seen(&self, motion: Screw, hand: &Pose) -> Vec<Number> {
         let linear = sum(motion.1, cross(motion.0, hand.origin));
         let six = match self.view.axes.as_str() {
@@ -194,7 +183,6 @@ impl<'a> At<'a> {
         }
     }
 
-    /// Returns J of the hand.
     fn jacobian(&self) -> Matrix {
         let Some((last, hand)) = self.hand() else {
             return Vec::new();
@@ -208,7 +196,6 @@ impl<'a> At<'a> {
         rows.map(|row| self.arm.gathered(row)).collect()
     }
 
-    /// Returns J of what moves.
     fn moving_jacobian(&self) -> Matrix {
         self.moving(self.jacobian())
     }
@@ -256,8 +243,7 @@ impl<'a> At<'a> {
         solve(self.damped(mobility), transposed(&driven))
     }
 
-    /// Returns the slopes of torques by each parameter: ten of each link, then armature and viscous
-    /// friction of the rows that have some.
+    /// Ten columns a link, then armature and viscous friction of the rows that have some.
     fn columns(&self, torques: impl Fn(&At) -> Vec<Number>) -> Matrix {
         let (rows, step) = (self.arm.joints.len(), Number::step(1));
         let column = |place: usize| {
@@ -289,7 +275,6 @@ impl<'a> At<'a> {
         self.with_friction(&plus(&loads, &across), v)
     }
 
-    /// Returns the arm with the tensors of its links alone, or with their masses alone.
     fn with_tensors_or_masses(&self, has_tensors: bool) -> Arm {
         let mut arm = self.arm.clone();
         for own in &mut arm.joints {
@@ -304,7 +289,6 @@ impl<'a> At<'a> {
         arm
     }
 
-    /// Returns a result that is no slope.
     fn value(&self, is: &str) -> Vec<Number> {
         let (n, qd) = (self.count(), self.given("qd"));
         match is {

@@ -26,7 +26,6 @@ pub struct File {
     pub(super) frame: Vec<NamedFrame>,
     #[serde(default)]
     pub(super) scene: BTreeMap<String, Scene>,
-    /// The scene of who names none.
     #[serde(skip)]
     pub(super) bare: Scene,
     /// The payload of the scene in the last row's own frame, if rows stand for placed joints.
@@ -38,7 +37,6 @@ pub struct File {
     notes: Option<IgnoredAny>,
 }
 
-/// The positions that a scene fixes, the payload that it carries and the results that it asks for.
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[allow(dead_code, reason = "keys that the equations do not read")]
@@ -55,7 +53,6 @@ pub(super) struct Scene {
     scalar: Option<IgnoredAny>,
 }
 
-/// The largest error of results, relative to a scale: of all, or of those of each joint.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Tolerance {
@@ -99,7 +96,6 @@ pub(super) struct Placement {
     pub(super) rpy: Option<[String; 3]>,
 }
 
-/// A frame that is fixed to a link.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct NamedFrame {
@@ -145,7 +141,6 @@ pub(super) struct Row {
     pub(super) limits: Limits,
 }
 
-/// The line along which a joint follows another.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Mimic {
@@ -201,13 +196,11 @@ pub(super) fn number_of(text: Option<&String>) -> Result<Rational, String> {
     number(text).ok_or_else(|| format!("`{text}` is no number"))
 }
 
-/// Reads an angle; one that is missing is zero.
 pub(super) fn angle_of(text: Option<&String>) -> Result<Angle, String> {
     let text = text.map_or("0", String::as_str);
     Angle::read(text).ok_or_else(|| format!("`{text}` is no angle"))
 }
 
-/// Returns a value with its numbers as text.
 fn plain(value: &DeValue) -> Result<Value, String> {
     Ok(match value {
         DeValue::String(text) => Value::String(text.to_string()),

@@ -9,7 +9,6 @@ use std::ops::{Add, Mul, Neg};
 
 use super::number::Number;
 
-/// A number of which vectors, poses and bodies are made.
 pub(super) trait Scalar:
     Clone + From<i64> + Add<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
@@ -55,18 +54,15 @@ impl Screw {
         Screw(scaled(x, self.0), scaled(x, self.1))
     }
 
-    /// Returns the power of a wrench in this motion.
     pub(super) fn power(self, wrench: Screw) -> Number {
         dot(self.0, wrench.0) + dot(self.1, wrench.1)
     }
 
-    /// Returns the rate of a motion that this one carries along.
     pub(super) fn across(self, other: Screw) -> Screw {
         let linear = sum(cross(self.0, other.1), cross(self.1, other.0));
         Screw(cross(self.0, other.0), linear)
     }
 
-    /// Returns the rate of a momentum that this motion carries along.
     pub(super) fn across_momentum(self, other: Screw) -> Screw {
         let moment = sum(cross(self.0, other.0), cross(self.1, other.1));
         Screw(moment, cross(self.0, other.1))
@@ -135,7 +131,6 @@ impl Pose {
         Screw(turned, sum(self.rotate(own.1), cross(self.origin, turned)))
     }
 
-    /// Returns the motion of a joint, by a sine and a cosine or by a length.
     pub(super) fn moved(axis: Screw, turns: bool, [sin, cos]: [Number; 2], slide: Number) -> Pose {
         if !turns {
             return Pose::shift(scaled(slide, axis.1));
@@ -162,7 +157,6 @@ pub(super) struct Body<S = Number> {
 }
 
 impl<S: Scalar> Body<S> {
-    /// Returns a body of m, m x, m y, m z, xx, yy, zz, xy, yz and xz.
     pub(super) fn new([mass, x, y, z, xx, yy, zz, xy, yz, xz]: [S; 10]) -> Body<S> {
         let first_row = [xx, xy.clone(), xz.clone()];
         Body {
@@ -172,7 +166,6 @@ impl<S: Scalar> Body<S> {
         }
     }
 
-    /// Returns the body moved by a pose.
     pub(super) fn moved(&self, pose: &Pose<S>) -> Body<S> {
         let p = pose.origin.clone();
         let turned = pose.rotate(self.first.clone());
@@ -207,7 +200,6 @@ impl Body {
         }
     }
 
-    /// Returns the momentum of a motion.
     pub(super) fn momentum(&self, motion: Screw) -> Screw {
         let spin = self.tensor.map(|row| dot(row, motion.0));
         let force = sum(scaled(self.mass, motion.1), cross(motion.0, self.first));

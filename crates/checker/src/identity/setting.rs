@@ -10,7 +10,6 @@ use super::exact::{Angle, Exact, number};
 use super::robot::{File, OneOrEach, Row, Scene, number_of};
 use crate::program::{ARGUMENTS, Operand};
 
-/// The most joints.
 const MOST_JOINTS: usize = 64;
 /// The most turns of a joint that follows, for one of its leader's.
 const MOST_TURNS: i64 = 16;
@@ -19,11 +18,9 @@ const MOST_TURNS: i64 = 16;
 pub struct Setting<'f> {
     pub(super) file: &'f File,
     pub(super) scene: &'f Scene,
-    /// The line along which each row of the table follows another, or itself.
     pub(super) follows: Vec<Follows<'f>>,
     /// The rows whose joints move by themselves: joints are numbered by their places here.
     pub(super) movers: Vec<usize>,
-    /// The positions that joints are locked at.
     pub(super) locks: Vec<Option<&'f String>>,
     /// `true` where q̇, and q̈, is zero.
     pub(super) still: [bool; 2],
@@ -33,9 +30,7 @@ pub struct Setting<'f> {
 
 /// The line along which a joint follows another, which moves by itself; or itself, once.
 pub(super) struct Follows<'f> {
-    /// The row of the other.
     pub row: usize,
-    /// The factor of its motion.
     pub times: Rational,
     /// The offsets on the way, each as often as it counts.
     pub offsets: Vec<(Rational, &'f String)>,
@@ -89,7 +84,6 @@ impl File {
         find(word, self.joint.iter())
     }
 
-    /// Finds the row that a row follows in the end, over all that stand between.
     pub(super) fn follows(&self, row: usize) -> Result<Follows<'_>, String> {
         let in_joint = |why: &str| format!("joint {}: {why}", row + 1);
         let (mut at, mut times, mut offsets) = (row, Rational::one(), Vec::new());
@@ -119,7 +113,6 @@ impl File {
     }
 }
 
-/// Returns the place of a joint's number, from one, or of its name, among these.
 fn find<'r>(word: &str, mut rows: impl ExactSizeIterator<Item = &'r Row>) -> Result<usize, String> {
     let found = match word.parse::<usize>() {
         Ok(number) => number.checked_sub(1).filter(|&own| own < rows.len()),
@@ -129,7 +122,6 @@ fn find<'r>(word: &str, mut rows: impl ExactSizeIterator<Item = &'r Row>) -> Res
 }
 
 impl Row {
-    /// Returns true for a joint that turns.
     pub(super) fn turns(&self) -> bool {
         self.kind == "revolute"
     }
@@ -210,7 +202,6 @@ impl Setting<'_> {
         Ok(Some(all.collect::<Result<_, String>>()?))
     }
 
-    /// Returns the range of a joint's position; none if an end of it is no number.
     fn positions(&self, joint: usize, rate: f64) -> Option<[f64; 2]> {
         let own = &self.file.joint[self.movers[joint]];
         if let Some(at) = self.locks[joint] {

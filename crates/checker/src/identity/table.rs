@@ -48,7 +48,6 @@ const TABLE: &str = "
         d2qdd_dq_dq[nn] d2qdd_dq_dqd[nn] d2qdd_dqd_dqd[nn] d2qdd_dtau_dq[nn]
 ";
 
-/// The results that are of the components of a frame's motion.
 const MOVES: &str = "jacobian jacobian_rate contact_wrench mobility operational_inertia \
     consistent_inverse operational_bias null_space";
 
@@ -57,15 +56,12 @@ const MOVES: &str = "jacobian jacobian_rate contact_wrench mobility operational_
 pub struct Field {
     /// The name of the field of the struct.
     pub name: String,
-    /// The word of its formula.
     pub(super) is: &'static str,
     /// The lengths of its axes, a character each.
     pub axes: &'static str,
-    /// The frame that it is of, and how that is looked at, where it is not the hand.
     pub(super) view: View,
 }
 
-/// A frame, and what is asked of its motion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct View {
     pub(super) frame: String,
@@ -143,8 +139,7 @@ impl Field {
         Some(self)
     }
 
-    /// Returns true if actuators' limits are a measure of it: it is a torque of each joint, D of
-    /// each two, or a coefficient of each three.
+    /// A torque of each joint, D of each two, or a coefficient of each three.
     pub(crate) fn is_measured(&self) -> bool {
         let known = "tau c h h_rot h_tran d d_rot d_tran symbols";
         known.split(' ').any(|own| own == self.is)
@@ -162,7 +157,6 @@ impl Field {
     }
 }
 
-/// The functions of the table, which is read once.
 static FUNCTIONS: LazyLock<Vec<Function>> = LazyLock::new(read);
 
 /// Returns all functions.
@@ -189,8 +183,7 @@ fn read() -> Vec<Function> {
 
 impl Function {
     /// Returns the function of a name with these results: that of the table, one of it at a frame
-    /// (`jacobian@camera:local`), or several of them as one, each by its name in the table. So a
-    /// name that is known means what the table says.
+    /// (`jacobian@camera:local`), or several of them as one, each by its name in the table.
     ///
     /// # Errors
     /// The first result that is not of the table, or a known name with other results.

@@ -36,13 +36,11 @@ pub struct Symbols {
 /// A parameter: its kind, its name and how many numbers it has.
 type Parameter = (String, String, usize);
 
-/// Returns the length of the array that a parameter is: one of a struct.
 fn count((kind, _, length): &Parameter) -> usize {
     if kind.ends_with("_t") { 1 } else { *length }
 }
 
 impl<'r> Reader<'r> {
-    /// Reads the function: its struct, itself, and those that call it.
     pub(super) fn c(&mut self, symbols: &Symbols, has_batch: bool) -> Read<()> {
         let inline = match symbols.is_cuda {
             true => "static __host__ __device__ inline",
@@ -84,7 +82,6 @@ impl<'r> Reader<'r> {
         Ok(())
     }
 
-    /// Returns the struct of the results, if there is one.
     fn structure(&self, symbols: &Symbols) -> String {
         let Some(name) = &symbols.structure else {
             return String::new();
@@ -96,13 +93,11 @@ impl<'r> Reader<'r> {
         format!("typedef struct {{ {fields} }} {name};")
     }
 
-    /// Returns true if the function returns its only number.
     fn is_number(&self) -> bool {
         let is_struct = self.symbols.is_some_and(|own| own.structure.is_some());
         !is_struct && self.head.fields.iter().all(|(_, shape)| shape.is_empty())
     }
 
-    /// Returns the parameters of the function of one state: their kinds, names and lengths.
     fn parameters(&self, symbols: &Symbols) -> Vec<Parameter> {
         let float = self.head.float();
         let given = self.head.arguments.iter();
@@ -123,7 +118,6 @@ impl<'r> Reader<'r> {
         given.chain(written).collect()
     }
 
-    /// Reads all statements up to the results.
     fn c_statements(&mut self, symbols: &Symbols, is_told: bool) -> Read<()> {
         let (float, far) = (self.head.float(), if is_told { "far" } else { "1" });
         // The angles of a list, those of the call that was read, and the one of the last pair.
@@ -189,8 +183,7 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Takes a value, whose name was read: by its letter a sine, a cosine, an operation of an angle's
-    /// polynomials, a root or an operation.
+    /// The name was read: its letter says if it is a sine, a cosine, a root or an operation.
     fn c_value(&mut self, name: &'r str, called: &[usize], pair: Option<usize>) -> Read<()> {
         // What has no number is of no joint.
         let joint = joint_of(name).unwrap_or(self.head.joints);

@@ -65,7 +65,6 @@ pub struct Argument<'h> {
 }
 
 impl Argument<'_> {
-    /// Returns true if it is a struct in C, with an array of its name.
     fn is_struct(&self) -> bool {
         ["load", "payload"].contains(&self.name)
     }
@@ -87,29 +86,24 @@ pub struct Head<'h> {
 }
 
 impl Head<'_> {
-    /// Returns the scalar in Rust.
     fn scalar(&self) -> &'static str {
         if self.is_single { "f32" } else { "f64" }
     }
 
-    /// Returns the struct that holds the results in Rust, if there are several.
     pub(crate) fn structure(&self) -> Option<String> {
         (self.fields.len() > 1).then(|| rust::camel(self.name))
     }
 
-    /// Returns the scalar in C.
     fn float(&self) -> &'static str {
         if self.is_single { "float" } else { "double" }
     }
 
-    /// Returns the type in Rust of a result whose axes have these lengths.
     pub(crate) fn kind(&self, shape: &[usize]) -> String {
         let lengths = shape.iter().rev();
         let array = |kind: String, length: &usize| format!("[{kind}; {length}]");
         lengths.fold(self.scalar().to_owned(), array)
     }
 
-    /// Returns how many numbers there are in each result.
     fn lengths(&self) -> impl Iterator<Item = (&str, usize)> {
         let fields = self.fields.iter();
         fields.map(|(name, shape)| (*name, shape.iter().product()))

@@ -8,40 +8,31 @@ use super::tokens::{self, Token};
 use super::{Argument, Function, Head, Sines, Source, Symbols, TextError};
 use crate::program::{Operand, Program, Step};
 
-/// The most operations of a function.
 const MOST_STEPS: usize = 1 << 17;
-/// The most operations of the polynomials of an angle.
 const MOST_OF_ANGLE: usize = 1 << 8;
 
-/// An outcome; or the line that is not of generated code.
 pub(super) type Read<T> = Result<T, TextError>;
 
-/// A function that is being read.
 pub(super) struct Reader<'r> {
     pub tokens: &'r [Token<'r>],
     /// The place of the next word, and of the first that was read.
     pub at: usize,
     pub first: usize,
     pub head: &'r Head<'r>,
-    /// The names of a function in C.
     pub symbols: Option<&'r Symbols>,
     /// `true` where values are vectors, whose literals are `of.all(0.5)`.
     pub is_vectors: bool,
     /// `true` once `of` is one of them.
     pub has_of: bool,
     names: HashMap<&'r str, Operand<f64>>,
-    /// The names, in the order in which they were given.
     pub order: Vec<&'r str>,
     pub function: Function,
-    /// A joint, and the operations of the polynomials of its angle so far: of another angle's,
-    /// nothing is known.
+    /// A joint, and the operations of the polynomials of its angle so far.
     polynomial: (usize, Vec<Step<f64>>),
-    /// `true` inside of these polynomials.
     is_angle: bool,
 }
 
 impl<'r> Reader<'r> {
-    /// Begins with a text.
     pub(super) fn new(
         tokens: &'r [Token<'r>],
         head: &'r Head<'r>,
@@ -63,39 +54,33 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Returns true if all words were read.
     pub(super) fn has_all(&self) -> bool {
         self.first == 0 && self.at == self.tokens.len()
     }
 
-    /// Returns the word that is so far ahead; behind the last one nothing.
     pub(super) fn peek(&self, ahead: usize) -> &'r str {
         let token = self.tokens.get(self.at + ahead);
         token.map_or("", |token| token.text)
     }
 
-    /// Takes a word.
     pub(super) fn next(&mut self) -> &'r str {
         let word = self.peek(0);
         self.at = (self.at + 1).min(self.tokens.len());
         word
     }
 
-    /// Takes a word if it is this one.
     pub(super) fn take(&mut self, word: &str) -> bool {
         let is_next = self.peek(0) == word;
         self.at += usize::from(is_next);
         is_next
     }
 
-    /// Refuses the word that was taken last.
     pub(super) fn refuse<T>(&self, why: &str) -> Read<T> {
         let token = self.tokens.get(self.at.saturating_sub(1));
         let (line, word) = token.map_or((1, ""), |token| (token.line, token.text));
         Err(TextError::new(line, format!("{why}, at `{word}`")))
     }
 
-    /// Takes one word, which has to be this.
     pub(super) fn expect(&mut self, word: &str) -> Read<()> {
         if self.take(word) {
             return Ok(());
@@ -108,13 +93,11 @@ impl<'r> Reader<'r> {
         Err(TextError::new(line, why))
     }
 
-    /// Takes the words of a text, which have to be these.
     pub(super) fn expect_all(&mut self, text: &str) -> Read<()> {
         let words = tokens::read(text, self.symbols.is_some())?;
         words.iter().try_for_each(|token| self.expect(token.text))
     }
 
-    /// Takes the words of a text, which have to be these, if the first of them is next.
     pub(super) fn take_all(&mut self, text: &str) -> Read<bool> {
         let words = tokens::read(text, self.symbols.is_some())?;
         let is_next = words.first().is_some_and(|own| own.text == self.peek(0));
@@ -137,7 +120,6 @@ impl<'r> Reader<'r> {
         Ok(())
     }
 
-    /// Takes the words of a head, which have to be these.
     pub(super) fn expect_head(&mut self, text: &str) -> Read<()> {
         for token in tokens::read(text, self.symbols.is_some())? {
             let (own, word) = (self.peek(0), token.text);
@@ -146,18 +128,13 @@ impl<'r> Reader<'r> {
         Ok(())
     }
 
-    /// Returns true if a word of a head is this one: in Rust an argument that nothing reads has an
-    /// underscore.
+    /// In Rust, an argument that nothing reads has an underscore.
     fn is_word(&self, own: &str, word: &str) -> bool {
         let mut arguments = self.head.arguments.iter();
         let is_unread = self.symbols.is_none() && own.strip_prefix('_') == Some(word);
         own == word || is_unread && arguments.any(|argument| argument.name == word)
     }
 
-    /// Goes behind the first of these heads that is there, and returns its place among them.
-    ///
-    /// # Errors
-    /// It is there twice; or what stands in place of the last one, where most of that is there.
     pub(super) fn begin(&mut self, heads: &[String]) -> Read<usize> {
         for (index, head) in (1..).zip(heads) {
             let words = tokens::read(head, self.symbols.is_some())?;
@@ -181,13 +158,11 @@ impl<'r> Reader<'r> {
         self.refuse("a head expected")
     }
 
-    /// Gives a value a name; returns whether it is new.
     fn name(&mut self, name: &'r str, value: Operand<f64>) -> bool {
         self.order.push(name);
         self.names.insert(name, value).is_none()
     }
 
-    /// Forgets the names that were given after so many, but for those that are handed on.
     pub(super) fn forget_names(&mut self, count: usize, handed_on: &[&'r str]) -> Read<()> {
         let names = self.order.split_off(count).into_iter();
         let mut inside: HashMap<&str, Operand<f64>> = names
@@ -202,12 +177,10 @@ impl<'r> Reader<'r> {
         Ok(())
     }
 
-    /// Returns the ending of functions of libraries.
     pub(super) fn suffix(&self) -> &'static str {
         if self.head.is_single { "f" } else { "" }
     }
 
-    /// Takes a number in brackets, below a length, as it is printed.
     pub(super) fn index(&mut self, length: usize) -> Read<usize> {
         self.expect("[")?;
         let word = self.next();
@@ -218,13 +191,11 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Takes the position of a joint.
     pub(super) fn angle(&mut self) -> Read<usize> {
         self.expect("q")?;
         self.index(self.head.joints)
     }
 
-    /// Takes a list up to a bracket, whose entries a reader takes.
     pub(super) fn list<T>(
         &mut self,
         close: &str,
@@ -240,14 +211,12 @@ impl<'r> Reader<'r> {
         Ok(entries)
     }
 
-    /// Returns true if a literal follows.
     fn is_literal(&self) -> bool {
         let digit = usize::from(self.peek(0) == "-");
         let is_digit = self.peek(digit).starts_with(|c: char| c.is_ascii_digit());
         is_digit || self.is_vectors && self.peek(0) == "of"
     }
 
-    /// Takes a literal of the scalar, printed as it is: another one of the same value is refused.
     pub(super) fn literal(&mut self) -> Read<f64> {
         if self.is_vectors {
             self.expect_all("of.all(")?;
@@ -268,7 +237,6 @@ impl<'r> Reader<'r> {
         Ok(if is_negative { -value } else { value })
     }
 
-    /// Takes a name, an entry of an argument or a literal.
     pub(super) fn operand(&mut self) -> Read<Operand<f64>> {
         if self.is_literal() {
             return self.literal().map(Operand::Constant);
@@ -303,7 +271,6 @@ impl<'r> Reader<'r> {
         Ok((is_negative, self.operand()?))
     }
 
-    /// Takes one operation.
     fn binary(&mut self) -> Read<Step<f64>> {
         // Products are a macro's in CUDA.
         let is_cuda = self.symbols.is_some_and(|symbols| symbols.is_cuda);
@@ -329,7 +296,6 @@ impl<'r> Reader<'r> {
         Ok((operation, [left, self.operand()?]))
     }
 
-    /// Takes an operation, fused or not, for a name that has been read: `t3`, and new.
     pub(super) fn operation(&mut self, name: &'r str) -> Read<()> {
         let is_c = self.symbols.is_some();
         let is_fused = match is_c {
@@ -355,7 +321,6 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Returns true if a statement calls the method of fused products.
     fn calls_mul_add(&self) -> bool {
         let rest = self.tokens.get(self.at..).unwrap_or_default();
         let mut words = rest.iter().map(|token| token.text);
@@ -399,8 +364,7 @@ impl<'r> Reader<'r> {
         Ok(())
     }
 
-    /// Takes 1/√(q̇² + w²) of a joint, for a name that has been read; the root is a library's of
-    /// these, or C's. Roots are correctly rounded, whoever computes them.
+    /// Roots are correctly rounded, whoever computes them.
     pub(super) fn speed(&mut self, name: &'r str, libraries: &[&str]) -> Read<()> {
         if self.literal()?.to_bits() != 1f64.to_bits() {
             return self.refuse("1 expected over a root");
@@ -436,7 +400,6 @@ impl<'r> Reader<'r> {
         Ok(())
     }
 
-    /// Names the sine, or else the cosine, of a joint's angle.
     pub(super) fn name_sine(
         &mut self,
         name: &'r str,
@@ -481,7 +444,6 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Returns the name of an operation of the polynomials of a joint's angle.
     fn polynomial_name(&self, joint: usize, number: usize) -> String {
         match self.symbols {
             Some(_) => format!("x{}_{number}", joint + 1),
@@ -489,7 +451,6 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Takes an operation of the polynomials of a joint's angle, for a name that has been read.
     pub(super) fn polynomial_step(&mut self, name: &'r str, joint: usize) -> Read<()> {
         if name == self.polynomial_name(joint, 1) {
             self.begin_polynomial(joint);
@@ -513,7 +474,6 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Begins with the polynomials of a joint's angle.
     pub(super) fn begin_polynomial(&mut self, joint: usize) {
         let (known, steps) = std::mem::replace(&mut self.polynomial, (joint, Vec::new()));
         for number in 1..=steps.len() {
@@ -522,7 +482,6 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Takes a result of the polynomials, which may be negated.
     pub(super) fn polynomial_result(&mut self, joint: usize) -> Read<Source> {
         if self.polynomial.0 != joint {
             self.begin_polynomial(joint);
@@ -535,7 +494,6 @@ impl<'r> Reader<'r> {
     }
 }
 
-/// Returns items with commas between them.
 pub(super) fn commas(items: impl Iterator<Item = String>) -> String {
     items.collect::<Vec<String>>().join(", ")
 }
@@ -554,7 +512,6 @@ pub(crate) fn number(text: &str, is_single: bool) -> Option<f64> {
     }
 }
 
-/// Returns a number as it is printed.
 fn printed<T: FromStr + Debug + Into<f64>>(word: &str) -> Option<f64> {
     let value: T = word.parse().ok()?;
     let is_printed = format!("{value:?}") == word;

@@ -12,11 +12,9 @@
 use super::reader::{Read, Reader, commas, joint_of};
 use super::{Function, Source};
 
-/// Arguments that have a type of their own.
 const TYPES: [(&str, &str); 3] = [("g", "Gravity"), ("load", "Load"), ("payload", "Payload")];
 
 impl<'r> Reader<'r> {
-    /// Reads the function, and that of any number of states.
     pub(super) fn rust(&mut self, has_columns: bool) -> Read<()> {
         self.begin(&[self.rust_head()])?;
         self.statements(false)?;
@@ -28,7 +26,6 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Returns the head, up to the brace.
     fn rust_head(&self) -> String {
         let (head, scalar) = (self.head, self.head.scalar());
         let arguments = head.arguments.iter().map(|argument| {
@@ -42,7 +39,6 @@ impl<'r> Reader<'r> {
         format!("pub fn {name}({arguments}) -> {returned} {{")
     }
 
-    /// Returns the type of the array or the struct that a function ends with, and that itself.
     fn returned(&self) -> [String; 2] {
         let fields = self.head.fields.as_slice();
         if let Some(name) = self.head.structure() {
@@ -58,7 +54,6 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Reads all statements up to the result; those of a part of a long function, up to its names.
     fn statements(&mut self, is_part: bool) -> Read<()> {
         while self.take("let") {
             match (self.peek(0), self.peek(1)) {
@@ -89,7 +84,6 @@ impl<'r> Reader<'r> {
         Ok(())
     }
 
-    /// Reads sines and cosines of one angle: by a call, or by polynomials.
     fn sines(&mut self, names: &[(&'r str, bool)]) -> Read<()> {
         // What has no number is of no joint.
         let joint = joint_of(names[0].0).unwrap_or(self.head.joints);
@@ -111,7 +105,6 @@ impl<'r> Reader<'r> {
         names.try_for_each(|(name, is_sine)| self.name_sine(name, joint, *is_sine, Source::Libm))
     }
 
-    /// Reads the block of an angle's polynomials.
     fn polynomials(&mut self, joint: usize, names: &[(&'r str, bool)]) -> Read<()> {
         self.begin_polynomial(joint);
         while self.take("let") {
@@ -143,13 +136,11 @@ impl<'r> Reader<'r> {
         self.name_together(&angles, [&sines, &cosines])
     }
 
-    /// Takes names in brackets.
     fn listed(&mut self) -> Read<Vec<&'r str>> {
         self.expect("[")?;
         self.list("]", |own| Ok(own.next()))
     }
 
-    /// Names sines and cosines that one call gives; what nothing reads has no name.
     fn name_together(&mut self, angles: &[usize], names: [&[&'r str]; 2]) -> Read<()> {
         if names.iter().any(|own| own.len() != angles.len()) {
             return self.refuse("as many sines, cosines and angles are expected");
@@ -168,8 +159,7 @@ impl<'r> Reader<'r> {
         Ok(())
     }
 
-    /// Reads a part of a long function: `(t1, t2,) = { … (t1, t2,) }`. It hands on values by
-    /// their names, and the others are no more.
+    /// A part of a long function, `(t1, t2,) = { … (t1, t2,) }`, hands on these names alone.
     fn part(&mut self) -> Read<()> {
         let names = self.part_names()?;
         self.expect_all("= {")?;
@@ -182,7 +172,6 @@ impl<'r> Reader<'r> {
         self.forget_names(before, &names)
     }
 
-    /// Takes the names that a part hands on: `(t1, t2,)`.
     fn part_names(&mut self) -> Read<Vec<&'r str>> {
         self.expect("(")?;
         let mut names = Vec::new();
@@ -193,8 +182,6 @@ impl<'r> Reader<'r> {
         Ok(names)
     }
 
-    /// Reads the type and the function of any number of states: the same operations over vectors,
-    /// and what follows from the head.
     fn columns(&mut self) -> Read<()> {
         let (head, scalar, n) = (self.head, self.head.scalar(), self.head.joints);
         let single = std::mem::take(&mut self.function);
@@ -269,7 +256,6 @@ fn array(shape: &[usize]) -> String {
     }
 }
 
-/// Returns a name as those of types are.
 pub(super) fn camel(name: &str) -> String {
     let words = name.split('_').filter_map(|word| word.split_at_checked(1));
     let words = words.map(|(first, rest)| first.to_ascii_uppercase() + rest);

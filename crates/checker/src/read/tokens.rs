@@ -5,13 +5,10 @@ use super::TextError;
 /// A word, a number or a sign; of a directive in C the whole line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Token<'t> {
-    /// The characters.
     pub text: &'t str,
-    /// The line, from one.
     pub line: usize,
 }
 
-/// Signs of two characters.
 const PAIRS: [&str; 7] = ["::", "->", "<=", "==", "!=", "&&", "++"];
 /// All signs; in C, a directive begins with one more.
 const SIGNS: &str = "+-*/=.,;:()[]{}<>&!? ";
@@ -19,7 +16,6 @@ const RUST_SIGNS: &str = "+-*/=.,;:()[]{}<>&!? #";
 
 /// Signs of C that stand for brackets, which would not be counted.
 const DIGRAPHS: [&str; 4] = ["<:", ":>", "<%", "%>"];
-/// The most lines of code, and the most words of a text.
 const MOST_LINES: usize = 1 << 20;
 const MOST_WORDS: usize = 1 << 22;
 
@@ -31,21 +27,16 @@ const STAMP: [&str; 4] = [
     "// text = ",
 ];
 
-/// Returns true for a character of a name.
 pub(crate) fn is_letter(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_'
 }
 
-/// Returns true if a text has letters and these signs alone, and no comment.
 pub(crate) fn has_only(text: &str, signs: &str) -> bool {
     let known = |c: char| is_letter(c) || signs.contains(c);
     text.chars().all(known) && !text.contains("//") && !text.contains("/*")
 }
 
-/// Returns the lines that are neither empty nor comments, with their numbers.
-///
-/// # Errors
-/// The first line that is none of generated code: a compiler might read it otherwise.
+/// Refuses a line that is not of generated code: a compiler might read it otherwise.
 pub(crate) fn lines(source: &str, is_c: bool) -> Result<Vec<(usize, &str)>, TextError> {
     let (mut all, mut is_comment) = (Vec::new(), false);
     for (number, line) in (1..).zip(source.split('\n')) {
@@ -81,7 +72,6 @@ pub(crate) fn lines(source: &str, is_c: bool) -> Result<Vec<(usize, &str)>, Text
     Ok(all)
 }
 
-/// Returns true for a comment in Rust: documentation, or a line of the stamp.
 fn is_plain(number: usize, line: &str) -> bool {
     let words = line.trim_start_matches(' ');
     let own = STAMP.get(number - 1);
@@ -89,10 +79,6 @@ fn is_plain(number: usize, line: &str) -> bool {
     is_stamp || words.starts_with("///") || words.starts_with("//!")
 }
 
-/// Reads a text.
-///
-/// # Errors
-/// As [`lines`].
 pub(super) fn read(source: &str, is_c: bool) -> Result<Vec<Token<'_>>, TextError> {
     let mut all = Vec::new();
     for (line, mut rest) in lines(source, is_c)? {
@@ -108,7 +94,6 @@ pub(super) fn read(source: &str, is_c: bool) -> Result<Vec<Token<'_>>, TextError
     Ok(all)
 }
 
-/// Returns the length of the token that a line begins with.
 fn length(line: &str, is_c: bool) -> usize {
     let is_number = line.starts_with(|c: char| c.is_ascii_digit());
     let ends = |(place, c): (usize, char)| {

@@ -13,7 +13,6 @@ pub use options::{Options, as_flags};
 /// The help heading of the options for the code.
 pub const CODE: &str = "Code options";
 
-/// The help heading of the options for the search.
 const SEARCH: &str = "Search options";
 
 /// A robot and the options of a request.

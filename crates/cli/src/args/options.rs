@@ -9,12 +9,10 @@ use dalembert_codegen::{Asked, OPTIONS, OptionRow, Purpose};
 
 use super::{CODE, SEARCH};
 
-/// The options that are given on the command line: all of the table, or the few that matter to
-/// subcommands that analyse programs and print no code.
+/// All options of the table, or the few of the subcommands that print no code.
 #[derive(Clone, Debug, Default)]
 pub struct Options<const ALL: bool = true>(pub Asked);
 
-/// The options of subcommands that print no code.
 const FEW: [&str; 3] = ["outputs", "scene", "effort"];
 
 impl<const ALL: bool> Options<ALL> {
@@ -54,8 +52,7 @@ impl<const ALL: bool> Args for Options<ALL> {
     }
 }
 
-/// Accepts any text, and lists the known words for help and completions; only the parser of
-/// requests refuses unknown words.
+/// Accepts any text: only the parser of requests refuses unknown words.
 #[derive(Clone)]
 struct Words(fn() -> Vec<&'static str>);
 

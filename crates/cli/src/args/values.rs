@@ -65,7 +65,6 @@ pub fn positive_parser() -> impl TypedValueParser<Value = f64> {
 }
 
 pub fn states_parser() -> impl TypedValueParser<Value = usize> {
-    /// The most states that are measured.
     const MAX_STATES: i64 = 10_000;
     clap::value_parser!(i64)
         .range(1..=MAX_STATES)

@@ -21,7 +21,6 @@ use nalgebra::DVector;
 use page::View;
 use paper::Paper;
 
-/// A link with mass.
 struct Body {
     mass: f64,
     centre: Vector<f64>,
@@ -102,7 +101,6 @@ impl Body {
 }
 
 impl Scene<'_> {
-    /// Returns the points that both views must show.
     fn points(&self) -> Vec<Vector<f64>> {
         let mut points = vec![[0.0; 3], self.first.origin, self.hand.origin];
         points.extend(self.frames.iter().map(|frame| frame.origin));
@@ -110,7 +108,6 @@ impl Scene<'_> {
         points
     }
 
-    /// Returns the corners of boxes around the bodies; the paper must have room for them.
     fn outlines(&self) -> Vec<Vector<f64>> {
         let boxes = self.bodies.iter().filter_map(|body| {
             let half = [0, 1, 2].map(|k| libm::sqrt(body.square(k, k).max(0.0)));
@@ -121,7 +118,6 @@ impl Scene<'_> {
         boxes.flatten().collect()
     }
 
-    /// Returns a point on a joint's axis, and its direction.
     fn axis(&self, row: usize) -> (Vector<f64>, Vector<f64>) {
         let frame = match (self.robot.convention, row) {
             (Convention::Standard, 0) => &self.first,
@@ -137,11 +133,9 @@ impl Scene<'_> {
             if let Some((half, turned)) = body.ellipse(view.coordinates) {
                 page.ellipse(centre, half.map(|half| view.scale * half), turned);
             }
-            // The dot's volume grows with the mass.
             let radius = (2.5 * libm::cbrt(body.mass)).clamp(1.5, 9.0);
             page.circle("m", centre, radius);
         }
-        // The links, from frame to frame and on to the hand.
         let origins = [&self.first].into_iter().chain(&self.frames);
         let origins = origins.chain([&self.hand]);
         page.polyline("l", origins.map(|frame| view.place(&frame.origin)));
@@ -178,8 +172,7 @@ impl Scene<'_> {
     }
 }
 
-/// Adds a label at a point; if it would overlap another label, as those of coaxial joints do, its
-/// text is appended to that.
+/// Appends the text to a label that it would overlap, as those of coaxial joints do.
 fn label(labels: &mut Vec<([f64; 2], String)>, at: [f64; 2], text: String) {
     /// Labels nearer than this, in pixels, overlap.
     const NEAR: [f64; 2] = [14.0, 12.0];

@@ -7,7 +7,6 @@ use super::paper::Paper;
 /// The side of a view, and the room above both, in pixels.
 const SIDE: f64 = 440.0;
 const HEAD: f64 = 64.0;
-/// The height of a line of the table.
 const ROW: f64 = 17.0;
 /// The width of a character of the table, pixels: that of the widest common monospaced font.
 const CHARACTER: f64 = 7.5;
@@ -26,14 +25,12 @@ const STYLE: [&str; 2] = [
 .m{fill:#f0935a}.e{fill:#f0935a;stroke:#f0935a}",
 ];
 
-/// The meaning of the marks.
 const LEGEND: [&str; 2] = [
     "frames: x red, y green, z blue; numbered arrows: axes of joints, dashed if prismatic",
     "dots: centres of mass; ellipses: bodies of uniform density with the links' inertias",
 ];
 
 impl Paper {
-    /// Starts the drawing of an arm: its title, room for two views, and a table below them.
     pub(super) fn of_arm(title: &str, table: &[String]) -> Paper {
         let rows = table.len() as f64;
         let widest = table.iter().map(|line| line.chars().count()).max();
@@ -53,7 +50,6 @@ impl Paper {
         page
     }
 
-    /// Draws an arrow; a ring if it is seen end on.
     pub(super) fn arrow(&mut self, class: &str, from: [f64; 2], to: [f64; 2]) {
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
         let length = libm::sqrt(x * x + y * y);
@@ -77,7 +73,6 @@ impl Paper {
         ));
     }
 
-    /// Draws a name beside a point.
     pub(super) fn label(&mut self, [x, y]: [f64; 2], text: &str) {
         self.text("i", [x + 5.0, y - 4.0], text);
     }
@@ -90,7 +85,6 @@ pub(super) struct View {
     pub(super) coordinates: [usize; 2],
     /// Pixels per metre, the same in both views.
     pub(super) scale: f64,
-    /// The point in the middle of the view, and its place on the paper.
     middle: [f64; 2],
     at: [f64; 2],
     /// The size of the arm, m.
@@ -103,8 +97,7 @@ const MARGIN: f64 = 0.16;
 const EDGE: f64 = 0.07;
 
 impl View {
-    /// Returns the views from the front (x to the right, z up) and from above (x to the right,
-    /// y up). Both have room for the points and for the outlines of bodies.
+    /// From the front (x to the right, z up) and from above (x to the right, y up).
     pub(super) fn both(points: &[Vector<f64>], outlines: &[Vector<f64>]) -> [View; 2] {
         let ranges = [0, 1, 2].map(|k| {
             let values = points.iter().map(|point| point[k]);
@@ -139,7 +132,6 @@ impl View {
         ]
     }
 
-    /// Returns the position of a point on the paper.
     pub(super) fn place(&self, point: &Vector<f64>) -> [f64; 2] {
         let [right, up] = self.coordinates.map(|k| point[k]);
         [
@@ -148,7 +140,6 @@ impl View {
         ]
     }
 
-    /// Draws the view's name and a scale bar.
     pub(super) fn head(&self, page: &mut Paper) {
         let [x, y] = [self.at[0] - 0.5 * SIDE + 16.0, HEAD + 10.0];
         page.text("i", [x, y], self.name);
@@ -162,7 +153,6 @@ impl View {
         page.text("i", [x, from[1] - 5.0], &format!("{bar} m"));
     }
 
-    /// Draws the direction of gravity: an arrow, or ⊙ towards the viewer and ⊗ away.
     pub(super) fn gravity(&self, gravity: &Vector<f64>, page: &mut Paper) {
         let size = libm::sqrt(gravity.iter().map(|g| g * g).sum());
         let from = [self.at[0] + 0.5 * SIDE - 40.0, HEAD + 60.0];
@@ -183,7 +173,6 @@ impl View {
         }
     }
 
-    /// Draws the axes of a frame, x, y and z in their colours.
     pub(super) fn triad(&self, frame: &Columns<f64>, size: f64, page: &mut Paper) {
         let from = self.place(&frame.origin);
         let length = size * self.reach;

@@ -5,14 +5,12 @@
 const LIGHT: &str = "\
 svg{font:12px sans-serif;color:#222}\
 .p{fill:#fff}.i{fill:currentColor;stroke:#fff;stroke-width:3;paint-order:stroke}.c{font:12px monospace}";
-/// The colours that differ on a dark screen.
 const DARK: &str = "svg{color:#ddd}.p{fill:#111}.i{stroke:#111}";
 
 /// An SVG drawing that is being written. Lengths are in pixels, y points down.
 pub(crate) struct Paper(String);
 
 impl Paper {
-    /// Starts a drawing of a subcommand, with the rules of its classes on a light and on a dark screen.
     pub(crate) fn new(
         [width, height]: [f64; 2],
         title: &str,
@@ -59,13 +57,11 @@ impl Paper {
         ));
     }
 
-    /// Returns the text of the file.
     pub(crate) fn end(self) -> String {
         self.0 + "</svg>\n"
     }
 }
 
-/// Escapes text for XML, and replaces control characters.
 fn escaped(text: &str) -> String {
     let plain = |c: char| if c.is_control() { '\u{fffd}' } else { c };
     let plain: String = text.chars().map(plain).collect();

@@ -6,7 +6,6 @@ use dalembert_model::robot::{Convention, Joint, JointKind, Placement, Robot};
 
 use crate::report::{Cell, Table};
 
-/// Returns the lines: facts about the whole arm, the DH rows, and impossible inertias.
 pub(super) fn lines(robot: &Robot, q: &[f64]) -> Vec<String> {
     let convention = match robot.convention {
         Convention::Standard => "standard DH",
@@ -66,7 +65,6 @@ fn placement(what: &str, placement: &Placement) -> String {
     format!("{what}: xyz ({xyz}), rpy ({rpy})")
 }
 
-/// Formats a number as the file has it if that is short.
 fn number(value: &Rational) -> String {
     short(write_decimal(value), 10, f64::nearest_rational(value))
 }
@@ -75,13 +73,11 @@ fn angle(value: &Angle) -> String {
     short(Some(value.to_string()), 10, value.to_f64())
 }
 
-/// Returns a text of at most so many bytes, otherwise the number with six digits.
 fn short(text: Option<String>, most: usize, value: f64) -> String {
     text.filter(|text| text.len() <= most)
         .unwrap_or_else(|| six(value))
 }
 
-/// Formats a number with six digits, without zeros at the end.
 fn six(value: f64) -> String {
     let text = format!("{value:.5e}");
     let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));

@@ -100,7 +100,6 @@ pub const CASES: [Case; 31] = [
     ("chain of 20 joints", Vector, Change::Repeated(20), Inside),
 ];
 
-/// Returns 10^e, exactly.
 fn power(e: i32) -> Rational {
     let size = pow(Rational::from_integer(10.into()), e.unsigned_abs() as usize);
     if e < 0 { size.recip() } else { size }
@@ -176,7 +175,6 @@ impl Change {
     }
 }
 
-/// Returns a right angle as it is often typed.
 fn right(joint: &Joint) -> Option<Angle> {
     let typed = Rational::new(15708.into(), 10000.into());
     match joint.alpha.quarter_turns() {

@@ -97,7 +97,6 @@ pub fn inside<'e>(
     measured(bench, functions, case, [states, states]).collect()
 }
 
-/// Measures functions in a case, at states beside those that sizes are taken from.
 fn measured<'e>(
     bench: &Bench,
     functions: impl Iterator<Item = &'e Emitted>,
@@ -112,7 +111,7 @@ fn measured<'e>(
 /// Functions as they were generated, all together or each scalar by itself.
 type Made = Vec<Result<Generated, GenerateError>>;
 
-/// Measures what was generated in a case; of a load, which comes with what reads it, nothing.
+/// Skips the load, which comes with whatever reads it.
 fn rows(
     bench: &Bench,
     made: &Made,
@@ -143,7 +142,6 @@ fn anywhere(request: &Request, functions: Vec<Function>) -> Request {
     }
 }
 
-/// States that the sizes of torques are taken from.
 const SCALES: usize = 1000;
 
 /// Measures the torques in every case that the robot has, at so many states each; nothing if the
@@ -181,8 +179,7 @@ pub fn torques(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Ro
     Ok(all?.concat())
 }
 
-/// Generates functions in every scalar that is asked for; by itself in each where one of them cannot
-/// hold a constant.
+/// Generates each scalar by itself where one of them cannot hold a constant.
 fn generated(robot: &Robot, request: &Request) -> Result<Made, GenerateError> {
     let of = |scalars: &[ScalarType]| {
         let request = Request {

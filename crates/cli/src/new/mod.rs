@@ -33,7 +33,6 @@ pub struct NewArgs {
     chain: ChainArgs,
 }
 
-/// Runs the subcommand.
 pub(crate) fn run(args: &NewArgs, context: &Context) -> Outcome {
     let folder = &args.folder;
     let name = crate_name(folder)?;
@@ -87,7 +86,6 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Outcome {
     Ok(done)
 }
 
-/// Generates the code that is checked in beside the robot file, and what is claimed of it.
 fn code(file: &RobotFile) -> Result<[String; 2], Failure> {
     let asked = texts::ASKED.parse::<Asked>();
     let asked = asked.map_err(|error| Failure::Input(error.to_string()))?;
@@ -106,10 +104,9 @@ fn code(file: &RobotFile) -> Result<[String; 2], Failure> {
     Ok([files.concat(), claim.write()])
 }
 
-/// The ending of the file of torques that the test of a new crate expects.
 pub(crate) const EXPECTED: &str = "expected";
 
-/// Returns the text of that file: torques at three states, by the recursion for any arm.
+/// Returns the torques that the new crate expects, at three states, by the recursion for any arm.
 ///
 /// # Errors
 /// The recursion refuses the robot.
@@ -134,7 +131,6 @@ pub(crate) fn expected(robot: &Robot) -> Result<String, Failure> {
     Ok(sealed(Comment::Line, "dalembert renew", &text))
 }
 
-/// Returns the crate's name, which is the folder's; hyphens are allowed.
 fn crate_name(folder: &Path) -> Result<String, Failure> {
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
     let refused = |help: String| {
@@ -155,8 +151,7 @@ fn crate_name(folder: &Path) -> Result<String, Failure> {
     }
 }
 
-/// Returns the source of the dependency on dalembert: the checkout that this program was built
-/// from, if it still exists, otherwise the registry.
+/// The checkout that this program was built from, if it still exists, otherwise the registry.
 fn dependency(folder: &Path) -> String {
     let checkout = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
     let manifest = fs::read_to_string(Path::new(checkout).join("Cargo.toml")).unwrap_or_default();
@@ -168,8 +163,7 @@ fn dependency(folder: &Path) -> String {
     }
 }
 
-/// Returns the path of the checkout from the new crate if both are below the same folder of the root,
-/// so that they can be moved together; otherwise the whole path.
+/// Relative if both are below one folder of the root, so that they can be moved together.
 fn path_from(folder: &Path, checkout: &Path) -> String {
     let path = relative(checkout, &folder.join("Cargo.toml"));
     let down = checkout

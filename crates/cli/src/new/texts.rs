@@ -1,6 +1,5 @@
 //! The contents of the files of a new crate.
 
-/// The default robot: two links in a vertical plane.
 pub(super) const ROBOT: &str = "\
 # Two links of a metre and a kilogram in a vertical plane: put your arm here.
 
@@ -27,10 +26,8 @@ inertia = [0, \"1/12\", \"1/12\", 0, 0, 0]
 limits = { position = [\"-pi\", \"pi\"], velocity = 3, acceleration = 10, torque = 30 }
 ";
 
-/// The crate that the new one depends on.
 pub(super) const DEPENDENCY: &str = "dalembert";
 
-/// The options of the code in the new crate.
 pub(super) const ASKED: &str = "outputs: inverse_dynamics, gravity; scalar: f64; sincos: together";
 
 /// q, q̇, q̈ and the torques there.
@@ -47,10 +44,8 @@ pub(super) fn manifest(name: &str, dependency: &str) -> String {
     )
 }
 
-/// The number of states at which the test compares torques.
 pub(super) const STATES: usize = 3;
 
-/// Returns the states with their torques as an expression of Rust, which `include!` takes.
 pub(super) fn expected(states: &[State]) -> String {
     let rows = states.iter().map(|vectors| {
         let lines = vectors
@@ -64,7 +59,6 @@ pub(super) fn expected(states: &[State]) -> String {
     )
 }
 
-/// Returns src/main.rs: the macro, torques, and a test against the torques of a recursion.
 pub(super) fn source(robot: &str, joints: usize) -> String {
     SOURCE
         .replace("STATES", &STATES.to_string())

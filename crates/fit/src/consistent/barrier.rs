@@ -8,18 +8,15 @@ use super::body::{Pseudo, moments, of_joint, unit};
 use crate::dense::cholesky;
 use crate::model::Model;
 
-/// The distance, a part a link and a drive's parameter.
 pub(super) struct Barrier {
     /// L of each link's J = L Lᵀ in the robot file, or of a body near it.
     links: Vec<(Pseudo, Pseudo)>,
     /// E_a of each of a link's ten parameters.
     units: [Pseudo; 10],
-    /// The parameters of drives, and what each is compared with.
     drives: Vec<Drive>,
     count: usize,
 }
 
-/// A parameter of a drive.
 enum Drive {
     /// Positive, at a place of θ, with what it is in the file.
     Positive(usize, f64),
@@ -28,7 +25,6 @@ enum Drive {
 }
 
 impl Barrier {
-    /// Returns the distance from a model's robot.
     pub(super) fn new(model: &Model, unknowns: &[Unknown], noise: &[f64]) -> Barrier {
         let robot = model.robot();
         let drives = unknowns.iter().enumerate().filter_map(|(at, unknown)| {
@@ -57,7 +53,6 @@ impl Barrier {
         }
     }
 
-    /// Returns θ of the robot file, with bodies that exist.
     pub(super) fn start(&self) -> Vec<f64> {
         let mut theta = vec![0.0; self.count];
         for (i, (j, _)) in self.links.iter().enumerate() {
@@ -71,7 +66,6 @@ impl Barrier {
         theta
     }
 
-    /// Finds the parameters of drives that are less than so much of what they are compared with.
     pub(super) fn stopped(&self, theta: &[f64], part: f64) -> Vec<usize> {
         let places = self.drives.iter().filter_map(|drive| match *drive {
             Drive::Positive(at, file) => (theta[at] < part * file).then_some(at),
@@ -80,7 +74,6 @@ impl Barrier {
         places.collect()
     }
 
-    /// Computes the distance; `None` where a body or a drive does not exist.
     pub(super) fn value(&self, theta: &[f64]) -> Option<f64> {
         let mut total = 0.0;
         for (i, (_, file)) in self.links.iter().enumerate() {
@@ -101,8 +94,7 @@ impl Barrier {
         total.is_finite().then_some(total)
     }
 
-    /// Computes rows G and the right-hand side, last, of the least squares problem
-    /// ½ ‖G d − c‖² that is the distance to second order.
+    /// Computes G and, last, c of ½ ‖G d − c‖², which is the distance to second order.
     pub(super) fn rows(&self, theta: &[f64]) -> Option<Vec<Vec<f64>>> {
         let mut rows = Vec::with_capacity(self.count);
         for (i, (_, file)) in self.links.iter().enumerate() {
@@ -159,7 +151,6 @@ fn within(l: &Pseudo, e: &Pseudo) -> Pseudo {
     solve(l, &transposed(&half))
 }
 
-/// Computes L⁻¹ B, a lower triangle where B is one.
 fn solve(l: &Pseudo, b: &Pseudo) -> Pseudo {
     let mut x = *b;
     for (i, row) in l.iter().enumerate() {

@@ -18,7 +18,6 @@ const SOME_BODY: (f64, f64) = (1.0, 0.1);
 /// The least part of a link's second moments about its centre that each axis has to have.
 const THIN: f64 = 1e-3;
 
-/// Returns J of a unit of the k-th parameter of a link.
 pub(super) fn unit(k: usize) -> Pseudo {
     let mut j = [[0.0; 4]; 4];
     match LinkParameter::ALL[k] {
@@ -41,7 +40,6 @@ pub(super) fn unit(k: usize) -> Pseudo {
     j
 }
 
-/// Returns the ten parameters of a pseudo-inertia.
 pub(super) fn moments(j: &Pseudo) -> [f64; 10] {
     let trace = j[0][0] + j[1][1] + j[2][2];
     LinkParameter::ALL.map(|parameter| match parameter {
@@ -99,7 +97,6 @@ pub(super) fn of_joint(joint: &Joint) -> (Pseudo, Pseudo) {
     }
 }
 
-/// Returns the name of a drive's parameter.
 fn named(unknown: Unknown) -> Option<String> {
     Some(match unknown {
         Unknown::Armature(joint) => Parameter::Armature(joint).to_string(),
@@ -109,12 +106,10 @@ fn named(unknown: Unknown) -> Option<String> {
     })
 }
 
-/// Computes A + x·1.
 fn shifted(a: &[[f64; 3]; 3], x: f64) -> [[f64; 3]; 3] {
     core::array::from_fn(|i| core::array::from_fn(|k| a[i][k] + if i == k { x } else { 0.0 }))
 }
 
-/// Returns the bodies of θ; of drives that are not identified the file's.
 pub(super) fn bodies(
     model: &Model,
     fit: &Fit,

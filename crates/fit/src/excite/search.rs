@@ -12,17 +12,14 @@ use crate::triangle::Triangle;
 /// The shortest step that is tried, in parts of the limits.
 const SHORTEST: f64 = 1e-4;
 
-/// What trajectories are compared by.
 pub(super) struct Search<'a> {
     pub(super) model: &'a Model,
     pub(super) noise: &'a [f64],
-    /// Number of times at which the regressor is evaluated.
     pub(super) samples: usize,
     pub(super) reference: Reference,
 }
 
 impl Search<'_> {
-    /// Draws a trajectory within the limits.
     pub(super) fn draw(&self, period: f64, harmonics: usize, random: &mut Random) -> Trajectory {
         let limits = self.model.limits();
         let mut series =
@@ -68,7 +65,6 @@ impl Search<'_> {
         Ok(all.reduced())
     }
 
-    /// Computes F.
     pub(super) fn value(&self, trajectory: &Trajectory) -> Result<f64, Error> {
         let width = self.model.columns().len();
         let values = singular(&self.factor(trajectory)?, width).values;
@@ -77,13 +73,11 @@ impl Search<'_> {
         Ok((large + small) / f64::from(2 * POWER))
     }
 
-    /// Computes the condition, columns of length one.
     pub(super) fn condition(&self, trajectory: &Trajectory) -> Result<f64, Error> {
         let width = self.model.columns().len();
         Ok(crate::fit::condition(&self.factor(trajectory)?, width))
     }
 
-    /// Improves a trajectory of which F is known; returns F of what it returns.
     pub(super) fn descended(
         &self,
         (mut least, mut best): (f64, Trajectory),
@@ -92,7 +86,6 @@ impl Search<'_> {
         let mut length = 0.3;
         'steps: for _ in 0..steps {
             let gradient = self.gradient(&best)?;
-            // A step that does not gain is halved; the next one is tried twice as long.
             loop {
                 let next = self.moved(&best, &gradient, length);
                 let value = self.value(&next)?;
@@ -110,7 +103,7 @@ impl Search<'_> {
         Ok((least, best))
     }
 
-    /// Differentiates F by every middle, a and b: a step in the places of a trajectory's.
+    /// The derivatives stand in the places of the middles, a and b.
     pub(super) fn gradient(&self, trajectory: &Trajectory) -> Result<Trajectory, Error> {
         let n = self.model.joints();
         let g = self.metric(trajectory)?;
@@ -168,10 +161,8 @@ impl Search<'_> {
         Ok(g)
     }
 
-    /// Steps against the gradient and back to the limits, lengths in parts of these.
-    ///
-    /// The way back scales a joint's whole motion x by its bound b: F changes by
-    /// g − (g·x) ∇b/b and not by g.
+    /// Lengths are in parts of the limits. The way back to them scales a joint's whole motion x by
+    /// its bound b: F changes by g − (g·x) ∇b/b and not by g.
     pub(super) fn moved(
         &self,
         from: &Trajectory,
@@ -210,7 +201,6 @@ impl Search<'_> {
     }
 }
 
-/// Returns a joint's middle from where it is counted, its cosines and its sines.
 fn coordinates(of: &Trajectory, joint: usize, middle: f64) -> Vec<f64> {
     let own = of.cosines[joint].iter().chain(&of.sines[joint]);
     [of.middle[joint] - middle]

@@ -44,7 +44,6 @@ impl Model {
         }
     }
 
-    /// Returns π of the robot, its base parameters given.
     pub(super) fn values(&self, base: &[Exact]) -> Vec<f64> {
         let each = self.columns.iter().map(|column| match *column {
             Column::Base(k) => f64::nearest(&base[k]),
@@ -75,8 +74,7 @@ impl Model {
     }
 }
 
-/// Returns the robot with a drive for each joint: a unit of inertia of its rotor if it has one, a
-/// unit of viscous friction. Coulomb friction is not a base parameter.
+/// Coulomb friction is not a base parameter.
 pub(super) fn candidates(robot: &Robot, rotors: bool) -> Robot {
     let mut robot = without_rotors(robot);
     for joint in &mut robot.joints {

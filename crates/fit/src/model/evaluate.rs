@@ -44,13 +44,11 @@ impl Model {
         Ok(y)
     }
 
-    /// Computes Coulomb friction of a joint per unit of its force.
     pub(crate) fn coulomb(&self, joint: usize, qd: &f64) -> f64 {
         let width = self.widths[joint];
         qd * per_speed(qd, &(width * width), |x| libm::sqrt(*x))
     }
 
-    /// Returns the width of a joint's Coulomb friction.
     pub(crate) fn width(&self, joint: usize) -> f64 {
         self.widths[joint]
     }

@@ -12,8 +12,7 @@ use crate::random::Random;
 /// An arm with what happens to it.
 #[derive(Clone, Debug)]
 pub struct Controlled {
-    /// The arm from each time on, s, in order: one with a payload is another arm. The first is
-    /// the arm from the beginning.
+    /// The arm from each time on, s, in order; the first is the arm from the beginning.
     pub arms: Vec<(f64, Robot)>,
     /// What the controller takes for it.
     pub controller: Robot,

@@ -9,7 +9,6 @@ use dalembert_model::robot::{Inertia, Robot};
 
 pub const ARMS: [&str; 3] = ["puma560", "ur10", "panda"];
 
-/// Returns an arm of the generated ones, or one whose joints are placed.
 pub fn file(name: &str) -> Robot {
     let folder = match name.ends_with("_placed") {
         true => "../model/tests/data",
@@ -24,7 +23,6 @@ pub fn number(value: f64) -> Rational {
     parse_decimal(&format!("{value:.12e}")).unwrap()
 }
 
-/// Returns the arm with bodies that exist, rotors and friction.
 pub fn truth(name: &str) -> Robot {
     let mut robot = file(name);
     for (i, joint) in robot.joints.iter_mut().enumerate() {
@@ -76,13 +74,11 @@ pub fn model(robot: &Robot) -> Model {
     Model::new(robot).unwrap()
 }
 
-/// Returns the model that an arm's data sheet gives, and π of the arm as it is.
 pub fn arm(name: &str) -> (Model, Vec<f64>) {
     let truth = truth(name);
     (model(&guess(&truth)), true_parameters(&truth))
 }
 
-/// A state with its regressor.
 pub struct State {
     pub q: Vec<f64>,
     pub qd: Vec<f64>,
@@ -90,7 +86,6 @@ pub struct State {
     pub y: Vec<f64>,
 }
 
-/// Draws random states within the limits.
 pub fn states(model: &Model, count: usize, seed: u64) -> Vec<State> {
     let mut random = Random::new(seed);
     let mut draw = |largest: &dyn Fn(usize) -> f64| -> Vec<f64> {
@@ -108,23 +103,19 @@ pub fn states(model: &Model, count: usize, seed: u64) -> Vec<State> {
     each.collect()
 }
 
-/// Returns π of the true arm over the columns of a model of it.
 pub fn true_parameters(truth: &Robot) -> Vec<f64> {
     model(truth).parameters().to_vec()
 }
 
-/// Returns Y π
 pub fn torques(y: &[f64], parameters: &[f64]) -> Vec<f64> {
     let row = |row: &[f64]| row.iter().zip(parameters).map(|(y, p)| y * p).sum();
     y.chunks(parameters.len()).map(row).collect()
 }
 
-/// Returns the noise of each joint's torque, N·m.
 pub fn noise(joint: usize) -> f64 {
     0.5 / (1.0 + joint as f64)
 }
 
-/// Accumulates states with the torques of `parameters` and noise.
 pub fn accumulated(
     model: &Model,
     states: &[State],

@@ -46,7 +46,6 @@ pub(super) struct ExecutorArgs {
     work: Option<PathBuf>,
 }
 
-/// Returns the functions of a robot, all of them.
 async fn functions(robot: &RobotArgs, going: &Going) -> Result<Functions, Error> {
     let loaded = robot.load(true, going).await?;
     let name = robot.function_name(&loaded);

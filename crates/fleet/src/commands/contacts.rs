@@ -13,18 +13,15 @@ const DRIFT: f64 = 1.0;
 /// Alarms that are closer than this, s, are of one contact.
 const APART: f64 = 0.5;
 
-/// A contact.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Contact {
     pub(super) start: f64,
     pub(super) end: f64,
-    /// The joint that told first.
     pub(super) joint: usize,
-    /// Its largest |residual|.
     pub(super) largest: f64,
 }
 
-/// Finds the contacts of a log; returns the largest sum as well, in units of the noise.
+/// Returns the largest sum, too, in units of the noise.
 pub(super) fn contacts(
     robot: &dyn Dynamics,
     log: &Log,

@@ -26,8 +26,7 @@ pub(super) struct IdentifyArgs {
     output: Option<PathBuf>,
 }
 
-/// The written file explains a joint badly where it leaves so many times what the free
-/// parameters leave.
+/// A joint is explained badly above this multiple of what the free parameters leave.
 const BADLY: f64 = 1.5;
 /// It is worse than before where it leaves so many times as much.
 const WORSE: f64 = 1.01;
@@ -59,7 +58,6 @@ pub(super) async fn run(args: &IdentifyArgs, going: &Going) -> Result<Report, Er
     })
 }
 
-/// Returns the report and, if it is to be written, the robot file.
 fn solve(
     model: &Model,
     found: &[Vec<u8>],
@@ -133,7 +131,6 @@ fn solve(
     Ok((text, robot))
 }
 
-/// Says which joints the written file explains badly, and what stopped at zero.
 fn judged(model: &Model, all: &Accumulator, fit: &Fit, bodies: &Bodies) -> Result<String, Error> {
     let mut text = String::new();
     let written = all.residual(model, &bodies.file_parameters(model))?;

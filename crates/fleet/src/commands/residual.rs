@@ -84,7 +84,6 @@ async fn computed(args: &ResidualArgs, job: &mut Job) -> Result<String, Error> {
     Ok(text)
 }
 
-/// Computes the residuals of every log.
 async fn summaries(job: &mut Job) -> Result<Vec<Residuals>, Error> {
     let mut checked = Vec::new();
     let found = job.aggregates("_residuals").await?;
@@ -129,7 +128,6 @@ fn lines(name: &str, found: &Residuals, time: bool) -> Vec<[String; 6]> {
     found.joints().iter().enumerate().map(line).collect()
 }
 
-/// Lists contacts of every log.
 async fn watched(args: &ResidualArgs, job: &Job, found: &[Residuals]) -> Result<String, Error> {
     let n = job.robot.joints();
     // Half of the residuals are below it, whatever a contact does to the others.
@@ -179,7 +177,6 @@ async fn watched(args: &ResidualArgs, job: &Job, found: &[Residuals]) -> Result<
     Ok(format!("\n{}", table(head, rows)))
 }
 
-/// Draws the logs whose residuals are largest, each joint's as part of the smallest one's.
 async fn drawn(args: &ResidualArgs, job: &Job, found: &[Residuals]) -> Result<String, Error> {
     let n = job.robot.joints();
     // Joints have torques of other sizes: each counts by its own over all logs.
@@ -209,7 +206,6 @@ async fn drawn(args: &ResidualArgs, job: &Job, found: &[Residuals]) -> Result<St
     Ok(picture(&worst))
 }
 
-/// Writes all states with their residuals, log after log.
 async fn write_residuals(job: &Job, output: &Path) -> Result<(), Error> {
     let part = Unfinished::beside(output)?;
     let n = job.robot.joints();

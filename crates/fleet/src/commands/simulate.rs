@@ -68,7 +68,6 @@ pub(super) struct SimulateArgs {
     progress: bool,
 }
 
-/// What all logs have in common.
 struct Scene {
     args: SimulateArgs,
     truth: Robot,
@@ -208,7 +207,6 @@ impl Scene {
         each.collect()
     }
 
-    /// Writes a log; returns what happens in it.
     fn record(
         &self,
         folder: &Path,
@@ -289,7 +287,6 @@ impl Scene {
         Ok(control(&controlled, &self.trajectory, recording)?)
     }
 
-    /// Computes states on the trajectory itself, from one on, whose motors feel all that pushes.
     fn followed(
         &self,
         recording: &Recording,
@@ -323,7 +320,6 @@ impl Scene {
     }
 }
 
-/// States that are written at once.
 const BLOCK: usize = 8192;
 
 fn fill(states: &mut [Vec<f64>; 3], s: usize, count: usize, state: &[Vec<f64>; 3]) {
@@ -339,8 +335,7 @@ fn rational(value: f64) -> Result<Rational, Error> {
     found.map_err(|_| Error::new(format!("{value} is not a number of a robot file")))
 }
 
-/// Returns an arm with other masses, bodies of the same shape, and friction of a tenth of each
-/// joint's usual torque at most.
+/// Bodies keep their shape. Coulomb friction is added, up to a tenth of each usual torque.
 fn varied(robot: &Robot, part: f64, usual: &[f64], random: &mut Random) -> Result<Robot, Error> {
     let mut robot = robot.clone();
     for (joint, usual) in robot.joints.iter_mut().zip(usual) {

@@ -1,6 +1,5 @@
 //! Tables on standard output.
 
-/// Returns a head and rows of text in columns, the first to the left and the others to the right.
 pub(super) fn table<const N: usize>(head: [&str; N], rows: Vec<[String; N]>) -> String {
     let mut all = vec![head.map(str::to_owned)];
     all.extend(rows);
@@ -21,7 +20,6 @@ pub(super) fn table<const N: usize>(head: [&str; N], rows: Vec<[String; N]>) -> 
     text
 }
 
-/// Returns a number with four digits that count.
 pub(super) fn number(x: f64) -> String {
     let size = x.abs();
     match size {

@@ -19,7 +19,6 @@ use crate::arguments::{Piece, Shape, list};
 use crate::dynamics::Dynamics;
 use crate::error::Error;
 
-/// Which aggregate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Kind {
     Rms,
@@ -27,21 +26,15 @@ pub(super) enum Kind {
     Fit,
 }
 
-/// What an aggregate keeps of states.
 pub(super) trait Kept: fmt::Debug + Send + Sync {
-    /// Adds a piece of states.
     fn add(&mut self, robot: &dyn Dynamics, piece: &Piece) -> Result<(), Error>;
-    /// Writes it.
     fn to_bytes(&self) -> Vec<u8>;
-    /// Adds what another one wrote.
     fn merge(&mut self, robot: &dyn Dynamics, bytes: &[u8]) -> Result<(), Error>;
-    /// Returns the value of the aggregate; null of no states.
+    /// Null of no states.
     fn value(&self) -> Result<ScalarValue>;
-    /// Returns how much memory it takes, in bytes.
     fn size(&self) -> usize;
 }
 
-/// `NAME_rms`, `NAME_residuals` or `NAME_fit`.
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub(super) struct Aggregate {
     function: Function,
@@ -91,7 +84,6 @@ impl AggregateUDFImpl for Aggregate {
     }
 }
 
-/// The engine's side of what is kept.
 #[derive(Debug)]
 struct Keeping {
     robot: Arc<dyn Dynamics>,
@@ -129,7 +121,6 @@ impl Accumulator for Keeping {
     }
 }
 
-/// Reads numbers that were written one after the other.
 pub(super) struct Reader<'a>(pub(super) &'a [u8]);
 
 impl Reader<'_> {

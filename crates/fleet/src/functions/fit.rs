@@ -16,7 +16,6 @@ const PIECE: usize = 128;
 #[derive(Debug)]
 pub(super) struct Parameters {
     kept: Accumulator,
-    /// A piece of states, and the regressors of it.
     parts: [Vec<f64>; 4],
     room: Vec<f64>,
 }

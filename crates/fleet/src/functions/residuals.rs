@@ -9,10 +9,8 @@ use crate::arguments::Piece;
 use crate::dynamics::Dynamics;
 use crate::error::Error;
 
-/// The version of the bytes.
 const VERSION: u64 = 1;
-/// Bins of a factor of two: each is 1/64 wide of the values in it, and its middle within
-/// 0.8 % of them.
+/// Bins of a factor of two: each is 1/64 wide, its middle within 0.8 % of the values in it.
 const OCTAVE: usize = 64;
 /// From 2⁻²⁰ N·m on, with all below in the first bin.
 const LEAST: i32 = -20;
@@ -61,7 +59,6 @@ impl Joint {
         }
     }
 
-    /// Adds residuals whose sum of squares is known.
     fn add(&mut self, residuals: &[f64], squares: f64, time: &[f64]) {
         self.squares.add(squares);
         let largest = largest(residuals);

@@ -10,8 +10,7 @@ use crate::arguments::{Piece, list, lists};
 use crate::dynamics::Dynamics;
 use crate::error::Error;
 
-/// A sum of many terms, the rounding of each carried along (Neumaier 1974): the same to the
-/// last digits in whatever parts it is taken.
+/// Carries each rounding along (Neumaier 1974): the same to the last digits in whatever parts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Sum {
     pub(super) value: f64,
@@ -43,8 +42,7 @@ impl Sum {
     }
 }
 
-/// Returns the largest size, in eight parts that take vectors; numbers that are none count as
-/// zero.
+/// Eight parts take vectors. A NaN counts as zero.
 pub(super) fn largest(values: &[f64]) -> f64 {
     let mut parts = [0.0f64; 8];
     let larger = |part: f64, x: f64| if x.abs() > part { x.abs() } else { part };
@@ -57,7 +55,6 @@ pub(super) fn largest(values: &[f64]) -> f64 {
     parts.iter().chain(rest).copied().fold(0.0, larger)
 }
 
-/// Returns a sum of squares, in eight parts that take vectors.
 pub(super) fn squares(values: &[f64]) -> f64 {
     let mut parts = [0.0; 8];
     let (eights, rest) = values.as_chunks::<8>();
@@ -71,7 +68,6 @@ pub(super) fn squares(values: &[f64]) -> f64 {
     ((a + e) + (c + g)) + ((b + f) + (d + h)) + rest
 }
 
-/// Sums of squares, an entry a joint.
 #[derive(Debug)]
 pub(super) struct Rms {
     states: u64,

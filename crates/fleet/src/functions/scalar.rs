@@ -11,7 +11,6 @@ use super::Function;
 use crate::arguments::{list, lists};
 use crate::dynamics::States;
 
-/// `NAME_inverse_dynamics` of three quantities, or `NAME_residual` of four.
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub(super) struct Scalar {
     pub(super) function: Function,

@@ -17,7 +17,6 @@ use super::mapping::{Columns, Layout, QUANTITIES, Source};
 use crate::arguments::list;
 use crate::error::Error;
 
-/// Rows that are read at once.
 pub(crate) const ROWS: usize = 8192;
 
 /// Some rows of a log; those with a null are left out.
@@ -87,7 +86,6 @@ pub struct Blocks<'a> {
     row: u64,
 }
 
-/// Opens a Parquet file.
 pub(crate) fn open(path: &Path) -> Result<Builder<File>, Error> {
     match Builder::try_new(File::open(path)?) {
         Ok(builder) => Ok(builder),
@@ -98,7 +96,6 @@ pub(crate) fn open(path: &Path) -> Result<Builder<File>, Error> {
     }
 }
 
-/// Returns the mask of some columns.
 pub(crate) fn projection(builder: &Builder<File>, names: &[&str]) -> ProjectionMask {
     let fields = builder.schema().fields().iter().enumerate();
     let wanted = fields.filter(|(_, field)| names.contains(&field.name().as_str()));
@@ -200,7 +197,6 @@ impl Iterator for Blocks<'_> {
     }
 }
 
-/// Returns how many seconds a unit has.
 pub(crate) fn per(unit: TimeUnit) -> f64 {
     match unit {
         TimeUnit::Second => 1.0,
@@ -210,7 +206,6 @@ pub(crate) fn per(unit: TimeUnit) -> f64 {
     }
 }
 
-/// Returns times in seconds.
 pub(crate) fn seconds(array: &ArrayRef, factor: f64) -> Result<ArrayRef, Error> {
     let (array, factor) = match array.data_type() {
         DataType::Timestamp(unit, _) => (cast(array, &DataType::Int64)?, per(*unit)),
@@ -222,7 +217,6 @@ pub(crate) fn seconds(array: &ArrayRef, factor: f64) -> Result<ArrayRef, Error> 
     Ok(Arc::new(floats.unary::<_, Float64Type>(|x| x * factor)))
 }
 
-/// Returns how many entries a row of lists has, whose lengths may differ.
 fn length(array: &ArrayRef, row: usize) -> usize {
     match (array.as_list_opt::<i32>(), array.as_list_opt::<i64>()) {
         (Some(lists), _) => lists.value(row).len(),
@@ -231,7 +225,6 @@ fn length(array: &ArrayRef, row: usize) -> usize {
     }
 }
 
-/// Marks rows that have a null among `width` entries.
 fn without_nulls(array: &ArrayRef, width: usize, valid: &mut [bool]) {
     if let Some(nulls) = array.nulls().filter(|nulls| nulls.null_count() > 0) {
         for (place, valid) in valid.iter_mut().enumerate() {
@@ -240,7 +233,6 @@ fn without_nulls(array: &ArrayRef, width: usize, valid: &mut [bool]) {
     }
 }
 
-/// Returns the i-th of `width` entries at some rows, times a factor.
 fn picked<'a>(
     array: &'a ArrayRef,
     places: &'a [usize],

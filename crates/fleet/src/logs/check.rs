@@ -43,8 +43,7 @@ pub struct Origin {
 }
 
 impl Log {
-    /// Says which rows were left out of so many states, and where rates are from: a line each,
-    /// and nothing of a log that is used as it is.
+    /// Says, a line each, how many rows a log of so many states left out, and where rates are from.
     pub fn told(&self, states: u64) -> String {
         let Origin { nulls, ends, rates } = &self.origin;
         // What no conversion has left out, queries have.
@@ -63,9 +62,8 @@ impl Log {
             .collect()
     }
 
-    /// Returns true if it has to be converted before a query can read it: recordings of ROS 2,
-    /// whose layout has nothing, logs without rates, lists in other units, or of lengths that a
-    /// row has for itself.
+    /// Returns true if no query can read it as it is: a recording of ROS 2, whose layout is empty,
+    /// a log without rates, or lists in other units or of varying lengths.
     pub fn converts(&self) -> bool {
         let sources = self.layout.iter().enumerate();
         let mut needs = sources.map(|(quantity, source)| match source {
@@ -84,7 +82,6 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    /// Sees the time of the next row; says what is wrong with it.
     pub(super) fn see(&mut self, row: u64, time: f64) -> Result<(), Error> {
         let why = match self.last.replace(time) {
             _ if !time.is_finite() => format!("the time is {time}"),

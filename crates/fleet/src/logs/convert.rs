@@ -11,8 +11,7 @@ use super::write::{Table, canonical_names};
 use crate::error::Error;
 use crate::progress::Going;
 
-/// Converts a log; returns that of the file that was written. Measured velocities are used unless
-/// they are not the rates of the positions.
+/// Converts a log. Measured velocities are used unless they are not the positions' rates.
 ///
 /// # Errors
 /// The fault in the log, with its row; or that the command was ended.
@@ -28,7 +27,7 @@ pub fn convert(log: &Log, to: &Path, going: &Going) -> Result<Log, Error> {
     Ok(converted)
 }
 
-/// Converts a log, with or without its velocities; returns a joint whose velocities are wrong, too.
+/// Returns a joint whose velocities are wrong, too.
 fn attempt(
     log: &Log,
     to: &Path,

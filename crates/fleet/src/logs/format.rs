@@ -31,7 +31,6 @@ const FORMATS: [(&[u8], &str, &str); 11] = [
 
 const MCAP: &str = "MCAP";
 
-/// Describes the fault of a file that should be MCAP or Parquet and begins otherwise.
 pub(super) fn foreign(path: &Path, is_mcap: bool) -> Result<Option<Error>, Error> {
     let mut head = Vec::new();
     File::open(path)?.take(512).read_to_end(&mut head)?;

@@ -206,7 +206,6 @@ impl Columns {
         }
     }
 
-    /// Returns whether all of a quantity is in SI units already.
     pub(crate) fn is_plain(&self, quantity: usize) -> bool {
         self.factors[quantity].iter().all(|factor| *factor == 1.0)
     }
@@ -300,7 +299,6 @@ impl Columns {
     }
 }
 
-/// Returns the type of the entries of lists.
 fn item(kind: &DataType) -> Option<&DataType> {
     match kind {
         DataType::List(item) | DataType::LargeList(item) | DataType::FixedSizeList(item, _) => {

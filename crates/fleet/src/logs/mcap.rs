@@ -36,7 +36,6 @@ impl<'a> Messages<'a> {
         })
     }
 
-    /// Returns the next message of the topic.
     fn next_state(&mut self) -> Result<Option<JointState>, Error> {
         for message in self.messages.by_ref() {
             let message = message.map_err(Error::new)?;
@@ -82,7 +81,6 @@ impl<'a> Messages<'a> {
     fn block(&mut self) -> Result<Option<Block>, Error> {
         let n = self.columns.joints;
         let mut block = Block::default();
-        // State by state; columns at the end.
         let mut states: [Vec<f64>; 4] = Default::default();
         while block.len() < ROWS {
             let Some(state) = self.next_state()? else {
@@ -143,7 +141,6 @@ impl Iterator for Messages<'_> {
     }
 }
 
-/// What a message says.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct JointState {
     time: f64,
@@ -154,7 +151,7 @@ struct JointState {
 }
 
 impl JointState {
-    /// Returns the number of joints in the message, which may have no names for them.
+    /// The message may have no names.
     fn joints(&self) -> usize {
         match self.names.len() {
             0 => self.position.len(),
@@ -162,8 +159,7 @@ impl JointState {
         }
     }
 
-    /// Returns the place of each of the robot's joints in the message: by its name, or in order where
-    /// the message or the robot has no names.
+    /// By name, or in order if the message or the robot has no names.
     fn order(&self, columns: &Columns) -> Result<Vec<usize>, Error> {
         let wanted = &columns.joint_names;
         let own = self.names.join(", ");

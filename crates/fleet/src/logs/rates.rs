@@ -13,15 +13,12 @@ const WRONG: f64 = 0.25;
 /// Joints that move by less of the fastest one's squares are not judged.
 const STILL: f64 = 1e-4;
 
-/// Differentiates the states of a log as its blocks come.
 pub(super) struct Rates {
     frequency: f64,
     filter: Option<(Differentiator, f64)>,
-    /// True for velocities and accelerations that are measured: they are filtered as positions
-    /// are, so that all belong to the same instant.
+    /// Measured rates are filtered as positions are, so that all belong to the same instant.
     measured: [bool; 2],
-    /// The end of earlier blocks that later ones need, at least a window less one: rows, times, and
-    /// of each joint its quantities.
+    /// The end of earlier blocks, at least a window less one: rows, times, each joint's quantities.
     rows: Vec<u64>,
     time: Vec<f64>,
     states: Vec<[Vec<f64>; 4]>,
@@ -42,7 +39,6 @@ impl Rates {
         }
     }
 
-    /// Says what is differentiated.
     pub(super) fn told(&self) -> String {
         let what = match self.measured {
             [true, _] => "accelerations are differentiated from measured velocities",
@@ -52,7 +48,6 @@ impl Rates {
         what.to_owned()
     }
 
-    /// Finds a joint whose measured velocities are not the rates of its positions.
     pub(super) fn disagreeing(&self) -> Option<usize> {
         let rates = self.squares.iter().map(|[rate, _]| *rate);
         let most = rates.fold(0.0, f64::max);
@@ -61,10 +56,6 @@ impl Rates {
     }
 
     /// Takes the next block; returns the states whose window is whole.
-    ///
-    /// # Errors
-    /// The row after which times are not equal, motion that is too fast for them, and rates that
-    /// are there in a part of the log.
     pub(super) fn next(&mut self, block: Block) -> Result<Block, Error> {
         let from = self.time.len().saturating_sub(1);
         let [velocity, acceleration] = self.measured;

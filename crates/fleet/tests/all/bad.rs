@@ -17,8 +17,6 @@ fn log(folder: &Folder, name: &str, change: impl FnOnce(&mut Sample)) {
     sample.write(&folder.file(name));
 }
 
-/// Each is named with its row and what is wrong; nothing is computed unless they are skipped,
-/// and then it is what the good ones alone give.
 #[test]
 fn bad_files_are_named_and_skipped_only_if_asked() {
     let folder = Folder::new();
@@ -73,7 +71,6 @@ fn bad_files_are_named_and_skipped_only_if_asked() {
     assert_eq!(String::from_utf8(skipped.stdout).unwrap(), good);
 }
 
-/// A file of another kind is called what it is, and what is read is said.
 #[test]
 fn other_formats_are_named() {
     let folder = Folder::new();
@@ -104,7 +101,6 @@ fn other_formats_are_named() {
     }
 }
 
-/// A page that is damaged is found by whoever reads it, and named.
 #[test]
 fn damaged_pages_are_named() {
     let folder = Folder::new();
@@ -150,7 +146,6 @@ fn flags_that_cannot_be_are_refused() {
     assert!(said.contains("nobody.toml"), "{said}");
 }
 
-/// Ctrl-C: nothing is left, whatever was being written.
 #[cfg(unix)]
 #[test]
 fn what_is_ended_leaves_nothing() {
@@ -171,7 +166,6 @@ fn what_is_ended_leaves_nothing() {
     assert_eq!(fs::read_dir(&work).unwrap().count(), 0);
 }
 
-/// Ends a command by Ctrl-C once there is something in a folder.
 #[cfg(unix)]
 fn ended(arguments: &[&str], folder: &Path) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_dalembert-fleet"));

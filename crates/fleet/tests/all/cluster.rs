@@ -18,7 +18,6 @@ use crate::support::{
     Folder, Sample, fails, fitted, fleet, over, robot, robot_file, succeeds, text, wait_until,
 };
 
-/// A process that is killed at the end.
 struct Process(Child);
 
 impl Process {
@@ -63,7 +62,6 @@ fn wait_for(port: u16) {
     wait_until(&format!("port {port} is served"), is_served);
 }
 
-/// A scheduler and two executors, with the folders of what they pass on.
 struct Cluster {
     address: String,
     executors: Vec<(Process, PathBuf)>,
@@ -106,7 +104,6 @@ impl Cluster {
     }
 }
 
-/// Returns the number of files in a folder and those within it.
 fn files(folder: &Path) -> usize {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let each = entries.map(|entry| match entry.path() {
@@ -116,7 +113,6 @@ fn files(folder: &Path) -> usize {
     each.sum()
 }
 
-/// Waits until an executor has passed something on that it had not before.
 fn has_worked(work: &Path, before: usize, client: &mut Child) {
     wait_until("it gets work", || {
         let has_ended = client.try_wait().unwrap().is_some();
@@ -126,7 +122,6 @@ fn has_worked(work: &Path, before: usize, client: &mut Child) {
     });
 }
 
-/// Writes some logs in a folder, of so many states each.
 fn logs(folder: &Folder, files: u64, states: usize) {
     let robot = robot("planar2r", true);
     for seed in 0..files {
@@ -213,8 +208,6 @@ fn a_cluster_returns_what_one_process_returns() {
     assert!(said.contains("planar3r_"), "{said}");
 }
 
-/// Executors are killed while they work: with one left the table is the same, with none there
-/// is an error soon, and no table.
 #[test]
 fn executors_that_are_killed_change_no_table() {
     let folder = Folder::new();

@@ -15,8 +15,6 @@ use crate::support::{
     Folder, Sample, fails, fitted, over, robot, robot_file, rows, simulated, succeeds, text,
 };
 
-/// What README and issue promise: logs of an arm that is not its file's; its residuals; its
-/// parameters; and residuals of logs that the fit has not seen, with the new file.
 #[test]
 fn identification_closes_the_loop() {
     let folder = Folder::new();
@@ -46,9 +44,7 @@ fn identification_closes_the_loop() {
     assert!(generated.is_ok(), "the new file is not read");
 }
 
-/// Torques of an arm that no file can have: its second rotor has less than no inertia, and its
-/// sensors have offsets. A rotor stops at 0, and what the written file leaves is what the table
-/// says, joint by joint and log by log.
+/// No file can have this arm: a rotor's inertia is negative, and its sensors have offsets.
 #[test]
 fn the_written_file_leaves_what_the_table_says() {
     let folder = Folder::new();
@@ -95,7 +91,6 @@ fn the_written_file_leaves_what_the_table_says() {
     );
 }
 
-/// The table is that of the states themselves, in one file and in all.
 #[test]
 fn tables_and_rows_are_those_of_the_states() {
     let folder = Folder::new();
@@ -124,9 +119,7 @@ fn tables_and_rows_are_those_of_the_states() {
     }
     assert!(table.contains("40000 states in 2 files"), "{table}");
     let drawn = std::fs::read_to_string(&svg).unwrap();
-    // One file of two joints.
     assert_eq!(drawn.matches("<polygon").count(), 2);
-    // Rows are in order, with all that they are of.
     let names = ["q", "qd", "qdd", "residual"].map(|name| format!("{name}{{}}"));
     let mapping = Mapping {
         effort: Some(names[3].clone()),
@@ -152,7 +145,6 @@ fn tables_and_rows_are_those_of_the_states() {
     );
 }
 
-/// Every contact is listed once, with its joint, and nothing else is.
 #[test]
 fn collisions_are_found_and_nothing_else() {
     let folder = Folder::new();
@@ -185,9 +177,6 @@ fn collisions_are_found_and_nothing_else() {
     }
 }
 
-/// A payload that is taken up in the middle shows in the residuals of the second half. What a
-/// query fits to each half are the parameters of the arm in it, within a few standard errors, and
-/// far from those of the other.
 #[test]
 fn a_payload_is_found() {
     let folder = Folder::new();
@@ -234,7 +223,6 @@ fn a_payload_is_found() {
     }
 }
 
-/// The same seed, the same bytes.
 #[test]
 fn simulated_logs_are_the_same_every_time() {
     for more in ["--exact --zstd", ""] {
@@ -253,7 +241,6 @@ fn simulated_logs_are_the_same_every_time() {
     assert!(why.contains("something in it already"), "{why}");
 }
 
-/// What an executor sends that is damaged is an error, and no table.
 #[test]
 fn damaged_bytes_are_refused() {
     for bytes in [&[][..], &[1, 0, 0], &[7; 64], &[0; 8]] {

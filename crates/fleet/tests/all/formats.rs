@@ -16,10 +16,8 @@ use crate::support::{
     Folder, Sample, fails, over, robot, robot_file, rows, simulated, succeeds, text,
 };
 
-/// A row of a list column, with nulls.
 type Row = Vec<Option<f64>>;
 
-/// Writes a log of any columns.
 fn write(path: &Path, batch: &RecordBatch) {
     let file = std::fs::File::create(path).unwrap();
     let mut writer = ArrowWriter::try_new(file, batch.schema(), None).unwrap();
@@ -27,7 +25,6 @@ fn write(path: &Path, batch: &RecordBatch) {
     writer.close().unwrap();
 }
 
-/// Rows with a null are left out, also where each of a whole block has one.
 #[test]
 fn rows_with_a_null_are_left_out() {
     let (folder, count) = (Folder::new(), 9000);
@@ -57,7 +54,6 @@ fn rows_with_a_null_are_left_out() {
     assert_eq!(blocks.map(|block| block.unwrap().len()).sum::<usize>(), 500);
 }
 
-/// Logs in degrees, of other names, as lists, with currents, in milliseconds.
 #[test]
 fn columns_and_units_are_the_logs() {
     let folder = Folder::new();
@@ -237,7 +233,6 @@ fn lists_of_any_length_are_read() {
     );
 }
 
-/// Writes a log again without accelerations, its velocities times a factor or left out.
 fn without_accelerations(log: &Path, to: &Path, factor: Option<f64>) {
     let mut names = canonical_names(2);
     names.retain(|name| !name.starts_with(if factor.is_some() { "qdd" } else { "qd" }));
@@ -255,8 +250,7 @@ fn without_accelerations(log: &Path, to: &Path, factor: Option<f64>) {
     table.close().unwrap();
 }
 
-/// Measured velocities are differentiated once, which leaves less of the encoders' steps than twice;
-/// not if they are something else than the positions' rates.
+/// Differentiating once leaves less of the encoders' steps than twice.
 #[test]
 fn measured_velocities_are_used() {
     let folder = Folder::new();
@@ -296,7 +290,6 @@ fn measured_velocities_are_used() {
     assert!(why.contains(wanted), "{why}");
 }
 
-/// Encoders alone: rates are differentiated, and residuals stay near the torques' noise.
 #[test]
 fn rates_that_are_missing_are_differentiated() {
     let [with, without] = ["", "--encoders-only"].map(|more| {

@@ -18,7 +18,6 @@ use crate::support::{Sample, fitted, robot};
 
 const NAMES: [&str; 4] = ["q", "qd", "qdd", "tau"];
 
-/// Returns a list column of a quantity.
 fn lists(sample: &Sample, quantity: usize, joints: usize, single: bool) -> ArrayRef {
     let states =
         (0..sample.count * joints).map(|at| sample.column(quantity, at % joints)[at / joints]);
@@ -36,8 +35,7 @@ fn lists(sample: &Sample, quantity: usize, joints: usize, single: bool) -> Array
     Arc::new(FixedSizeListArray::try_new(item, joints as i32, values, None).unwrap())
 }
 
-/// Returns a table of columns `q1` …, of lists `q` … and of lists of floats `q_f32` …, of
-/// batches of some rows in some partitions.
+/// The columns are numbers `q1` …, lists `q` …, and lists of floats `q_f32` ….
 fn table(sample: &Sample, joints: usize, batch: usize, partitions: usize) -> MemTable {
     let mut columns: Vec<(String, ArrayRef)> = vec![
         (
@@ -79,7 +77,6 @@ fn context(robot: &Arc<dyn Dynamics>, table: MemTable, partitions: usize) -> Ses
     context
 }
 
-/// Returns the columns of a result, all batches as one.
 fn query(context: &SessionContext, sql: &str) -> Result<RecordBatch, String> {
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .worker_threads(2)
@@ -98,7 +95,6 @@ fn floats(list: &dyn Array) -> Vec<f64> {
     values.as_primitive::<Float64Type>().values().to_vec()
 }
 
-/// Returns the first row of a column of bytes.
 fn bytes(column: &dyn Array) -> &[u8] {
     column.as_binary::<i32>().value(0)
 }
@@ -161,7 +157,6 @@ fn nulls_propagate_in_functions_and_are_skipped_by_aggregates() {
     assert!(rms("q, qd, qdd, tau", "(SELECT * FROM logs WHERE time < 0)").0);
 }
 
-/// A query of other widths is refused before any row is read, with the type that it needs.
 #[test]
 fn wrong_widths_are_refused_at_planning() {
     let robot: Arc<dyn Dynamics> = robot("planar2r", false);
@@ -211,7 +206,6 @@ fn wrong_widths_are_refused_at_planning() {
     }
 }
 
-/// A robot that counts what it is asked for.
 #[derive(Debug)]
 struct Counted(Arc<dyn Dynamics>, Arc<AtomicUsize>);
 
@@ -226,7 +220,6 @@ impl Dynamics for Counted {
     }
 }
 
-/// However many entries a query reads of a result, also through a subquery.
 #[test]
 fn each_state_is_evaluated_once() {
     let count = Arc::new(AtomicUsize::new(0));
@@ -252,7 +245,6 @@ fn each_state_is_evaluated_once() {
     }
 }
 
-/// Partial results merge to the same, however a table is cut.
 #[test]
 fn aggregates_do_not_depend_on_partitions() {
     let robot: Arc<dyn Dynamics> = robot("planar2r", true);
@@ -294,7 +286,6 @@ fn aggregates_do_not_depend_on_partitions() {
     }
 }
 
-/// Machine code of the regressor gives what dalembert-fit evaluates by itself.
 #[test]
 fn fits_by_machine_code_are_those_of_the_library() {
     for name in ["planar3r", "puma560"] {
@@ -327,7 +318,6 @@ fn fits_by_machine_code_are_those_of_the_library() {
     }
 }
 
-/// A function that `dynamics!` or the command wrote is registered as it is.
 #[test]
 fn generated_functions_are_registered() {
     let loaded = robot("planar2r", true);

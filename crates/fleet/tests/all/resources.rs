@@ -6,7 +6,6 @@ use dalembert_fleet::progress::Progress;
 
 use crate::support::{Folder, fleet, over, robot_file, simulated};
 
-/// How much is done, how fast, and how long the rest takes.
 #[test]
 fn progress_is_told_where_it_is_asked_for() {
     let folder = Folder::new();
@@ -32,7 +31,6 @@ fn progress_is_told_where_it_is_asked_for() {
     );
 }
 
-/// Memory is that of the readers: of eight times the states it is the same.
 #[cfg(target_os = "linux")]
 #[test]
 fn memory_does_not_grow_with_the_states() {
@@ -53,7 +51,7 @@ fn memory_does_not_grow_with_the_states() {
     }
 }
 
-/// Returns the most memory that a command had, KiB, as often as one can look.
+/// KiB, as often as one can look.
 #[cfg(target_os = "linux")]
 fn peak(arguments: &[&str]) -> u64 {
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_dalembert-fleet"));

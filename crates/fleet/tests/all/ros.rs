@@ -58,7 +58,6 @@ fn message(time: f64, names: &[&str], values: [&[f64]; 3], is_little: bool) -> V
 /// Joints of a recording: their names, and their places in the robot, of which a gripper has none.
 type Joints = [(&'static str, Option<usize>)];
 
-/// Writes the states of a log as a recording of these joints, whose names may be empty.
 fn record(log: &Path, to: &Path, joints: &Joints, is_little: bool) {
     let mut writer = Writer::new(BufWriter::new(File::create(to).unwrap())).unwrap();
     let mut channel = |topic: &str, schema: &str| {
@@ -98,7 +97,6 @@ fn record(log: &Path, to: &Path, joints: &Joints, is_little: bool) {
     writer.finish().unwrap();
 }
 
-/// Joints of other names are not taken in order, however many there are; those without names are.
 #[test]
 fn joints_of_other_names_are_refused() {
     let folder = Folder::new();
@@ -118,7 +116,6 @@ fn joints_of_other_names_are_refused() {
     assert_eq!(found, rows(&succeeds(&named), "log.mcap"));
 }
 
-/// A recording without torques says so.
 #[test]
 fn recordings_without_efforts_are_refused() {
     let folder = Folder::new();

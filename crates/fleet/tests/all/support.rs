@@ -11,17 +11,14 @@ use dalembert_fit::{Accumulator, Fit, Model, fit};
 use dalembert_fleet::logs::{Table, canonical_names};
 use dalembert_fleet::{Dynamics, Loaded, States};
 
-/// Returns a file of `generated/robots`.
 pub fn robot_file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../generated/robots/{name}.toml"))
 }
 
-/// Returns a robot of `generated/`, with what a fit needs if asked for.
 pub fn robot(name: &str, fit: bool) -> Arc<Loaded> {
     Arc::new(Loaded::open(&robot_file(name), &Default::default(), fit).unwrap())
 }
 
-/// A folder that is removed at the end.
 pub struct Folder(pub PathBuf);
 
 static NEXT: AtomicU32 = AtomicU32::new(0);
@@ -39,7 +36,6 @@ impl Folder {
         self.0.join(name)
     }
 
-    /// Returns what is in it.
     pub fn names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(&self.0).unwrap();
         let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
@@ -93,7 +89,6 @@ impl Sample {
         &self.quantities[quantity][joint * self.count..(joint + 1) * self.count]
     }
 
-    /// Residuals of a joint, by the robot itself.
     pub fn residuals(&self, robot: &dyn Dynamics, joint: usize) -> Vec<f64> {
         let [q, qd, qdd, _] = &self.quantities;
         let count = self.count;
@@ -105,7 +100,6 @@ impl Sample {
         measured.zip(own).map(|(x, y)| x - y).collect()
     }
 
-    /// Writes a log with the columns that this program writes.
     pub fn write(&self, path: &Path) {
         let n = self.quantities[0].len() / self.count;
         let mut table = Table::create(path, &canonical_names(n), false).unwrap();
@@ -115,13 +109,11 @@ impl Sample {
     }
 }
 
-/// Returns the fit from the bytes of an aggregate.
 pub fn fitted(model: &Model, bytes: &[u8]) -> Fit {
     let kept = Accumulator::from_bytes(model, bytes).unwrap();
     fit(model, &kept).unwrap()
 }
 
-/// Waits until something has happened.
 pub fn wait_until(what: &str, mut has_happened: impl FnMut() -> bool) {
     let start = Instant::now();
     while !has_happened() {
@@ -131,7 +123,6 @@ pub fn wait_until(what: &str, mut has_happened: impl FnMut() -> bool) {
     }
 }
 
-/// Runs the command.
 pub fn fleet(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_dalembert-fleet"))
         .args(arguments)
@@ -139,7 +130,6 @@ pub fn fleet(arguments: &[&str]) -> Output {
         .unwrap()
 }
 
-/// Runs the command, which is to succeed; returns its standard output.
 pub fn succeeds(arguments: &[&str]) -> String {
     let output = fleet(arguments);
     let said = String::from_utf8_lossy(&output.stderr);
@@ -147,7 +137,7 @@ pub fn succeeds(arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// Simulates logs of the planar arm with two joints into a folder `logs`, by flags between spaces.
+/// `flags` are separated by spaces.
 pub fn simulated(folder: &Folder, flags: &str) -> String {
     let (robot, logs) = (robot_file("planar2r"), folder.file("logs"));
     let mut arguments = vec!["simulate", "--robot", text(&robot), "-o", text(&logs)];
@@ -155,7 +145,6 @@ pub fn simulated(folder: &Folder, flags: &str) -> String {
     succeeds(&arguments)
 }
 
-/// Returns the arguments of a command over logs.
 pub fn over<'a>(
     command: &'a str,
     logs: &'a Path,
@@ -165,7 +154,6 @@ pub fn over<'a>(
     [&[command, text(logs), "--robot", text(robot)][..], more].concat()
 }
 
-/// Runs the command, which is to fail; returns its standard error.
 pub fn fails(arguments: &[&str]) -> String {
     let output = fleet(arguments);
     let said = String::from_utf8(output.stderr).unwrap();
@@ -179,7 +167,7 @@ pub fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-/// Returns a table's rows of a file, or of `all`: joint, rms, 99 %, worst, and time.
+/// The columns are joint, rms, 99 %, worst, and time.
 pub fn rows(table: &str, name: &str) -> Vec<Vec<f64>> {
     let lines = table.lines().filter_map(|line| {
         let mut words = line.split_whitespace();

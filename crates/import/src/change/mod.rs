@@ -35,7 +35,6 @@ pub struct Change {
     limits: Motion,
     /// The size of gravity, m/s².
     gravity: f64,
-    /// The efforts of the joints, if each has one.
     efforts: Option<Vec<f64>>,
 }
 
@@ -59,7 +58,6 @@ pub struct Displacement {
     pub angle: f64,
 }
 
-/// The parameters of a joint's recursion, of both arms.
 #[derive(Clone, Debug)]
 struct Parts {
     slides: bool,
@@ -85,7 +83,6 @@ impl Change {
         torques.map(|torque| torque.off).collect()
     }
 
-    /// Returns the torques over a motion: the most that they are, and how far they are apart.
     fn pairs(&self, motion: &Motion) -> Vec<Pair> {
         let value =
             |values: &[f64], i: usize| Pair::of(values.get(i).copied().unwrap_or(0.0).abs());
@@ -192,8 +189,7 @@ impl fmt::Display for Change {
 }
 
 impl Parts {
-    /// Returns the lever from the frame before to this one's origin, where the joint is at most
-    /// so far out.
+    /// From the frame before to this one's origin, where the joint is at most `q` out.
     fn lever_at(&self, q: Pair) -> Pair {
         match self.slides {
             true => self.lever + self.turn * self.axis * q,
@@ -211,7 +207,6 @@ fn angle(chord: f64) -> f64 {
     }
 }
 
-/// Returns the bound of two arms that differ by what was snapped.
 pub(crate) fn bound(
     written: &Arm,
     snapped: &Arm,

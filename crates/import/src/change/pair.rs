@@ -11,7 +11,6 @@ pub(super) struct Pair {
     pub(super) off: f64,
 }
 
-/// Returns both lengths, and the distance.
 pub(super) fn vectors(one: &Vector<Wide>, other: &Vector<Wide>) -> Pair {
     let length = |v: &Vector<Wide>| root_of_squares(&v.each_ref().map(Wide::magnitude));
     let off: Vector<Wide> = core::array::from_fn(|i| other[i].sub(&one[i]));
@@ -27,7 +26,6 @@ pub(super) fn root_of_squares(values: &[f64; 3]) -> f64 {
     if sum < 1e-140 { sum } else { root.min(sum) }
 }
 
-/// Rounds upward, but leaves an exact zero alone.
 pub(super) fn next_up_unless_zero(x: f64) -> f64 {
     if x == 0.0 { 0.0 } else { x.next_up() }
 }
@@ -39,13 +37,11 @@ impl Pair {
         Pair { size, off }
     }
 
-    /// Returns the same of both.
     pub(super) fn of(size: f64) -> Pair {
         Pair::new(next_up_unless_zero(size), 0.0)
     }
 }
 
-/// Returns a + b, not below.
 fn upward_sum(a: f64, b: f64) -> f64 {
     next_up_unless_zero(a + b)
 }
@@ -75,7 +71,6 @@ impl std::ops::Mul for Pair {
     }
 }
 
-/// Returns two digits, not below.
 pub(super) fn upward(x: f64) -> String {
     let text = format!("{x:.1e}");
     match text.parse::<f64>() {

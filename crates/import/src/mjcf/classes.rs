@@ -7,7 +7,6 @@ use roxmltree::Node;
 use super::{Mjcf, Text, children};
 use crate::problems::instead;
 
-/// No model has more.
 const MAX_CLASSES: usize = 512;
 
 /// All classes: the first is that of elements that name none.
@@ -16,7 +15,6 @@ pub(super) struct Classes<'a> {
     names: BTreeMap<&'a str, usize>,
 }
 
-/// Kinds of elements and attributes, and what these are by default.
 type Settings<'a> = BTreeMap<(&'static str, &'static str), Text<'a>>;
 
 impl<'a> Classes<'a> {
@@ -27,7 +25,6 @@ impl<'a> Classes<'a> {
         }
     }
 
-    /// Returns what a class has for an attribute of an element.
     pub(super) fn setting(&self, class: usize, node: Node, key: &str) -> Option<Text<'a>> {
         let (kind, mut keys) = read(node)?;
         let key = keys.find(|own| *own == key)?;
@@ -35,8 +32,7 @@ impl<'a> Classes<'a> {
     }
 }
 
-/// Returns the kind of an element that has defaults, and what is read of these; every actuator
-/// has the same ones.
+/// All actuators share one kind of defaults.
 fn read(node: Node) -> Option<(&'static str, impl Iterator<Item = &'static str>)> {
     let (kind, keys) = match node.tag_name().name() {
         "joint" => (
@@ -61,7 +57,6 @@ fn read(node: Node) -> Option<(&'static str, impl Iterator<Item = &'static str>)
 }
 
 impl<'a> Mjcf<'a, '_, '_> {
-    /// Reads all defaults.
     pub(super) fn classes(&mut self, root: Node<'a, '_>) {
         for top in children(root, "default") {
             // What it has is for all, under whichever name.
@@ -114,7 +109,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         }
     }
 
-    /// Returns the class of an element: its own, or that of the bodies around it.
     pub(super) fn class_of(&mut self, node: Node<'a, '_>, key: &str, around: usize) -> usize {
         let Some(own) = node.attribute_node(key) else {
             return around;

@@ -10,8 +10,7 @@ use super::{Mjcf, within};
 use crate::urdf::{Number, Urdf};
 
 impl<'a> Mjcf<'a, '_, '_> {
-    /// Takes the forces of actuators for the joints' limits of torque: those of all that
-    /// drive a joint together, or the joint's own limit where that is less.
+    /// The limit is the sum of the forces that drive a joint, or its own where that is less.
     pub(super) fn forces(&mut self, root: Node<'a, '_>, urdf: &mut Urdf) {
         let mut limits: BTreeMap<&str, Option<Number>> = BTreeMap::new();
         for node in within(root, "actuator") {
@@ -40,7 +39,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         }
     }
 
-    /// Returns the largest force of an actuator at its joint.
     fn force(&mut self, node: Node<'a, '_>) -> Option<Number> {
         let class = self.class_of(node, "class", 0);
         let force = self.force_range(node, class, "forcerange", "forcelimited");

@@ -20,7 +20,6 @@ const SHAPES: [(&str, usize); 5] = [
     ("box", 3),
 ];
 
-/// What a geom weighs.
 pub(super) enum Weight {
     Nothing,
     Something(Box<Inertial>),
@@ -29,7 +28,6 @@ pub(super) enum Weight {
 }
 
 impl<'a> Mjcf<'a, '_, '_> {
-    /// Returns what a geom weighs, and where.
     pub(super) fn weight(&mut self, item: &Item<'a, '_>) -> Weight {
         let class = self.class_of(item.node, "class", item.class);
         let group = self.number(item.node, class, "group");
@@ -52,7 +50,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         })
     }
 
-    /// Returns mass, centre and inertia of a simple body.
     fn solid(
         &mut self,
         item: &Item<'a, '_>,
@@ -110,7 +107,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         })
     }
 
-    /// Returns the pose between two ends, and half of what lies between them.
     fn between(&self, node: Node, ends: [Number; 6]) -> Option<(super::pose::Pose, Rational)> {
         let two = Rational::from_integer(2.into());
         let [a, b, c, d, e, f] = ends;
@@ -124,8 +120,7 @@ impl<'a> Mjcf<'a, '_, '_> {
     }
 }
 
-/// Returns the volume of a shape of these half lengths or radii, and its moments for a mass
-/// of one.
+/// Sizes are half lengths or radii; the moments are for a mass of one.
 fn moments(shape: &str, sizes: &[Rational]) -> (Rational, [Rational; 3]) {
     let pi = Angle::PiTimes(Rational::one()).radians();
     let ratio = |n: i64, d: i64| Rational::new(n.into(), d.into());

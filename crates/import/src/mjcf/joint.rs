@@ -22,8 +22,7 @@ const KINDS: [(&str, Kind); 4] = [
 ];
 
 impl<'a> Mjcf<'a, '_, '_> {
-    /// Reads a joint at a place on what it hangs on, and returns it with its anchor in the
-    /// body's frame; `None` after saying what is wrong.
+    /// Returns also the joint's anchor, in the body's frame.
     pub(super) fn joint(
         &mut self,
         item: &Item<'a, '_>,
@@ -130,7 +129,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         Some((joint, anchor))
     }
 
-    /// Returns the larger end of a range of forces that is one.
     pub(super) fn force_range(
         &mut self,
         node: roxmltree::Node<'a, '_>,
@@ -160,7 +158,6 @@ impl<'a> Mjcf<'a, '_, '_> {
     }
 }
 
-/// Returns a joint that does not move, from its parent to its child.
 pub(super) fn fixed([parent, child]: [&str; 2], span: &Range<usize>, at: &Pose) -> Joint {
     let number = |x: i64| Value::new(Rational::from_integer(x.into()), x.to_string(), span);
     Joint {

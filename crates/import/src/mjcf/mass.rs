@@ -15,7 +15,6 @@ const WRITE_IT: &str = "give the body an <inertial>; MuJoCo writes them all: \
     load the model with <compiler saveinertial=\"true\"/> and save it by mj_saveLastXML";
 
 impl<'a> Mjcf<'a, '_, '_> {
-    /// Reads the mass of a body, and returns that of its geoms, where they have it.
     pub(super) fn mass(&mut self, items: &[Item<'a, '_>], link: &mut Link) -> Vec<Inertial> {
         let own = items.iter().find(|item| item.node.has_tag_name("inertial"));
         link.inertial = own.and_then(|item| self.inertial(item, &link.name));
@@ -45,7 +44,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         solids
     }
 
-    /// Scales all masses and inertias so that bodies weigh together what `settotalmass` says.
     pub(super) fn total(&mut self, urdf: &mut Urdf) {
         let Some(total) = self.settings.total.take() else {
             return;
@@ -70,7 +68,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         }
     }
 
-    /// Says where `compiler` makes a body heavier than it is written.
     fn bounds(&mut self, link: &mut Link) {
         let Some(Inertial { mass, inertia, .. }) = &link.inertial else {
             return;

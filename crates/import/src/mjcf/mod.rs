@@ -43,7 +43,6 @@ const MANY: &[(&[&str], usize)] = &[
     (&["geom"], 8192),
 ];
 
-/// Reads an MJCF; `None` after saying why there is none.
 pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf> {
     let root = document.root_element();
     let span = start_tag(root);
@@ -73,18 +72,15 @@ pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf>
     Some(urdf)
 }
 
-/// Reads elements, reporting what is wrong with them.
 struct Mjcf<'a, 'p, 's> {
     problems: &'p mut Problems<'s>,
     settings: Settings,
     classes: Classes<'a>,
 }
 
-/// The text of an attribute, with its place.
 type Text<'a> = (&'a str, Range<usize>);
 
 impl<'a> Mjcf<'a, '_, '_> {
-    /// Returns an attribute of an element, or what its class has for it.
     fn text(&self, node: Node<'a, '_>, class: usize, key: &str) -> Option<Text<'a>> {
         match node.attribute_node(key) {
             Some(own) => Some((own.value(), own.range_value())),
@@ -92,13 +88,11 @@ impl<'a> Mjcf<'a, '_, '_> {
         }
     }
 
-    /// Returns a number that an element or its class may give.
     fn number(&mut self, node: Node<'a, '_>, class: usize, key: &str) -> Option<Number> {
         let [number] = self.list(node, class, key)?;
         Some(number)
     }
 
-    /// Returns numbers that an element or its class may give.
     fn list<const N: usize>(
         &mut self,
         node: Node<'a, '_>,
@@ -109,8 +103,7 @@ impl<'a> Mjcf<'a, '_, '_> {
         self.problems.list(key, text, span)
     }
 
-    /// Returns whether an attribute, `true`, `false` or `auto`, is so; by itself it is if
-    /// there is anything to limit.
+    /// With `auto` or nothing, a range limits, unless `autolimits` is off.
     fn is_limited(&mut self, node: Node<'a, '_>, class: usize, key: &str, range: &str) -> bool {
         match self.text(node, class, key) {
             Some(("true", _)) => true,
@@ -124,8 +117,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         }
     }
 
-    /// Returns whether there are no more elements than a robot has, after saying of which
-    /// there are more.
     fn is_small(&mut self, root: Node) -> bool {
         let span = start_tag(root);
         let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
@@ -158,7 +149,6 @@ impl<'a> Mjcf<'a, '_, '_> {
     }
 }
 
-/// Returns the children of this name.
 fn children<'a, 'd: 'a>(
     node: Node<'a, 'd>,
     name: &'static str,
@@ -166,7 +156,6 @@ fn children<'a, 'd: 'a>(
     node.children().filter(move |node| node.has_tag_name(name))
 }
 
-/// Returns the elements of all parts of this name.
 fn within<'a, 'd: 'a>(
     root: Node<'a, 'd>,
     part: &'static str,

@@ -31,7 +31,6 @@ fn composed([exact, meant]: &Both, next: &Both) -> Both {
     [exact.then(&next[0]), meant.then(&next[1])]
 }
 
-/// Where a frame is in another.
 #[derive(Clone, Debug)]
 pub(super) struct Pose {
     both: Both,
@@ -42,7 +41,6 @@ pub(super) struct Pose {
     span: Range<usize>,
 }
 
-/// Returns a shift.
 fn shifted(by: &[Rational; 3]) -> Columns<Wide> {
     Columns {
         origin: by.each_ref().map(Wide::from_rational),
@@ -60,7 +58,6 @@ impl Pose {
         }
     }
 
-    /// Returns the pose of a frame that has this one in it.
     pub(super) fn then(&self, next: &Pose) -> Pose {
         Pose {
             both: composed(&self.both, &next.both),
@@ -86,7 +83,6 @@ impl Pose {
         }
     }
 
-    /// Returns the pose turned about one of its own axes.
     pub(super) fn turn(&self, axis: &Vector<Wide>, by: &Angle) -> Pose {
         let turned = turned(axis, by);
         Pose {
@@ -115,13 +111,11 @@ impl Pose {
         turned
     }
 
-    /// Returns a point in the frame that this one is in.
     pub(super) fn apply(&self, point: &[Rational; 3]) -> [Rational; 3] {
         let size = &self.size + point.iter().map(Signed::abs).sum::<Rational>();
         placement(&self.both[1].then(&shifted(point)), &size_of(&size)).xyz
     }
 
-    /// Returns the pose as a URDF has it.
     pub(super) fn origin(&self) -> Origin {
         let size = size_of(&self.size);
         let [exact, meant] = self.both.each_ref().map(|pose| placement(pose, &size));
@@ -153,7 +147,6 @@ fn size_of(size: &Rational) -> Rational {
     }
 }
 
-/// Returns an angle for a message.
 fn short(angle: &Angle) -> String {
     match angle {
         Angle::Radians(value) => {
@@ -167,8 +160,6 @@ fn short(angle: &Angle) -> String {
 const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "euler", "xyaxes", "zaxis"];
 
 impl<'a> Mjcf<'a, '_, '_> {
-    /// Returns the position and the orientation of an element; `None` after saying what is
-    /// wrong.
     pub(super) fn pose(&mut self, node: Node<'a, '_>, class: usize) -> Option<Pose> {
         let span = start_tag(node);
         let xyz = match self.text(node, class, "pos") {
@@ -190,7 +181,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         })
     }
 
-    /// Returns the orientation, with the place of its attribute.
     fn rotation(
         &mut self,
         node: Node<'a, '_>,
@@ -248,7 +238,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         Some(Pose::identity(span).shift(at).then(&turned))
     }
 
-    /// Returns an angle in the units of the file.
     pub(super) fn angle(&self, number: &Number) -> Angle {
         let value = number.value.clone();
         let angle = match self.settings.degrees {
@@ -258,7 +247,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         angle.canonical()
     }
 
-    /// Returns an angle as it stands and as it was meant.
     fn angles(&self, number: &Number) -> [Angle; 2] {
         let angle = self.angle(number);
         let meant = meant::meant(&angle, &number.text);
@@ -305,7 +293,6 @@ fn of_quaternion(numbers: &[Number; 4]) -> Option<Both> {
     Some(by_digits(axes, numbers))
 }
 
-/// Returns the rotation whose first axes lie along two directions.
 fn of_axes(numbers: &[Number; 6]) -> Option<Both> {
     let [x, y] = [0, 3].map(|at| {
         let part = [at, at + 1, at + 2].map(|i| numbers[i].value.clone());

@@ -6,7 +6,6 @@ use roxmltree::Node;
 use super::Mjcf;
 use crate::urdf::{Number, constant};
 
-/// What `compiler` says, for the whole file.
 #[derive(Clone, Debug)]
 pub(super) struct Settings {
     pub(super) degrees: bool,
@@ -17,22 +16,18 @@ pub(super) struct Settings {
     pub(super) groups: [i64; 2],
     /// The least mass and the least moment of inertia.
     pub(super) least: [Option<Number>; 2],
-    /// The mass that all bodies have together.
     pub(super) total: Option<Number>,
     gravity: Option<[Number; 3]>,
     has_gravity: bool,
 }
 
-/// One of three angles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turn {
-    /// x, y or z
     pub(super) axis: usize,
     /// About an axis that stays, not one that turned with the angles before.
     pub(super) stays: bool,
 }
 
-/// Which bodies have the mass of their geoms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FromGeoms {
     None,

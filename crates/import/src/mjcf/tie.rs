@@ -11,7 +11,6 @@ use crate::problems::instead;
 use crate::urdf::{Mimic, Tie, Tied, Urdf, Value, start_tag};
 
 impl<'a> Mjcf<'a, '_, '_> {
-    /// Reads what ties joints and bodies.
     pub(super) fn ties(&mut self, root: Node<'a, '_>, urdf: &mut Urdf) {
         for node in within(root, "equality") {
             if node.attribute("active") == Some("false") {
@@ -45,7 +44,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         }
     }
 
-    /// Narrows the limits of the joint that a tendon is over alone to the tendon's range.
     fn limiting(&mut self, node: Node<'a, '_>, joint: Node<'a, '_>, urdf: &mut Urdf) {
         let class = self.class_of(node, "class", 0);
         let is_limited = self.is_limited(node, class, "limited", "range");
@@ -104,7 +102,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         own.position = Some(position);
     }
 
-    /// Reads a joint that follows another, or a polynomial of it.
     fn follower(&mut self, node: Node<'a, '_>, urdf: &mut Urdf) {
         let place = |this: &mut Self, key: &str| {
             let (name, span) = this.problems.attribute(node, key)?;
@@ -147,7 +144,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         });
     }
 
-    /// Returns the five coefficients of an equality; `None` after saying what is wrong.
     fn polynomial(&mut self, node: Node<'a, '_>) -> Option<Vec<Rational>> {
         let mut terms = vec![Rational::zero(); 5];
         terms[1] = Rational::one();
@@ -168,7 +164,6 @@ impl<'a> Mjcf<'a, '_, '_> {
     }
 }
 
-/// Reads two bodies that are held together, by their names or those of sites.
 fn links_tied(root: Node, node: Node, urdf: &mut Urdf) {
     let keys = match node.has_attribute("site1") {
         true => ["site1", "site2"],
@@ -183,7 +178,6 @@ fn links_tied(root: Node, node: Node, urdf: &mut Urdf) {
     urdf.ties.push(tie(node, &word, Tied::Links(links.into())));
 }
 
-/// Returns the name of the body that a site is on.
 fn body_of_site<'a>(root: Node<'a, '_>, name: &str) -> Option<&'a str> {
     let mut sites = root.descendants().filter(|node| node.has_tag_name("site"));
     let site = sites.find(|site| site.attribute("name") == Some(name))?;

@@ -9,10 +9,8 @@ use super::pose::Pose;
 use super::{Mjcf, children};
 use crate::urdf::{Joint, Kind, Link, MAX_LINKS, Role, Unread, Urdf, start_tag};
 
-/// What makes copies, or bodies of another file.
 const MADE_ELSEWHERE: [&str; 4] = ["replicate", "composite", "flexcomp", "attach"];
 
-/// An element of a body, through the frames that it is in.
 pub(super) struct Item<'a, 'd> {
     pub(super) node: Node<'a, 'd>,
     pub(super) class: usize,
@@ -20,18 +18,14 @@ pub(super) struct Item<'a, 'd> {
     pub(super) frame: Pose,
 }
 
-/// A body that has not been looked at.
 struct Open<'a, 'd> {
     item: Item<'a, 'd>,
-    /// The link that it hangs on.
     on: String,
 }
 
-/// The names that are given, each once.
 struct Names(BTreeSet<String>);
 
 impl Names {
-    /// Returns this name, or one like it that is not given yet.
     fn fresh(&mut self, wish: String) -> String {
         let mut name = wish.clone();
         let mut count = self.0.len();
@@ -44,7 +38,6 @@ impl Names {
 }
 
 impl<'a> Mjcf<'a, '_, '_> {
-    /// Reads all bodies with their joints; `None` after saying why there are none.
     pub(super) fn world(&mut self, root: Node<'a, '_>, urdf: &mut Urdf) -> Option<()> {
         let world = link("world".to_owned(), urdf.span.clone());
         urdf.links.push(world);
@@ -89,7 +82,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         Some(())
     }
 
-    /// Says which bodies MuJoCo holds up.
     fn say_weightless(&mut self, root: Node<'a, '_>) {
         let bodies = root.descendants().filter(|node| node.has_tag_name("body"));
         let mut held =
@@ -101,7 +93,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         }
     }
 
-    /// Returns the elements of a body in their order, those of frames among them.
     fn items<'d>(&mut self, body: Node<'a, 'd>, class: usize, at: &Pose) -> Vec<Item<'a, 'd>> {
         let mut items = Vec::new();
         let mut open: Vec<(Node, usize, Pose)> = vec![(body, class, at.clone())];
@@ -125,7 +116,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         items
     }
 
-    /// Reads a body, and returns those that hang on it.
     fn body<'d>(
         &mut self,
         open: Open<'a, 'd>,
@@ -173,7 +163,6 @@ impl<'a> Mjcf<'a, '_, '_> {
         bodies(items, &name)
     }
 
-    /// Reads the joints of a body, one behind the other, up to the body itself.
     fn joints_of(
         &mut self,
         body: &str,
@@ -220,7 +209,7 @@ impl<'a> Mjcf<'a, '_, '_> {
         }
     }
 
-    /// Reads a site as a frame: one that is called as a body is left out.
+    /// A site that is called as a body is left out.
     fn site(&mut self, item: &Item<'a, '_>, body: &str, urdf: &mut Urdf, links: &mut Names) {
         let class = self.class_of(item.node, "class", item.class);
         let Some(name) = item.node.attribute("name") else {
@@ -242,7 +231,6 @@ impl<'a> Mjcf<'a, '_, '_> {
     }
 }
 
-/// Returns the bodies among the elements of a body or of the world.
 fn bodies<'a, 'd>(items: Vec<Item<'a, 'd>>, on: &str) -> Vec<Open<'a, 'd>> {
     let bodies = items.into_iter();
     let bodies = bodies.filter(|item| item.node.has_tag_name("body"));
@@ -253,7 +241,6 @@ fn bodies<'a, 'd>(items: Vec<Item<'a, 'd>>, on: &str) -> Vec<Open<'a, 'd>> {
     open.collect()
 }
 
-/// Returns a link without mass.
 fn link(name: String, span: std::ops::Range<usize>) -> Link {
     Link {
         name,

@@ -10,7 +10,6 @@ use roxmltree::Node;
 use super::{Number, Origin, Value, child, constant, start_tag};
 use crate::problems::{Problems, instead};
 
-/// The kind of motion of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Kind {
     Revolute,
@@ -34,14 +33,12 @@ impl Kind {
         ("floating", Kind::Floating),
     ];
 
-    /// Returns its word.
     pub(crate) fn word(self) -> &'static str {
         let found = Kind::WORDS.iter().find(|(_, kind)| *kind == self);
         // The one that a URDF has no word for.
         found.map_or("a ball", |(word, _)| word)
     }
 
-    /// Returns whether it moves about or along one axis, if at all.
     pub(crate) fn has_one_axis(self) -> bool {
         !matches!(self, Kind::Planar | Kind::Floating | Kind::Ball)
     }
@@ -55,7 +52,6 @@ impl Kind {
     }
 }
 
-/// A joint.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Joint {
     pub(crate) name: String,
@@ -63,11 +59,9 @@ pub(crate) struct Joint {
     pub(crate) kind: Kind,
     /// The child's frame at q = 0, in the parent's.
     pub(crate) origin: Origin,
-    /// The links by name, each with its place.
     pub(crate) parent: (String, Range<usize>),
     pub(crate) child: (String, Range<usize>),
     pub(crate) axis: [Number; 3],
-    /// Lowest and highest position.
     pub(crate) position: Option<[Value<Position>; 2]>,
     /// Where it is where the model is drawn, in rad or m.
     pub(crate) start: Rational,
@@ -78,18 +72,14 @@ pub(crate) struct Joint {
     pub(crate) friction: Option<Number>,
     /// A spring, which is not modelled.
     pub(crate) spring: Option<Number>,
-    /// Rotors felt at the joint.
     pub(crate) armature: Rational,
     /// The inertia of each rotor, and its reduction.
     pub(crate) rotors: Vec<[Number; 2]>,
-    /// The joint that it follows, with the place that says so.
     pub(crate) mimic: Option<Mimic>,
 }
 
-/// What a joint follows.
 #[derive(Clone, Debug)]
 pub(crate) struct Mimic {
-    /// The joint that leads.
     pub(crate) joint: String,
     pub(crate) span: Range<usize>,
     /// Multiplier and offset, if it follows along a line.
@@ -193,8 +183,7 @@ impl Problems<'_> {
         found.map(|(_, kind)| *kind)
     }
 
-    /// Limits that are limits: equal ones, as where they were left at zero, are
-    /// none; reversed ones are an error.
+    /// Equal limits, as where they were left at zero, are none; reversed ones are an error.
     pub(crate) fn ordered(
         &mut self,
         name: &str,
@@ -216,8 +205,7 @@ impl Problems<'_> {
         Some([lower, upper])
     }
 
-    /// Reads the rotors of a transmission: inertia times the square of the reduction, for every
-    /// joint that it drives.
+    /// The armature is the inertia times the square of the reduction, for every driven joint.
     pub(super) fn transmission(&mut self, node: Node, joints: &mut [Joint]) {
         let children = |name: &'static str| node.children().filter(move |c| c.has_tag_name(name));
         let driven: Vec<&str> = children("joint")
@@ -265,7 +253,6 @@ impl Problems<'_> {
     }
 }
 
-/// Returns the first child of the first of these names that there is one of.
 fn named<'a, 'd>(node: Node<'a, 'd>, names: &[&str]) -> Option<Node<'a, 'd>> {
     names.iter().find_map(|name| child(node, name))
 }

@@ -9,7 +9,6 @@ use roxmltree::Node;
 use super::{Number, Origin, child, start_tag};
 use crate::problems::Problems;
 
-/// A link.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Link {
     pub(crate) name: String,
@@ -21,7 +20,6 @@ pub(crate) struct Link {
     pub(crate) role: Role,
 }
 
-/// What a link stands for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Role {
     #[default]
@@ -32,7 +30,6 @@ pub(crate) enum Role {
     Mark,
 }
 
-/// What cannot be read, and the likely fix.
 #[derive(Clone, Debug)]
 pub(crate) struct Unread {
     pub(crate) span: Range<usize>,
@@ -40,7 +37,6 @@ pub(crate) struct Unread {
     pub(crate) help: &'static str,
 }
 
-/// Mass, centre and inertia.
 #[derive(Clone, Debug)]
 pub(crate) struct Inertial {
     /// The centre of mass, and the axes of the inertia.

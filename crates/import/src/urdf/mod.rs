@@ -21,15 +21,12 @@ pub(crate) use joint::{Joint, Kind, Mimic};
 pub(crate) use link::{Inertial, Link, Role, Unread};
 pub(crate) use number::{Number, Origin, Value, constant};
 
-/// No robot has more links, or joints.
 pub(crate) const MAX_LINKS: usize = 1024;
 
 /// A URDF, every joint with a parent and a child that there are.
 #[derive(Clone, Debug)]
 pub(crate) struct Urdf {
-    /// The name of the robot.
     pub(crate) name: String,
-    /// The start tag of the robot.
     pub(crate) span: Range<usize>,
     pub(crate) links: Vec<Link>,
     pub(crate) joints: Vec<Joint>,
@@ -37,11 +34,9 @@ pub(crate) struct Urdf {
     pub(crate) names: [BTreeSet<String>; 2],
     /// Gravity in the axes of the root, where the file says it.
     pub(crate) gravity: Option<[Number; 3]>,
-    /// What ties joints or links to each other beside the tree.
     pub(crate) ties: Vec<Tie>,
 }
 
-/// What ties joints or links to each other beside the tree.
 #[derive(Clone, Debug)]
 pub(crate) struct Tie {
     pub(crate) span: Range<usize>,
@@ -50,18 +45,15 @@ pub(crate) struct Tie {
     pub(crate) ends: Tied,
 }
 
-/// The joints or the links that are tied.
 #[derive(Clone, Debug)]
 pub(crate) enum Tied {
     /// Joints, none of which moves by itself.
     Joints(Vec<String>),
-    /// Links that keep a distance or a pose to each other.
     Links(Vec<String>),
 }
 
 impl Urdf {
-    /// Returns the joints that move, by their places: from the root outwards, each branch to its
-    /// ends before the next in the file.
+    /// From the root outwards, each branch to its ends before the next in the file.
     pub(crate) fn moving(&self) -> Vec<usize> {
         let joints = || self.joints.iter().enumerate().rev();
         let is_root = |link: &str| self.joints.iter().all(|joint| joint.child.0 != link);
@@ -86,7 +78,6 @@ impl Urdf {
         })
     }
 
-    /// Leaves out the ties, and followers along curves, after naming them.
     pub(crate) fn untie(&mut self, problems: &mut Problems) {
         let mut ties: Vec<(Range<usize>, String)> = Vec::new();
         ties.extend(self.ties.drain(..).map(|tie| (tie.span, tie.name)));
@@ -111,7 +102,6 @@ impl Urdf {
     }
 }
 
-/// Reads a URDF; `None` after saying why there is none.
 pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf> {
     let root = document.root_element();
     let span = start_tag(root);
@@ -160,7 +150,6 @@ pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf>
     })
 }
 
-/// Returns what to do with another format.
 fn other_format(root: Node) -> Option<&'static str> {
     match root.tag_name().name() {
         "robot" => None,
@@ -171,7 +160,6 @@ fn other_format(root: Node) -> Option<&'static str> {
 }
 
 impl Problems<'_> {
-    /// Returns true if there are at most so many; else says that there are more.
     pub(crate) fn are_few(
         &mut self,
         span: &Range<usize>,
@@ -203,7 +191,6 @@ impl Problems<'_> {
     }
 }
 
-/// Returns the start tag of an element: what a message points at.
 pub(crate) fn start_tag(node: Node) -> Range<usize> {
     let range = node.range();
     let source = node.document().input_text();
@@ -213,7 +200,6 @@ pub(crate) fn start_tag(node: Node) -> Range<usize> {
     range.start..range.start + end
 }
 
-/// Returns the first child of this name.
 pub(crate) fn child<'a, 'd>(node: Node<'a, 'd>, name: &str) -> Option<Node<'a, 'd>> {
     node.children()
         .find(|child| child.tag_name().name() == name)

@@ -10,17 +10,14 @@ use roxmltree::Node;
 use super::start_tag;
 use crate::problems::Problems;
 
-/// A value of the file.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Value<T> {
-    /// The value itself.
     pub(crate) value: T,
     /// As it stands in the file.
     pub(crate) text: String,
     pub(crate) span: Range<usize>,
 }
 
-/// A number.
 pub(crate) type Number = Value<Rational>;
 
 impl<T> Value<T> {
@@ -44,7 +41,6 @@ pub(crate) struct Origin {
 }
 
 impl Origin {
-    /// Returns the placement that it is.
     pub(crate) fn placement(&self) -> Placement {
         Placement {
             xyz: self.xyz.each_ref().map(|x| x.value.clone()),
@@ -54,7 +50,6 @@ impl Origin {
 }
 
 impl Problems<'_> {
-    /// Reads the `origin` of an element; the identity where there is none.
     pub(crate) fn origin(&mut self, node: Node) -> Option<Origin> {
         let origin = super::child(node, "origin");
         let at = origin.unwrap_or(node);
@@ -70,13 +65,11 @@ impl Problems<'_> {
         })
     }
 
-    /// Reads three numbers in one attribute.
     pub(crate) fn triple(&mut self, node: Node, key: &str) -> Option<[Number; 3]> {
         let (text, span) = self.attribute(node, key)?;
         self.list(key, text, span)
     }
 
-    /// Returns so many numbers of an attribute's text.
     pub(crate) fn list<const N: usize>(
         &mut self,
         key: &str,
@@ -111,19 +104,16 @@ impl Problems<'_> {
             .ok()
     }
 
-    /// Reads a number that an attribute may give.
     pub(crate) fn number(&mut self, node: Node, key: &str) -> Option<Number> {
         node.attribute(key)?;
         self.required(node, key)
     }
 
-    /// Reads a number that must be there.
     pub(crate) fn required(&mut self, node: Node, key: &str) -> Option<Number> {
         let (text, span) = self.attribute(node, key)?;
         self.parse(text.trim(), span)
     }
 
-    /// Reads the text of an attribute that must be there.
     pub(crate) fn attribute<'a>(
         &mut self,
         node: Node<'a, '_>,
@@ -139,7 +129,6 @@ impl Problems<'_> {
         attribute.map(|attribute| (attribute.value(), attribute.range_value()))
     }
 
-    /// Reads the number of a text.
     pub(crate) fn parse(&mut self, text: &str, span: Range<usize>) -> Option<Number> {
         match parse_decimal(&spelled_out(text)) {
             Ok(value) => Some(Value::new(value, text, &span)),
@@ -152,7 +141,6 @@ impl Problems<'_> {
     }
 }
 
-/// Returns numbers that the format has where a file says nothing.
 pub(crate) fn constant<const N: usize>(node: Node, texts: [&str; N]) -> [Number; N] {
     let span = start_tag(node);
     texts.map(|text| Value::new(parse_decimal(text).unwrap_or_default(), text, &span))

@@ -139,7 +139,6 @@ pub fn largest(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0f64, |most, x| most.max(x.abs()))
 }
 
-/// Returns the torques of a state by the runtime, without damping.
 fn torques(robot: &Robot, runtime: &Reference<f64>, state: &State) -> Vec<f64> {
     let [q, qd, qdd] = [&state.q, &state.qd, &state.qdd].map(|x| DVector::from_vec(x.clone()));
     let tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
@@ -147,8 +146,7 @@ fn torques(robot: &Robot, runtime: &Reference<f64>, state: &State) -> Vec<f64> {
     (0..tau.len()).map(|i| tau[i] - damping(i)).collect()
 }
 
-/// Returns the largest difference of torques, gravity loads, inertia matrices and poses from
-/// the golden ones, relative to their sizes.
+/// Returns the largest difference from the golden values, relative to their sizes.
 pub fn worst(robot: &Robot, golden: &Golden) -> f64 {
     let names = robot.joints.iter().flat_map(|joint| joint.name.clone());
     assert_eq!(names.collect::<Vec<_>>(), golden.joints);
@@ -185,8 +183,7 @@ pub fn motion(golden: &Golden) -> Motion {
     }
 }
 
-/// Checks that snapped torques are within the bound over all golden states, but for a rounding
-/// in each, and returns the largest bound.
+/// Checks that snapped torques are within the bound, and returns the largest bound.
 pub fn bounded(
     name: &str,
     imported: &Imported,

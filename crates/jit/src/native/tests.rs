@@ -7,7 +7,6 @@ use crate::{Arm, Cache, Load};
 
 const LAYOUTS: [States; 2] = [States::Apart, States::Adjacent];
 
-/// Compares code with a program that differs from what it was made of.
 fn refused<T: Real>(native: &mut Native, fault: &str, plant: impl FnOnce(&mut Code)) {
     let program = native.program.clone();
     plant(&mut native.program);
@@ -24,7 +23,6 @@ fn refused<T: Real>(native: &mut Native, fault: &str, plant: impl FnOnce(&mut Co
     }
 }
 
-/// Returns an arm's torques.
 fn torques(scalar: ScalarType) -> Native {
     let load = Load {
         asked: format!("outputs: inverse_dynamics; scalar: {scalar}")
@@ -43,7 +41,6 @@ fn torques(scalar: ScalarType) -> Native {
     native.unwrap()
 }
 
-/// Asserts that every instruction that is another one is found by the check, in each code.
 fn every_fault_is_found<T: Real>() {
     let mut native = torques(T::SCALAR);
     for states in LAYOUTS {
@@ -80,7 +77,6 @@ fn a_wrong_instruction_is_found() {
     every_fault_is_found::<f32>();
 }
 
-/// Returns the permissions of the memory at addresses.
 #[cfg(target_os = "linux")]
 fn permissions(addresses: &[usize]) -> Vec<Option<String>> {
     let maps = std::fs::read_to_string("/proc/self/maps").unwrap();

@@ -26,7 +26,6 @@ fn files(folder: &Folder, extension: &str) -> Vec<PathBuf> {
         .collect()
 }
 
-/// Returns an entry that is whole, whatever it tells.
 fn hashed(json: &str) -> String {
     let hash = hmac_sha256::Hash::hash(json.as_bytes());
     let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
@@ -66,7 +65,6 @@ fn nothing_is_kept_where_nobody_wants_it() {
     assert!(!arm(&off).is_from_cache());
 }
 
-/// Whatever happens to an entry: cut off, changed in one byte, emptied, no text.
 #[test]
 fn a_damaged_entry_is_made_anew() {
     let folder = Folder::new("damaged");
@@ -89,7 +87,6 @@ fn a_damaged_entry_is_made_anew() {
     assert_eq!(gravity(&arm(&folder.load())), expected);
 }
 
-/// An entry that is whole but tells nonsense, by whoever wrote it, is none.
 #[test]
 fn an_entry_of_another_kind_is_made_anew() {
     let folder = Folder::new("other");
@@ -111,8 +108,7 @@ fn an_entry_of_another_kind_is_made_anew() {
     }
 }
 
-/// Another user's code is not run: neither from a folder nor from a file that others may write,
-/// though its hash is right; and the arm says so.
+/// Another user's code is not run, though its hash is right.
 #[cfg(unix)]
 #[test]
 fn what_others_may_write_is_not_trusted() {
@@ -153,7 +149,6 @@ fn writers_at_once_leave_whole_entries() {
     assert_eq!(files(&folder, "tmp").len(), 0);
 }
 
-/// A folder that cannot be made: nothing is kept, and nothing fails.
 #[test]
 fn a_folder_that_cannot_be_written_is_no_error() {
     let folder = Folder::new("file");
@@ -162,7 +157,6 @@ fn a_folder_that_cannot_be_written_is_no_error() {
     fs::remove_file(&folder.0).unwrap();
 }
 
-/// A chain of a URDF, and what is wrong with one.
 #[test]
 fn a_urdf_is_loaded() {
     let folder = Folder::new("urdf");

@@ -100,7 +100,6 @@ fn a_signature_of_another_function_is_refused() {
     );
 }
 
-/// Anybody may have it, anywhere.
 #[test]
 fn an_arm_is_shared_by_threads() {
     fn is_shared<T: Send + Sync>(_: &T) {}

@@ -12,10 +12,8 @@ use crate::support::{
     Folder, OTHERS, all_outputs_in_both, arguments, asking, drawn, is_same, robot,
 };
 
-/// How many states each function is compared at.
 const STATES: usize = 10_000;
 
-/// The program's text around that of the functions.
 const FRAME: &str = "
 use std::io::{Read, Write};
 
@@ -46,7 +44,6 @@ fn read<const N: usize>(bytes: &mut &[u8]) -> [f64; N] {
 }
 ";
 
-/// Calls of all functions, each at as many states.
 fn program(arm: &Arm) -> String {
     let mut main = String::new();
     for function in arm.functions() {
@@ -86,7 +83,6 @@ fn program(arm: &Arm) -> String {
     )
 }
 
-/// Returns a library that this test is linked with, as cargo names it.
 fn library(folder: &Path, name: &str) -> PathBuf {
     let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap());
     let is_it = |path: &PathBuf| {
@@ -98,7 +94,6 @@ fn library(folder: &Path, name: &str) -> PathBuf {
     found.max_by_key(modified).unwrap()
 }
 
-/// Compiles a program by rustc.
 fn compiled(text: &str, folder: &Folder) -> PathBuf {
     let own = std::env::current_exe().unwrap();
     let dependencies = own.parent().unwrap();
@@ -123,7 +118,6 @@ fn compiled(text: &str, folder: &Folder) -> PathBuf {
     program
 }
 
-/// Appends the arguments of the states of a function, after those of others.
 fn put<T: Real>(function: &Function, input: &mut Vec<u8>) {
     for state in drawn::<T>(function.native(), STATES, 7) {
         for entry in arguments(function.native(), &state).iter().flatten() {
@@ -132,7 +126,6 @@ fn put<T: Real>(function: &Function, input: &mut Vec<u8>) {
     }
 }
 
-/// Compares results of the program with those of the code in memory.
 fn compare<T: Real>(name: &str, function: &Function, output: &mut &[u8]) {
     let native = function.native();
     let mut found = vec![T::default(); native.program().dag.outputs.len()];

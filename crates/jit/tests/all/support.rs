@@ -8,23 +8,19 @@ use dalembert_jit::{Arm, Cache, Load, Native, Output, Place, Real};
 /// The robots of `generated/` but the arm in the plane, of which all outputs are compared daily.
 pub const OTHERS: [&str; 5] = ["puma560", "stanford", "ur10", "panda", "planar3r"];
 
-/// The number of states that a function is compared at daily.
 pub const STATES: usize = 1_000;
 
-/// Returns a file of the project.
 pub fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../..")
         .join(name)
 }
 
-/// Returns a robot of `generated/`, with the plan beside its file.
 pub fn robot(name: &str, load: &Load) -> Arm {
     let path = path(&format!("generated/robots/{name}.toml"));
     Arm::load(path, load).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// Returns options that ask for this and keep nothing.
 pub fn asking(asked: &str) -> Load {
     Load {
         asked: asked.parse().unwrap(),
@@ -33,13 +29,11 @@ pub fn asking(asked: &str) -> Load {
     }
 }
 
-/// Returns the text that asks for all outputs in both scalars.
 pub fn all_outputs_in_both() -> String {
     let outputs = Output::ALL.map(Output::name).join(", ");
     format!("outputs: {outputs}; scalar: f64, f32")
 }
 
-/// A folder that is removed at the end.
 pub struct Folder(pub PathBuf);
 
 impl Folder {
@@ -84,7 +78,6 @@ fn entry(random: &mut Random, reach: f64) -> f64 {
     }
 }
 
-/// Draws states.
 pub fn drawn<T: Real>(native: &Native, states: usize, seed: u64) -> Vec<State<T>> {
     let mut random = Random::new(seed);
     let mut all: Vec<State<T>> = vec![State::default(); states];
@@ -102,13 +95,11 @@ pub fn drawn<T: Real>(native: &Native, states: usize, seed: u64) -> Vec<State<T>
     all
 }
 
-/// Returns whether bits are equal, or both no number.
 pub fn is_same<T: Real>(left: T, right: T) -> bool {
     let (left, right) = (left.to_f64(), right.to_f64());
     left.to_bits() == right.to_bits() || (left.is_nan() && right.is_nan())
 }
 
-/// Returns the arguments of a function at a state.
 pub fn arguments<T: Real>(native: &Native, state: &State<T>) -> Vec<Vec<T>> {
     let arguments = native.signature().arguments.iter();
     arguments
@@ -116,7 +107,6 @@ pub fn arguments<T: Real>(native: &Native, state: &State<T>) -> Vec<Vec<T>> {
         .collect()
 }
 
-/// Returns the code for many states, its arguments and results as columns or as rows.
 pub fn called<T: Real>(
     native: &Native,
     drawn: &[State<T>],
@@ -165,7 +155,6 @@ pub fn called<T: Real>(
     all
 }
 
-/// Compares the code with the interpreter: one state, columns, and rows, at so many states.
 pub fn compare<T: Real>(name: &str, native: &Native, states: usize) {
     const CHUNK: usize = 999;
     let mut done = 0;
@@ -193,7 +182,6 @@ pub fn compare<T: Real>(name: &str, native: &Native, states: usize) {
     }
 }
 
-/// Compares every function of an arm.
 pub fn compare_all(name: &str, arm: &Arm, states: usize) {
     for function in arm.functions() {
         let name = format!(

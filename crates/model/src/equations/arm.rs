@@ -121,7 +121,6 @@ impl<S: Scalar> Arm<S> {
         self
     }
 
-    /// Returns the arm without gravity.
     pub(super) fn weightless(&self) -> Arm<S> {
         Arm {
             gravity: zero_vector(),
@@ -140,8 +139,7 @@ impl<S: Scalar> Arm<S> {
 }
 
 impl<S: Clone> Arm<S> {
-    /// Returns the same arm at velocities of which each r_i is this, where a
-    /// joint has Coulomb friction.
+    /// Returns the arm at velocities of these r_i, where joints have Coulomb friction.
     #[must_use]
     pub fn at_speeds(mut self, per_speed: &[Option<S>]) -> Arm<S> {
         for (link, per_speed) in self.links.iter_mut().zip(per_speed) {
@@ -152,10 +150,8 @@ impl<S: Clone> Arm<S> {
 }
 
 impl<S: Scalar> Link<S> {
-    /// Returns θ_i and d_i at a position.
-    ///
-    /// The offset enters as a product of pairs, never as a sum of angles:
-    /// q + offset would lose |q|·u, or |offset|·u, of the angle.
+    /// The offset enters as a product of pairs, never as a sum of angles: q + offset would lose
+    /// |q|·u, or |offset|·u, of the angle.
     pub(super) fn at(&self, position: &JointPosition<S>) -> DhVariables<S> {
         let (theta, d) = match position {
             JointPosition::Revolute(pair) => (pair.compose(&self.theta), self.d.clone()),
@@ -164,8 +160,7 @@ impl<S: Scalar> Link<S> {
         DhVariables { theta, d }
     }
 
-    /// Returns a link without mass on a slide whose frame, at position zero, is the one
-    /// before.
+    /// Returns a link without mass on a slide whose frame, at position zero, is the one before.
     pub fn still() -> Link<S> {
         Link {
             kind: JointKind::Prismatic,
@@ -302,7 +297,6 @@ impl<S: Clone> Arm<S> {
         Some(arm)
     }
 
-    /// Returns the arm and its position without the links behind the hand.
     pub(super) fn to_hand<'a>(
         &'a self,
         at: &'a [DhVariables<S>],

@@ -7,11 +7,10 @@ use crate::scalar::Scalar;
 impl<S: Scalar + PartialEq> Arm<S> {
     /// Returns the same dynamics without the lengths that have no effect on it.
     ///
-    /// While the links only slide, nothing turns: where the later links are
-    /// cannot matter. While they turn about parallel axes alone, a shift of
-    /// all that follows *along* these axes changes no velocity, no moment about
-    /// an axis, and the potential energy by a constant. So these are set to
-    /// zero:
+    /// While the links only slide, nothing turns: where the later links are cannot matter. While
+    /// they turn about parallel axes alone, a shift of all that follows *along* these axes changes
+    /// no velocity, no moment about an axis, and the potential energy by a constant. So these are
+    /// set to zero:
     ///
     /// - a_i and d_i of the leading prismatic joints;
     /// - d_i of the first revolute joint (modified DH: a_i too, both act before

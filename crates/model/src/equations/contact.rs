@@ -75,7 +75,6 @@ pub fn squared<S: Scalar>(j: &[Vec<S>]) -> Vec<Vec<S>> {
     symmetric(j.len(), |i, k| product(&j[i], &j[k]))
 }
 
-/// Returns the torques of the joints up to the hand.
 fn along_links<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: &[S]) -> Vec<S> {
     let (arm, at) = arm.to_hand(at);
     let part = |from: usize| -> Vector<S> { core::array::from_fn(|i| wrench[from + i].clone()) };
@@ -94,7 +93,6 @@ fn along_links<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: &[S]) -> 
     }
 }
 
-/// Returns the wrench in each link's axes, from the hand inward.
 fn from_the_hand<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: Wrench<S>) -> Vec<S> {
     let mut wrench = match &arm.tool {
         None => wrench,
@@ -116,8 +114,7 @@ fn from_the_hand<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: Wrench<
     torques
 }
 
-/// Returns a wrench about the base's origin in base axes, in each link's axes, from the base
-/// outward.
+/// From the base outward; the wrench is about the base's origin in base axes.
 fn from_the_base<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: Wrench<S>) -> Vec<S> {
     let outward = |wrench: &Wrench<S>, origin: &Vector<S>| Wrench {
         moment: difference(&wrench.moment, &cross(origin, &wrench.force)),

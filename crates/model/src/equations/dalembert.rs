@@ -1,9 +1,8 @@
 //! Generalized D'Alembert, eqs. 4.1–4.5: closed forms with the rotation and
 //! the translation of every link apart.
 //!
-//! The paper treats rotary joints; the prismatic terms follow in the same way.
-//! All vectors are in base axes but those that meet an inertia tensor, which
-//! are in the axes of its link.
+//! The paper treats rotary joints; the prismatic terms follow in the same way. All vectors are in
+//! base axes but those that meet an inertia tensor, which are in the axes of its link.
 
 use alloc::vec::Vec;
 
@@ -167,7 +166,6 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         let mut moments = Vec::with_capacity(n);
         let mut accelerations = Vec::with_capacity(n);
         let [mut omega, mut alpha] = [zero_vector(), zero_vector()];
-        // The part of a_s up to the origin of frame s−1.
         let mut carried = zero_vector();
         for (s, link) in self.arm.links.iter().enumerate() {
             let [omega_before, alpha_before] = [omega.clone(), alpha.clone()];
@@ -249,7 +247,6 @@ fn pair_sums<S: Scalar>(a: &[Vec<Vector<S>>], b: &[Vec<Vector<S>>]) -> Vec<Vec<S
     symmetric(n, |i, j| total((i..n).map(|s| dot(&a[s][i], &b[s][j]))))
 }
 
-/// Returns [i] = Σ_{s ≥ i} a[s][i] · b[s]
 fn joint_sums<S: Scalar>(a: &[Vec<Vector<S>>], b: &[Vector<S>]) -> Vec<S> {
     let n = b.len();
     let of_joint = |i: usize| total((i..n).map(|s| dot(&a[s][i], &b[s])));

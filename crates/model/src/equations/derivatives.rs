@@ -10,8 +10,7 @@ use crate::scalar::Scalar;
 use crate::scalar::dual::Dual;
 
 impl Formulation {
-    /// Returns ∂τ/∂q, n×n: row i has the slopes of τ_i, joint by joint as it moves at a unit
-    /// rate.
+    /// Returns ∂τ/∂q, n×n: row i has the slopes of τ_i, joint by joint as it moves at a unit rate.
     pub fn torque_by_position<S: Scalar>(
         self,
         arm: &Arm<S>,
@@ -62,18 +61,15 @@ impl Formulation {
     }
 }
 
-/// Returns values that do not change.
 pub(super) fn constants<S: Scalar>(values: &[S]) -> Vec<Dual<S>> {
     values.iter().cloned().map(Dual::constant).collect()
 }
 
-/// Returns values that change at these rates.
 pub(super) fn with_rates<S: Scalar>(values: &[S], rates: &[S]) -> Vec<Dual<S>> {
     let pairs = values.iter().cloned().zip(rates.iter().cloned());
     pairs.map(|(value, rate)| Dual { value, rate }).collect()
 }
 
-/// Returns the rates of change of columns, row by row.
 pub(super) fn columns<S: Scalar>(n: usize, column: impl Fn(usize) -> Vec<Dual<S>>) -> Vec<Vec<S>> {
     let rates = |k: usize| column(k).into_iter().map(|x| x.rate).collect();
     columns_of(&(0..n).map(rates).collect::<Vec<Vec<S>>>())

@@ -120,9 +120,8 @@ impl Formulation {
         parts[part as usize].clone()
     }
 
-    /// Returns U = −Σ_j m_j g·r_j, r_j from the origin of the base, not of frame 0:
-    /// Lagrange–Euler from the pose of each link; elsewhere from first moments,
-    /// gathered from the hand inward.
+    /// Returns U = −Σ_j m_j g·r_j, r_j from the origin of the base, not of frame 0: Lagrange–Euler
+    /// from the pose of each link; elsewhere from first moments, gathered from the hand inward.
     pub fn potential_energy<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> S {
         let moment = match self {
             Self::LagrangeEuler => first_moment_by_poses(arm, at),
@@ -137,7 +136,6 @@ pub fn contracted<S: Scalar>(h: &[Vec<Vec<S>>], qd: &[S]) -> Vec<Vec<S>> {
     h.iter().map(|h| products(h, qd)).collect()
 }
 
-/// Returns the arm and its position as they change at these velocities.
 pub(super) fn moving<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
@@ -183,7 +181,6 @@ fn first_moment_by_poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vect
     moment
 }
 
-/// Returns the same from the hand inward: what follows a joint is one body.
 fn first_moment<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vector<S> {
     let mut moment = zero_vector();
     let mut mass = S::zero();

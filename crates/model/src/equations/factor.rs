@@ -1,11 +1,10 @@
 //! D = U diag(d) Uᵀ and what follows from it: q̈ and D⁻¹.
 //!
-//! Joints are eliminated from the hand inward, so that d_k is what joint k
-//! alone would have to accelerate if all joints beyond it were free: the
-//! inertia of its articulated body. It divides, and may: a positive definite D
-//! has positive pivots in every order. A pivot of the arm's own that is a
-//! constant, and entries of D that vanish, stay so as far as elimination
-//! leaves them, which is further from this end than from the other.
+//! Joints are eliminated from the hand inward, so that d_k is what joint k alone would have to
+//! accelerate if all joints beyond it were free: the inertia of its articulated body. It divides,
+//! and may: a positive definite D has positive pivots in every order. A pivot of the arm's own that
+//! is a constant, and entries of D that vanish, stay so as far as elimination leaves them, which is
+//! further from this end than from the other.
 
 use alloc::vec::Vec;
 
@@ -21,7 +20,6 @@ pub struct Factor<S> {
     upper: Vec<Vec<S>>,
     /// 1/d_k of those.
     inverses: Vec<S>,
-    /// The number of unknowns that are left.
     kept: usize,
 }
 
@@ -32,8 +30,7 @@ impl<S: Divide> Factor<S> {
         Factor::partial(matrix, 0)
     }
 
-    /// Eliminates from a symmetric matrix, whose upper half is not read, all unknowns but the
-    /// first.
+    /// Eliminates all unknowns but the first `kept`; the upper half of the matrix is not read.
     pub(super) fn partial(matrix: &[Vec<S>], kept: usize) -> Factor<S> {
         let mut rest: Vec<Vec<S>> = matrix.to_vec();
         let (mut upper, mut inverses) = (Vec::new(), Vec::new());
@@ -107,7 +104,6 @@ impl<S: Divide> Factor<S> {
         x
     }
 
-    /// Returns U⁻¹ b, each entry through `then` once it has been eliminated from the others.
     fn eliminate(&self, b: &[S], then: impl Fn(usize, &S) -> S) -> Vec<S> {
         let mut x = b.to_vec();
         for (k, factors) in self.upper.iter().enumerate().rev() {
@@ -157,7 +153,6 @@ pub fn scatter<S: Scalar>(values: &[S], joints: &[usize], n: usize) -> Vec<S> {
     placed(zeros(n), joints, values.iter().cloned())
 }
 
-/// Returns a vector whose entries at these joints are replaced.
 pub(super) fn placed<T>(
     mut all: Vec<T>,
     joints: &[usize],

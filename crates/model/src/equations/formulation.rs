@@ -42,8 +42,7 @@ impl Formulation {
         Self::NewtonEulerLinkDifferences,
     ];
 
-    /// Returns whether it has D and h by formulas of their own, not as torques
-    /// of chosen motions.
+    /// True if D and h have formulas of their own, and are not torques of chosen motions.
     pub(super) fn has_closed_form(self) -> bool {
         matches!(self, Self::LagrangeEuler | Self::Dalembert)
     }
@@ -117,7 +116,6 @@ impl Formulation {
         match self {
             Self::LagrangeEuler => LagrangeEuler::new(arm, at).christoffel(),
             Self::Dalembert => {
-                // h alone: the terms that q̈ and g multiply are not asked for.
                 let terms = Dalembert::new(arm, at);
                 polarised(at.len(), |qd| terms.velocity_terms(qd))
             }
@@ -130,7 +128,6 @@ impl Formulation {
 /// h_ikm = (h_i(e_k + e_m) − h_i(e_k) − h_i(e_m)) / 2.
 fn polarised<S: Scalar>(n: usize, velocity_terms: impl Fn(&[S]) -> Vec<S>) -> Vec<Vec<Vec<S>>> {
     let squares: Vec<Vec<S>> = (0..n).map(|k| velocity_terms(&unit(n, k))).collect();
-    // [m][k], k < m: h(e_k + e_m)
     let pair = |k: usize, m: usize| {
         let mut both = unit(n, k);
         both[m] = S::one();

@@ -44,8 +44,7 @@ pub fn against<S: Scalar>(inverse: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> 
     inverse.iter().map(row).collect()
 }
 
-/// Returns the torques of Coulomb friction and what each grows by with its velocity;
-/// zero of a joint without.
+/// For each joint the torque of Coulomb friction and its slope by the velocity.
 fn rubbed<S: Scalar>(arm: &Arm<S>, qd: &[S]) -> Vec<[S; 2]> {
     let links = arm.links.iter().zip(qd);
     links

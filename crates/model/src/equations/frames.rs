@@ -36,8 +36,7 @@ impl Axes {
     }
 }
 
-/// The components of a velocity or a wrench that are asked for: some of six, linear
-/// before angular.
+/// The components of a velocity or a wrench that are asked for: some of six, linear before angular.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Rows(u8);
 
@@ -52,7 +51,6 @@ impl Rows {
     pub const ALL: Rows = Rows(0b11_1111);
     /// The names of the components, in their order.
     pub const NAMES: [&'static str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
-    /// Names of several.
     const GROUPS: [(&'static str, Rows); 2] =
         [("linear", Rows(0b00_0111)), ("angular", Rows(0b11_1000))];
 

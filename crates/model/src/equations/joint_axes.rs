@@ -54,7 +54,6 @@ fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> (Vector<S>, Vec<[Ve
     (lever, of_joints)
 }
 
-/// Returns the hand's pose in base axes.
 pub(super) fn hand<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
     let frames = frames(arm, at);
     let hand = hand_of(arm, &frames);
@@ -62,7 +61,6 @@ pub(super) fn hand<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S>
     at_lever(arm, hand, lever)
 }
 
-/// Returns the columns of J in base axes at the hand, linear and angular.
 pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<S>; 2]> {
     let (frames, levers) = (frames(arm, at), levers(arm, at).1);
     let column = |j: usize| {
@@ -85,16 +83,13 @@ pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Ve
     (0..at.len()).map(column).collect()
 }
 
-/// Returns the columns of J in base axes at the hand from axes that are cross products: of each
-/// frame one axis is carried to the base, one is seen from the frame two joints before, which saves
-/// the axes of the frame between, and the third is the product of both. Columns of the joints near
-/// the base are carried there, too.
+/// One axis of each frame is carried to the base, one is seen from the frame two joints before,
+/// which saves the axes of the frame between, and the third is the product of both.
 pub(super) fn columns_across<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
 ) -> Vec<[Vector<S>; 2]> {
     let links = || arm.links.iter().zip(at);
-    // A vector of frame i in the axes of an earlier one.
     let carried = |v: Vector<S>, i: usize, to: usize| {
         let inner = links().take(i).skip(to).rev();
         inner.fold(v, |v, (link, at)| link.to_previous(arm.convention, at, &v))
@@ -137,19 +132,16 @@ pub(super) fn columns_across<S: Scalar>(
     (0..at.len()).map(column).collect()
 }
 
-/// Returns z × r, of a lever in axes of which z is the third.
 fn across<S: Scalar>(frame: &Columns<S>, lever: &Vector<S>) -> Vector<S> {
     let [x, y, _] = &frame.axes;
     difference(&scaled(&lever[0], y), &scaled(&lever[1], x))
 }
 
-/// Returns how many factors of [`across`] vanish by structure.
 fn zeros<S: Scalar>(frame: &Columns<S>, lever: &Vector<S>) -> usize {
     let factors = frame.axes[..2].iter().flatten().chain(&lever[..2]);
     factors.filter(|x| x.is_zero()).count()
 }
 
-/// Returns a joint's place without its turn.
 fn unturned<S: Scalar>(at: &DhVariables<S>) -> DhVariables<S> {
     DhVariables {
         theta: SinCosPair::straight(),

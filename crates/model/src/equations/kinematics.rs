@@ -35,7 +35,6 @@ pub fn link_poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns
     poses.collect()
 }
 
-/// Returns the poses of frames i = 1 … n where frame 0 has this one.
 fn poses_from<S: Scalar>(
     start: &Columns<S>,
     arm: &Arm<S>,
@@ -49,7 +48,6 @@ fn poses_from<S: Scalar>(
     poses
 }
 
-/// Returns the pose of the hand, from those of the links.
 pub(super) fn hand_of<S: Scalar>(arm: &Arm<S>, poses: &[Columns<S>]) -> Columns<S> {
     let last = poses.last().cloned().unwrap_or_else(|| arm.frame_0());
     match &arm.tool {
@@ -58,7 +56,6 @@ pub(super) fn hand_of<S: Scalar>(arm: &Arm<S>, poses: &[Columns<S>]) -> Columns<
     }
 }
 
-/// Returns a hand at the end of this lever from the origin of frame 0, in base axes.
 pub(super) fn at_lever<S: Scalar>(arm: &Arm<S>, hand: Columns<S>, lever: Vector<S>) -> Columns<S> {
     let origin = match &arm.base {
         None => lever,
@@ -108,7 +105,6 @@ impl Formulation {
         (0..6).map(|r| row(r).collect()).collect()
     }
 
-    /// Returns the columns of J in base axes at the hand, of the joints up to it.
     fn mixed_columns<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<S>; 2]> {
         match self {
             Self::LagrangeEuler => (0..at.len()).map(|j| by_rates(arm, at, j)).collect(),
@@ -149,7 +145,6 @@ impl Formulation {
         in_axes(axes, Some(&self.hand(&arm, at)), [linear, angular])
     }
 
-    /// Returns the acceleration of the hand without q̈, in base axes.
     fn acceleration_without_qdd<S: Scalar>(
         self,
         arm: &Arm<S>,
@@ -227,11 +222,8 @@ fn wrenches_by_poses<S: Scalar>(
     wrenches
 }
 
-/// A value with its first and second rates.
 type Twice<S> = Dual<Dual<S>>;
 
-/// Returns the arm and its position as they move at these velocities and
-/// accelerations, with first and second rates.
 fn accelerated<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
@@ -251,8 +243,6 @@ fn angular<S: Scalar>(frame: &Columns<Dual<S>>) -> Vector<S> {
     [entry(2, 1), entry(0, 2), entry(1, 0)]
 }
 
-/// Computes linear and angular velocity of the hand for a unit rate of joint j, by the rate of
-/// its pose.
 fn by_rates<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], j: usize) -> [Vector<S>; 2] {
     let (arm, at) = moving(arm, at, &unit(at.len(), j));
     let hand = hand_of(&arm, &poses(&arm, &at));
@@ -260,7 +250,6 @@ fn by_rates<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], j: usize) -> [Vector
     [linear, angular(&hand)]
 }
 
-/// Returns the same by the joint's axis and the lever from there to the hand.
 pub(super) fn geometric<S: Scalar>(
     arm: &Arm<S>,
     levers: &[Columns<S>],
@@ -291,8 +280,7 @@ fn in_axes<S: Scalar>(
     }
 }
 
-/// Returns the columns of J in the hand's own axes: from the hand inward, the third row of its
-/// axes in a joint's frame is the joint's axis in the hand's.
+/// The third row of the hand's axes in a joint's frame is the joint's axis in the hand's.
 fn local_columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<S>; 2]> {
     let mut pose = arm.in_last_frame();
     let mut columns = Vec::with_capacity(at.len());
@@ -306,7 +294,6 @@ fn local_columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<
         let [x, y, _] = &joint.origin;
         columns.push(match link.kind {
             JointKind::Prismatic => [axis, zero_vector()],
-            // z × p along each axis of the hand.
             JointKind::Revolute => {
                 let along = |axis: &Vector<S>| minus(&times(x, &axis[1]), &times(y, &axis[0]));
                 [joint.axes.each_ref().map(along), axis]
@@ -318,7 +305,6 @@ fn local_columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<
     columns
 }
 
-/// Returns a pose in the frame of a link, in that of the link before.
 fn inward<S: Scalar>(
     arm: &Arm<S>,
     link: &Link<S>,
@@ -348,7 +334,6 @@ pub(super) fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Colu
     frames
 }
 
-/// Returns the pose of the hand, from the hand inward.
 fn hand_inward<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
     let mut pose = arm.in_last_frame();
     for (link, at) in arm.links.iter().zip(at).rev() {
@@ -360,7 +345,7 @@ fn hand_inward<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
     }
 }
 
-/// Returns the same, where x and z travel and y is z × x.
+/// Two axes travel, x and z; y is z × x.
 fn hand_by_two_axes<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
     let Columns {
         axes: [mut x, _, mut z],
@@ -379,7 +364,6 @@ fn hand_by_two_axes<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S
     with_axes(x, z, origin)
 }
 
-/// Returns a pose by two of its axes.
 fn with_axes<S: Scalar>(x: Vector<S>, z: Vector<S>, origin: Vector<S>) -> Columns<S> {
     Columns {
         axes: [x.clone(), cross(&z, &x), z],
@@ -387,9 +371,8 @@ fn with_axes<S: Scalar>(x: Vector<S>, z: Vector<S>, origin: Vector<S>) -> Column
     }
 }
 
-/// Returns the pose of the hand by the levers to it. Of its axes z is that of the last frame's,
-/// and x is seen from the frame two joints before: the one between need not have all of
-/// its axes.
+/// Returns the pose of the hand by the levers to it. Of its axes z is that of the last frame's, and
+/// x is seen from the frame two joints before: the one between need not have all of its axes.
 fn hand_by_levers<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
@@ -411,8 +394,7 @@ fn hand_by_levers<S: Scalar>(
     at_lever(arm, hand, whole)
 }
 
-/// Returns ∫ (r̈ − g) dm and ∫ r × (r̈ − g) dm of link i: from Ä J Aᵀ, whose last
-/// column is the force.
+/// From Ä J Aᵀ, whose last column is the force: ∫ (r̈ − g) dm and ∫ r × (r̈ − g) dm of link i.
 fn inertial<S: Scalar>(
     arm: &Arm<S>,
     i: usize,
@@ -428,7 +410,6 @@ fn inertial<S: Scalar>(
     let mass = &arm.links[i].mass;
     let first = scaled(mass, &pose.apply(&arm.links[i].com, &S::one()));
     let force = difference(&accelerations.origin, &scaled(mass, &arm.gravity));
-    // ∫ r̈_a r_b dm
     let product = |a: usize, b: usize| {
         let axes = accelerations.axes.iter().zip(&pose.axes);
         let turned = total(axes.map(|(x, y)| times(&x[a], &y[b])));

@@ -1,9 +1,7 @@
-//! Lagrange–Euler, eqs. 2.2–2.15: D, h_ikm and c from the derivatives of the
-//! poses.
+//! Lagrange–Euler, eqs. 2.2–2.15: D, h_ikm and c from the derivatives of the poses.
 //!
-//! The formulas stand as written: every h_ikm with k ≤ m is a sum of traces,
-//! also those that are zero for every arm. That makes this form the reference
-//! that everything else is proved against.
+//! The formulas stand as written: every h_ikm with k ≤ m is a sum of traces, also those that are
+//! zero for every arm. That makes this form the reference that everything else is proved against.
 //!
 //! Products with ʲ⁻¹A_i are taken one link at a time, U_ij = U_{i−1,j} ⁱ⁻¹A_i,
 //! and U_ij J_i is kept: the same products, each made once.
@@ -169,7 +167,6 @@ pub(super) struct PseudoInertia<S> {
     second: [Vector<S>; 3],
     /// m s̄
     first: Vector<S>,
-    /// m
     mass: S,
 }
 
@@ -199,7 +196,6 @@ impl<S: Scalar> PseudoInertia<S> {
         }
     }
 
-    /// Returns U J
     pub(super) fn after(&self, u: &Columns<S>) -> Columns<S> {
         let [x, y, z] = &self.second;
         let column = |column: &Vector<S>, last: &S| u.apply(column, last);
@@ -249,7 +245,6 @@ pub(super) fn assemble<S: Scalar>(
         .collect()
 }
 
-/// Adds the rotor inertias to the diagonal of D.
 pub(super) fn add_armature<S: Scalar>(arm: &Arm<S>, d: &mut [Vec<S>]) {
     for (i, (row, link)) in d.iter_mut().zip(&arm.links).enumerate() {
         row[i] = plus(&row[i], &link.armature);

@@ -99,7 +99,6 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
         self.picked(asked, of_link)
     }
 
-    /// Returns the components that are asked for, of three linear and three angular ones.
     fn picked<T: Clone>(
         &self,
         asked: impl Fn(usize) -> Vec<T>,
@@ -112,7 +111,6 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
         self.arm.frames.rows.pick(&[part(0), part(1)].concat())
     }
 
-    /// Returns G, m×m.
     fn turn(&self) -> Vec<Vec<S>> {
         let poses = poses(self.arm, self.at);
         let rows: Vec<usize> = self.arm.frames.rows.indices().collect();
@@ -141,8 +139,7 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
     }
 }
 
-/// Returns the columns of J, linear and angular, in the axes of the frame of a link, which is
-/// before the hand's.
+/// In the axes of a link's frame before the hand's; linear, then angular.
 fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], link: usize) -> Vec<[Vector<S>; 2]> {
     let n = at.len();
     let (arm, at) = arm.to_hand(at);
@@ -150,7 +147,6 @@ fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], link: usize) -> Vec<[
     outer.base = None;
     outer.links.drain(..link);
     let levers = levers(&outer, &at[link..]);
-    // Where the hand is, from the link inward.
     let mut hands = alloc::vec![levers[0].origin.clone()];
     for (link, at) in arm.links[..link].iter().zip(&at[..link]).rev() {
         let step = link.append(arm.convention, at, &Columns::identity());
@@ -179,8 +175,6 @@ fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], link: usize) -> Vec<[
     columns
 }
 
-/// Returns J̇ q̇, linear and angular, in the axes of the frame of a link, which is before the
-/// hand's.
 fn acceleration<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],

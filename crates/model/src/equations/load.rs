@@ -15,9 +15,8 @@ use crate::scalar::Scalar;
 /// The numbers of a payload.
 pub const PAYLOAD: usize = 10;
 
-/// One number of a load: what the arm has of that regrouped parameter, and what
-/// a unit of each of the payload's parameters adds, these about the origin and in
-/// the axes of the last link's frame.
+/// One number of a load: what the arm has of that regrouped parameter, and what a unit of each of
+/// the payload's parameters adds, these about the origin and in the axes of the last link's frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadRow<S> {
     /// Without a payload.
@@ -42,8 +41,7 @@ impl<S> LoadRow<S> {
 pub struct Loading<S> {
     /// The frame that the payload is given in, in the last link's.
     pub frame: Option<Columns<S>>,
-    /// [`PAYLOAD`] numbers: the mass, three of the centre of mass, six of the tensor
-    /// about it.
+    /// [`PAYLOAD`] numbers: the mass, three of the centre of mass, six of the tensor about it.
     pub payload: Vec<S>,
     /// A number of the load each.
     pub rows: Vec<LoadRow<S>>,
@@ -62,9 +60,8 @@ impl<S: Scalar> Loading<S> {
     }
 }
 
-/// Returns a payload as a link behind the last one that does not move: its frame is the
-/// last link's, in which the payload's own frame is placed. Entries that are missing
-/// are zero.
+/// Returns a payload as a link behind the last one that does not move: its frame is the last
+/// link's, in which the payload's own frame is placed. Entries that are missing are zero.
 pub fn carried<S: Scalar>(payload: &[S], frame: Option<&Columns<S>>) -> Link<S> {
     let entry = |index: usize| payload.get(index).cloned().unwrap_or_else(S::zero);
     let com = [1, 2, 3].map(entry);

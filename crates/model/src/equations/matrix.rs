@@ -1,11 +1,9 @@
-//! Products of 3-vectors and of the matrices of a chain, aware of structural
-//! zeros.
+//! Products of 3-vectors and of the matrices of a chain, aware of structural zeros.
 //!
-//! A product with a factor that is zero or one *by structure* is not made
-//! ([`Scalar::is_zero`], [`Scalar::is_one`]), and shapes known beforehand are
-//! never spelled out as numbers: the last row of a homogeneous matrix, the
-//! permutation Q_i, a rotation about one axis. A general matrix product would
-//! pay for all of them and falsify every operation count.
+//! A product with a factor that is zero or one *by structure* is not made ([`Scalar::is_zero`],
+//! [`Scalar::is_one`]), and shapes known beforehand are never spelled out as numbers: the last row
+//! of a homogeneous matrix, the permutation Q_i, a rotation about one axis. A general matrix
+//! product would pay for all of them and falsify every operation count.
 
 use alloc::vec::Vec;
 
@@ -42,14 +40,12 @@ pub fn zeros<S: Scalar>(n: usize) -> Vec<S> {
     (0..n).map(|_| S::zero()).collect()
 }
 
-/// Returns e_k, of n entries.
 pub(super) fn unit<S: Scalar>(n: usize, k: usize) -> Vec<S> {
     let mut e = zeros(n);
     e[k] = S::one();
     e
 }
 
-/// Returns Σ a_k b_k
 pub(super) fn product<S: Scalar>(a: &[S], b: &[S]) -> S {
     total(a.iter().zip(b).map(|(a, b)| times(a, b)))
 }
@@ -59,12 +55,10 @@ pub fn products<S: Scalar>(rows: &[Vec<S>], x: &[S]) -> Vec<S> {
     rows.iter().map(|row| product(row, x)).collect()
 }
 
-/// Returns a + b, entry by entry.
 pub(super) fn sums<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
     a.iter().zip(b).map(|(a, b)| plus(a, b)).collect()
 }
 
-/// Returns the columns of a matrix given row by row; none of one without rows.
 pub(super) fn columns_of<S: Clone>(rows: &[Vec<S>]) -> Vec<Vec<S>> {
     let column = |k: usize| rows.iter().map(|row| row[k].clone()).collect();
     (0..rows.first().map_or(0, Vec::len)).map(column).collect()
@@ -121,12 +115,10 @@ pub fn cross_z<S: Scalar>(a: &Vector<S>, s: &S) -> Vector<S> {
     [times(&a[1], s), negative(&times(&a[0], s)), S::zero()]
 }
 
-/// Returns a × z_0.
 pub(super) fn across_z<S: Scalar>(a: &Vector<S>) -> Vector<S> {
     [a[1].clone(), negative(&a[0]), S::zero()]
 }
 
-/// Returns z_0 × a.
 pub(super) fn z_across<S: Scalar>(a: &Vector<S>) -> Vector<S> {
     [negative(&a[1]), a[0].clone(), S::zero()]
 }
@@ -143,9 +135,7 @@ pub fn tensor_times<S: Scalar>(tensor: &Inertia<S>, a: &Vector<S>) -> Vector<S> 
 
 /// The two axes that a turn about x moves, the first towards the second.
 pub(super) const ABOUT_X: [usize; 2] = [1, 2];
-/// Those that a turn about y moves.
 pub(super) const ABOUT_Y: [usize; 2] = [2, 0];
-/// Those that a turn about z moves.
 pub(super) const ABOUT_Z: [usize; 2] = [0, 1];
 
 impl<S: Scalar> SinCosPair<S> {
@@ -165,13 +155,11 @@ impl<S: Scalar> SinCosPair<S> {
         }
     }
 
-    /// Returns a vector turned by this angle in the plane of two axes.
     pub(super) fn turn_in(&self, [i, j]: [usize; 2], mut v: Vector<S>) -> Vector<S> {
         [v[i], v[j]] = self.turn(&v[i], &v[j]);
         v
     }
 
-    /// Returns the inverse of [`SinCosPair::turn_in`].
     pub(super) fn turn_back_in(&self, [i, j]: [usize; 2], mut v: Vector<S>) -> Vector<S> {
         [v[i], v[j]] = self.turn_back(&v[i], &v[j]);
         v
@@ -196,10 +184,9 @@ impl<S: Scalar> SinCosPair<S> {
 
 /// The first three rows of a 4×4 matrix of the chain, as four columns.
 ///
-/// The last row is constant: (0 0 0 1) for a pose ⁰A_i, zero for a derivative
-/// U_ij or U_ijk. Everything below multiplies **from the right**, by a
-/// homogeneous matrix or by Q_i, where both obey the same formulas, so that
-/// the last row need not be kept.
+/// The last row is constant: (0 0 0 1) for a pose ⁰A_i, zero for a derivative U_ij or U_ijk.
+/// Everything below multiplies **from the right**, by a homogeneous matrix or by Q_i, where both
+/// obey the same formulas, so that the last row need not be kept.
 #[derive(Clone, Debug)]
 pub struct Columns<S> {
     /// Columns 1 to 3, the rotation of a pose.
@@ -224,7 +211,6 @@ impl<S: Scalar> Columns<S> {
         Columns::turned(identity())
     }
 
-    /// Returns the pose with these axes at the origin.
     pub(super) fn turned(axes: [Vector<S>; 3]) -> Self {
         Columns {
             axes,

@@ -30,9 +30,8 @@
 //! τ_i = Σ_k D_ik q̈_k + h_i + c_i + (b_i + F_i r_i) q̇_i in every form: armature is
 //! part of D_ii, friction of τ alone.
 //!
-//! Slices of joint values are indexed from the base and as long as
-//! [`Arm::links`]; a shorter one panics.
-//! [`Reference`](crate::reference::Reference) checks lengths.
+//! Slices of joint values are indexed from the base and as long as [`Arm::links`]; a shorter one
+//! panics. [`Reference`](crate::reference::Reference) checks lengths.
 //!
 //! [`Scalar`]: crate::scalar::Scalar
 

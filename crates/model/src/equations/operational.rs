@@ -124,12 +124,10 @@ impl<S: Divide> TaskSpace<S> {
 /// (Jᵀ J + λ² D) J̄ = Jᵀ by D from the left.
 #[derive(Clone, Debug)]
 pub struct NormalEquations<S> {
-    /// J over these joints.
     jacobian: Vec<Vec<S>>,
     /// λ² D over these joints.
     damping: Vec<Vec<S>>,
     factor: Factor<S>,
-    /// These joints, and how many there are in all.
     joints: Vec<usize>,
     n: usize,
 }
@@ -173,7 +171,6 @@ impl<S: Divide> NormalEquations<S> {
             .collect()
     }
 
-    /// Returns (Jᵀ J + λ² D)⁻¹ x for each x, a column each.
     fn solved(&self, right: &[Vec<S>]) -> Vec<Vec<S>> {
         let columns: Vec<Vec<S>> = right.iter().map(|x| self.factor.solve(x)).collect();
         let nothing = alloc::vec![zeros(right.len()); self.n];

@@ -1,11 +1,10 @@
 //! Y in τ = Y π: what one unit of an inertial parameter alone takes of torque.
 //!
-//! Torques are linear in the mass, the first moments and the tensor about a
-//! fixed origin of every link, in the rotors' inertias and in the coefficients
-//! of viscous friction. A column of Y is therefore the torque of an arm that has
-//! nothing but that parameter. Its velocities and accelerations are the same
-//! for all columns; [`super::chain`] shares them. Here each column comes from
-//! any formulation of inverse dynamics, and the two check each other.
+//! Torques are linear in the mass, the first moments and the tensor about a fixed origin of every
+//! link, in the rotors' inertias and in the coefficients of viscous friction. A column of Y is
+//! therefore the torque of an arm that has nothing but that parameter. Its velocities and
+//! accelerations are the same for all columns; [`super::chain`] shares them. Here each column comes
+//! from any formulation of inverse dynamics, and the two check each other.
 
 use alloc::vec::Vec;
 
@@ -174,11 +173,9 @@ impl Formulation {
     }
 }
 
-/// Returns the columns of a regressor from the torques of arms at one motion.
-///
-/// An arm's link has a mass, a centre of mass and a tensor about that: a first
-/// moment without a mass is none. With (m, s, Σ) = (1, s, Σ) − (1 − m, 0, 0) a
-/// body is the difference of two that are, the first with its centre at s.
+/// An arm's link has a mass, a centre of mass and a tensor about that: a first moment without a
+/// mass is none. With (m, s, Σ) = (1, s, Σ) − (1 − m, 0, 0) a body is the difference of two that
+/// are, the first with its centre at s.
 fn differences<S: Scalar>(
     arm: &Arm<S>,
     columns: &[Column<S>],
@@ -203,7 +200,6 @@ fn differences<S: Scalar>(
     rows
 }
 
-/// Returns the same joints without masses, friction and rotors.
 fn without_bodies<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
     let mut empty = arm.clone().without_friction();
     for link in &mut empty.links {
@@ -213,7 +209,6 @@ fn without_bodies<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
     empty
 }
 
-/// Returns the torques of a body by itself.
 fn of_body<S: Scalar>(
     empty: &Arm<S>,
     joint: usize,

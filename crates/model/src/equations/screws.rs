@@ -7,9 +7,8 @@ use crate::scalar::Scalar;
 /// A velocity, acceleration or virtual displacement of a frame.
 #[derive(Clone, Debug)]
 pub(super) struct Twist<S> {
-    /// Angular part.
     pub(super) turn: Vector<S>,
-    /// That of the frame's origin.
+    /// The linear part, of the frame's origin.
     pub(super) shift: Vector<S>,
 }
 
@@ -23,7 +22,6 @@ pub struct Wrench<S> {
 }
 
 impl<S: Scalar> Twist<S> {
-    /// Returns that of a frame at rest.
     pub(super) fn rest() -> Self {
         Twist {
             turn: zero_vector(),
@@ -31,7 +29,6 @@ impl<S: Scalar> Twist<S> {
         }
     }
 
-    /// Returns that of a joint that moves about or along an axis through the origin.
     pub(super) fn of_joint(kind: JointKind, axis: Vector<S>) -> Self {
         let rest = Twist::rest();
         match kind {
@@ -43,7 +40,6 @@ impl<S: Scalar> Twist<S> {
         }
     }
 
-    /// Returns both together.
     pub(super) fn with(&self, other: &Self) -> Self {
         Twist {
             turn: sum(&self.turn, &other.turn),
@@ -51,7 +47,6 @@ impl<S: Scalar> Twist<S> {
         }
     }
 
-    /// Returns twice as fast.
     pub(super) fn doubled(&self) -> Self {
         Twist {
             turn: self.turn.each_ref().map(twice),
@@ -59,7 +54,6 @@ impl<S: Scalar> Twist<S> {
         }
     }
 
-    /// Returns the rate of another that moves along with it.
     pub(super) fn cross(&self, other: &Self) -> Self {
         Twist {
             turn: cross(&self.turn, &other.turn),
@@ -72,12 +66,10 @@ impl<S: Scalar> Twist<S> {
 }
 
 impl<S: Scalar> Wrench<S> {
-    /// Returns nothing.
     pub(super) fn zero() -> Self {
         Wrench::couple(zero_vector())
     }
 
-    /// Returns a moment without a force.
     pub(super) fn couple(moment: Vector<S>) -> Self {
         Wrench {
             force: zero_vector(),
@@ -85,7 +77,6 @@ impl<S: Scalar> Wrench<S> {
         }
     }
 
-    /// Returns the part that a joint feels along its axis.
     pub(super) fn part(&self, kind: JointKind) -> &Vector<S> {
         match kind {
             JointKind::Revolute => &self.moment,
@@ -112,7 +103,6 @@ impl<S: Scalar> Wrench<S> {
         }
     }
 
-    /// Returns both together.
     pub(super) fn with(&self, other: &Self) -> Self {
         Wrench {
             force: sum(&self.force, &other.force),
@@ -120,7 +110,6 @@ impl<S: Scalar> Wrench<S> {
         }
     }
 
-    /// Returns it times a factor.
     pub(super) fn scaled(&self, factor: &S) -> Self {
         Wrench {
             force: scaled(factor, &self.force),
@@ -128,7 +117,6 @@ impl<S: Scalar> Wrench<S> {
         }
     }
 
-    /// Returns it in the axes that vectors turn into like this.
     pub(super) fn in_axes(&self, turn: impl Fn(&Vector<S>) -> Vector<S>) -> Self {
         Wrench {
             force: turn(&self.force),

@@ -26,18 +26,15 @@ use crate::robot::JointKind;
 use crate::scalar::Scalar;
 use crate::scalar::dual::Dual;
 
-/// Returns λᵀx
 fn weighed<'a, S: Scalar + 'a>(multiplier: &[S], values: impl Iterator<Item = &'a S>) -> S {
     total(multiplier.iter().zip(values).map(|(l, x)| times(l, x)))
 }
 
-/// Returns the rates of λᵀM, column by column.
 fn rates_of<S: Scalar>(multiplier: &[S], matrix: &[Vec<Dual<S>>]) -> Vec<S> {
     let column = |j: usize| weighed(multiplier, matrix.iter().map(|row| &row[j].rate));
     (0..matrix.len()).map(column).collect()
 }
 
-/// Returns all four by the composite bodies of the arm's chain, in base parameters.
 fn by_composites<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],

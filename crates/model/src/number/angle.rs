@@ -60,9 +60,8 @@ impl Angle {
         }
     }
 
-    /// Returns the angle in the form that compares equal whenever the
-    /// value does: zero radians become zero times π. (No other rational number
-    /// of radians is a rational multiple of π.)
+    /// Returns the angle in the form that compares equal whenever the value does: zero radians
+    /// become zero times π. (No other rational number of radians is a rational multiple of π.)
     #[must_use]
     pub fn canonical(self) -> Self {
         if self.is_zero() {
@@ -81,8 +80,7 @@ impl Angle {
         }
     }
 
-    /// Returns n mod 4 if the angle is exactly n·π/2, so that its sine and cosine are
-    /// 0, 1 or −1.
+    /// Returns n mod 4 if the angle is exactly n·π/2, so that its sine and cosine are 0, 1 or −1.
     pub fn quarter_turns(&self) -> Option<u8> {
         match self {
             Angle::PiTimes(value) => {
@@ -112,14 +110,12 @@ impl Angle {
     /// Compares the two values, whatever their forms.
     pub fn cmp_value(&self, other: &Self) -> Ordering {
         match (self, other) {
-            // The same π on both sides: exact.
             (Angle::PiTimes(left), Angle::PiTimes(right)) => left.cmp(right),
             _ => self.radians().cmp(&other.radians()),
         }
     }
 
-    /// Reads the text forms: `"[-][k*]pi[/m]"`, `"90deg"`, and a fraction of
-    /// radians, `"1/3"`.
+    /// Reads the text forms: `"[-][k*]pi[/m]"`, `"90deg"`, and a fraction of radians, `"1/3"`.
     ///
     /// # Errors
     /// [`NumberError`] if it is none of them.
@@ -264,8 +260,7 @@ impl Snapped {
     }
 }
 
-/// Returns π to 400 bits: enough to round any angle of a robot file to a double and
-/// to order any two that are not absurdly close.
+/// 400 bits round any angle of a robot file, and order any two that are not absurdly close.
 fn pi() -> Rational {
     const BITS: usize = 400;
     Rational::new(pi::pi(BITS), BigInt::one() << BITS)

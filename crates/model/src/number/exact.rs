@@ -1,11 +1,9 @@
-//! Constants, exact to the end: polynomials over ℚ in the sines and cosines
-//! of constant angles.
+//! Constants, exact to the end: polynomials over ℚ in the sines and cosines of constant angles.
 //!
-//! Every angle that is no multiple of π/2 contributes two generators, its
-//! sine and its cosine, with the one relation s² = 1 − c². Relations between
-//! different angles (sin π/3 and cos π/6 are the same generator, but 2·cos²
-//! π/6 − 1 = sin π/6 is not known) are lost, never wrongly assumed: two equal
-//! constants may look different, two different ones never look equal.
+//! Every angle that is no multiple of π/2 contributes two generators, its sine and its cosine, with
+//! the one relation s² = 1 − c². Relations between different angles (sin π/3 and cos π/6 are the
+//! same generator, but 2·cos² π/6 − 1 = sin π/6 is not known) are lost, never wrongly assumed: two
+//! equal constants may look different, two different ones never look equal.
 
 use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
@@ -55,8 +53,8 @@ impl PartialOrd for Form {
     }
 }
 
-/// Compares and hashes of a rational its reduced numerator and denominator: its own comparison
-/// and hash go through the steps of a division, since they do not count on them being reduced.
+/// The comparison and the hash of a rational go through the steps of a division, since they do not
+/// count on reduced parts.
 fn parts(value: &Rational) -> (&BigInt, &BigInt) {
     (value.numer(), value.denom())
 }
@@ -130,8 +128,7 @@ pub struct Extent {
     pub angles: u64,
     /// The largest degree of a monomial in sines and cosines.
     pub degree: u64,
-    /// The most bits of a coefficient or an angle, numerator and denominator
-    /// together.
+    /// The most bits of a coefficient or an angle, numerator and denominator together.
     pub bits: u64,
 }
 
@@ -195,9 +192,8 @@ impl Exact {
         }
     }
 
-    /// Returns whether the leading coefficient is negative: the sign that
-    /// canonical forms pull out (for a polynomial not necessarily that of the
-    /// value).
+    /// Returns whether the leading coefficient is negative: the sign that canonical forms pull out
+    /// (for a polynomial not necessarily that of the value).
     pub fn leads_negative(&self) -> bool {
         match &self.0 {
             Form::Rational(value) => value.is_negative(),
@@ -257,7 +253,7 @@ impl Exact {
         }
     }
 
-    /// Returns every coefficient made another one; none of them zero.
+    /// `change` must not give zero for a coefficient of a polynomial.
     fn each(&self, change: impl Fn(&Rational) -> Rational) -> Exact {
         match &self.0 {
             Form::Rational(value) => Exact::from(change(value)),
@@ -389,7 +385,6 @@ fn multiply_into(
             }
         }
     }
-    // Each squared sine splits the monomial in two: 1 − c².
     let mut pending = Vec::from([(product, c.clone())]);
     while let Some((mut monomial, coefficient)) = pending.pop() {
         match monomial.iter().position(|power| power.sin == 2) {
@@ -410,11 +405,9 @@ fn multiply_into(
     }
 }
 
-/// Returns quarter turns (0 to 3), and sine and cosine of what remains: angle = turns·π/2 +
-/// remainder.
-///
-/// Multiples of π are reduced to (0, π/4], so that π/3 and π/6 share their
-/// generators; radians only lose their sign, since they are no multiple.
+/// Splits angle = turns·π/2 + remainder, 0 to 3 turns. Multiples of π are reduced to (0, π/4], so
+/// that π/3 and π/6 share their generators; radians only lose their sign, since they are no
+/// multiple.
 fn reduce(angle: &Angle) -> (u8, [Exact; 2]) {
     let generators = |angle: Angle| {
         let angle = Arc::new(angle);

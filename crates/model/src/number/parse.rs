@@ -121,7 +121,6 @@ pub fn parse_fraction(text: &str) -> Result<Rational, NumberError> {
         .ok_or(NumberError::OutOfRange)
 }
 
-/// Reads a run of digits without sign.
 pub(super) fn parse_integer(text: &str) -> Result<BigInt, NumberError> {
     if text.len() > MAX_LITERAL {
         return Err(NumberError::TooLong);
@@ -173,8 +172,7 @@ fn split_sign(text: &str) -> (bool, &str) {
     }
 }
 
-/// Returns the exponent's value; beyond ±10 000 it stays there, which is out of range
-/// for every literal that is not zero.
+/// An exponent beyond ±10 000 stays there, out of range for every literal that is not zero.
 fn parse_exponent(text: &str) -> Result<i64, NumberError> {
     let (negative, rest) = split_sign(text);
     // Too many digits for an integer are too many for a size.
@@ -182,7 +180,6 @@ fn parse_exponent(text: &str) -> Result<i64, NumberError> {
     Ok(if negative { -value } else { value })
 }
 
-/// Returns the digits of a run that has underscores only between digits.
 fn digits(run: &str) -> Result<String, NumberError> {
     let good = run.split('_').all(|part| !part.is_empty())
         && run.bytes().all(|b| b.is_ascii_digit() || b == b'_');
@@ -190,7 +187,6 @@ fn digits(run: &str) -> Result<String, NumberError> {
         .ok_or(NumberError::Malformed)
 }
 
-/// Returns the number of these digits; leading zeros do not count.
 fn integer(digits: String) -> Result<BigInt, NumberError> {
     match digits.trim_start_matches('0') {
         "" => Ok(BigInt::zero()),
@@ -199,11 +195,9 @@ fn integer(digits: String) -> Result<BigInt, NumberError> {
     }
 }
 
-/// Writes a number so that it reads back exactly: a decimal where there is
-/// one, else `None`.
+/// Writes a number so that it reads back exactly: a decimal where there is one, else `None`.
 ///
-/// Integers that a 64-bit reader would refuse, and numbers with many zeros,
-/// get an exponent.
+/// Integers that a 64-bit reader would refuse, and numbers with many zeros, get an exponent.
 pub fn write_decimal(value: &Rational) -> Option<String> {
     if value.is_zero() {
         return Some("0".to_string());
@@ -227,7 +221,6 @@ pub fn write_decimal(value: &Rational) -> Option<String> {
     let digits = digits.to_string();
     let kept = digits.trim_end_matches('0');
     let sign = if value.is_negative() { "-" } else { "" };
-    // The exponent of the leading digit.
     let lead = digits.len() as i64 - 1 - i64::from(places);
     let text = if !(-5..=15).contains(&lead) {
         let (first, rest) = kept.split_at(1);

@@ -3,7 +3,6 @@
 use num_bigint::{BigInt, Sign};
 use num_traits::{One, Zero};
 
-/// The bits of π behind the point that are kept.
 const KEPT: usize = 512;
 
 /// ⌊π·2^512⌋, the least significant words first.
@@ -27,8 +26,7 @@ const PI: [u32; 17] = [
     0x0000_0003,
 ];
 
-/// Returns π·2^w. Series of some hundred bits are asked for thousands of times, so as many
-/// are kept.
+/// Series of some hundred bits are asked for thousands of times, so as many are kept.
 pub(super) fn pi(w: usize) -> BigInt {
     match KEPT.checked_sub(w) {
         Some(more) => BigInt::from_slice(Sign::Plus, &PI) >> more,

@@ -1,5 +1,4 @@
-//! The numbers that were meant, from what a computation in wide floats made of
-//! them.
+//! The numbers that were meant, from what a computation in wide floats made of them.
 //!
 //! Geometry needs roots and arcs, which exact constants have not. But where the
 //! result of a computation with 256 bits is within 2⁻²⁰⁰ of a simple fraction,
@@ -34,9 +33,8 @@ pub fn recovered(value: &Wide, size: &Rational) -> Rational {
 }
 
 impl Angle {
-    /// Returns the angle whose sine and cosine are in this ratio, in (−π, π]: a multiple
-    /// of π or a number of radians that was meant, or radians rounded to 20
-    /// digits. Zero for two zeros.
+    /// Returns the angle whose sine and cosine are in this ratio, in (−π, π]: a multiple of π or a
+    /// number of radians that was meant, or radians rounded to 20 digits. Zero for two zeros.
     pub fn recovered(sin: &Wide, cos: &Wide) -> Angle {
         let radians = arc(sin, cos);
         let pi = Angle::PiTimes(Rational::one()).radians();
@@ -50,8 +48,7 @@ impl Angle {
     }
 }
 
-/// Returns the first convergent of the continued fraction that is this near, if its
-/// denominator is simple.
+/// Takes the first convergent of the continued fraction that is this near, if it is simple.
 fn simple(value: &Rational, near: &Rational) -> Option<Rational> {
     // Euclid's algorithm on integers: fractions would be cancelled at every step.
     let (numer, denom) = (value.numer(), value.denom());
@@ -65,7 +62,6 @@ fn simple(value: &Rational, near: &Rational) -> Option<Rational> {
         if q.bits() > SIMPLE {
             return None;
         }
-        // |p/q − value| ≤ near
         let off = (p * denom - numer * q).abs();
         if off * near.denom() <= near.numer() * q * denom {
             return Some(Rational::new(p.clone(), q.clone()));
@@ -149,7 +145,6 @@ mod tests {
             Angle::recovered(&Wide::zero(), &Wide::zero()),
             Angle::default()
         );
-        // π from either side.
         let tiny = Wide::from_rational(&Rational::new(1.into(), BigInt::one() << 240));
         let back = Wide::one().neg();
         let half_turn = Angle::right_angles(2);

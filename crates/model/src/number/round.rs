@@ -100,7 +100,6 @@ fn divide(n: &BigInt, d: &BigInt, unit: i64) -> (BigInt, core::cmp::Ordering) {
     (quotient, (rest << 1u32).cmp(&d))
 }
 
-/// Returns x·2^e, exact where the result is representable.
 fn scale(mut x: f64, mut e: i64) -> f64 {
     let power = |e: i64| f64::from_bits(((e + 1023) as u64) << 52);
     while e < -1000 {

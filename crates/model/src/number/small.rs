@@ -9,7 +9,6 @@ use num_traits::Zero;
 
 use super::Rational;
 
-/// Returns a · b
 pub(super) fn product(a: &Rational, b: &Rational) -> Rational {
     let (Some((p, q)), Some((r, s))) = (words(a), words(b)) else {
         return a * b;
@@ -25,7 +24,6 @@ pub(super) fn product(a: &Rational, b: &Rational) -> Rational {
     Rational::new_raw(BigInt::from(numerator), BigInt::from(denominator))
 }
 
-/// Returns a + b
 pub(super) fn sum(a: &Rational, b: &Rational) -> Rational {
     let (Some((p, q)), Some((r, s))) = (words(a), words(b)) else {
         return a + b;
@@ -42,7 +40,6 @@ pub(super) fn sum(a: &Rational, b: &Rational) -> Rational {
     )
 }
 
-/// Returns a against b
 pub(super) fn compare(a: &Rational, b: &Rational) -> Ordering {
     match (words(a), words(b)) {
         // Denominators are above zero.
@@ -52,7 +49,6 @@ pub(super) fn compare(a: &Rational, b: &Rational) -> Ordering {
     }
 }
 
-/// Returns the nearest double, if numerator and denominator are doubles: their quotient.
 pub(super) fn nearest_double(a: &Rational) -> Option<f64> {
     const EXACT: i128 = 1 << f64::MANTISSA_DIGITS;
     let (p, q) = words(a)?;
@@ -68,7 +64,6 @@ fn words(x: &Rational) -> Option<(i128, i128)> {
     Some((word(x.numer())?, word(x.denom())?))
 }
 
-/// Returns the greatest common divisor; where both fit, in half as wide words.
 fn common(a: i128, b: i128) -> i128 {
     match (i64::try_from(a), i64::try_from(b)) {
         (Ok(a), Ok(b)) => a.gcd(&b).into(),
@@ -83,8 +78,6 @@ mod tests {
     use crate::scalar::field::Points;
     use alloc::vec::Vec;
 
-    /// What words compute is what big integers do, in the same form, up to the
-    /// largest.
     #[test]
     fn words_and_big_integers_agree() {
         let mut points = Points::new(1);

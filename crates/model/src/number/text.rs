@@ -64,7 +64,6 @@ const MAX_BYTES: usize = 1 << 16;
 impl FromStr for Exact {
     type Err = NotExact;
 
-    /// Reads what [`fmt::Display`] writes.
     fn from_str(text: &str) -> Result<Self, NotExact> {
         if text.len() > MAX_BYTES {
             return Err(NotExact);

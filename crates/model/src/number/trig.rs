@@ -49,7 +49,6 @@ pub(super) fn sin_cos(angle: &Angle, w: usize) -> (BigInt, BigInt) {
     }
 }
 
-/// Computes Taylor series for |x| ≤ 0.8, scaled by 2^w.
 fn series(x: &BigInt, w: usize) -> (BigInt, BigInt) {
     let mut term = BigInt::one() << w;
     let (mut sin, mut cos) = (BigInt::zero(), term.clone());

@@ -1,10 +1,9 @@
 //! Outputs at a frame, in chosen axes and components: `jacobian@camera:local:linear`.
 //!
-//! A text is an output's name, `@` and a frame's, then words with `:` before each: the
-//! [`Axes`], and the [`Rows`] if not all six are wanted. In generated code the signs are
-//! `_`, `jacobian_camera_local_linear`. The frame is a part of what the output is, so
-//! whoever asks an output for its name, its shape or its formula need not know that it
-//! has one.
+//! A text is an output's name, `@` and a frame's, then words with `:` before each: the [`Axes`],
+//! and the [`Rows`] if not all six are wanted. In generated code the signs are `_`,
+//! `jacobian_camera_local_linear`. The frame is a part of what the output is, so whoever asks an
+//! output for its name, its shape or its formula need not know that it has one.
 
 use alloc::boxed::Box;
 use alloc::format;
@@ -20,9 +19,7 @@ use super::{Axis, Function, Quantity, Regrouped, Shape, Written};
 use crate::equations::frames::{Axes, Rows, View};
 use crate::scalar::Divide;
 
-/// The sign before a frame's name.
 const AT: char = '@';
-/// The sign before a word.
 const OF: char = ':';
 
 /// A quantity at a frame. What it says of itself is kept for as long as the process runs,
@@ -30,7 +27,6 @@ const OF: char = ':';
 #[derive(Clone, Copy, Debug)]
 pub struct QuantityAt(&'static Viewed);
 
-/// A quantity, how it is seen, and what it says of itself.
 #[derive(Debug)]
 struct Viewed {
     quantity: Quantity,
@@ -62,8 +58,7 @@ impl QuantityAt {
         &self.0.facts
     }
 
-    /// Computes something of the arm whose hand is the frame; nothing where the robot has no such
-    /// frame, which whoever generates refuses before.
+    /// Empty if the robot has no such frame, which generation refuses before.
     fn of_frame<S: Divide>(
         self,
         at: &Written<'_, S>,
@@ -128,8 +123,6 @@ impl Ord for QuantityAt {
 }
 
 impl Function {
-    /// Returns the same output at a frame, in these axes and components; an error if the output
-    /// has no frame or no axes, or the name is not valid.
     fn at(
         function: Function,
         frame: &str,
@@ -182,7 +175,6 @@ impl Function {
         })))
     }
 
-    /// Returns the output of a text with a frame.
     pub(super) fn parse_at(text: &str) -> Result<Function, BundleError> {
         let (name, rest) = text.split_once(AT).unwrap_or((text, ""));
         let name = name.trim();
@@ -210,12 +202,10 @@ impl Function {
         Function::at(function, frame, axes, rows)
     }
 
-    /// Returns whether a text is of an output at a frame.
     pub(super) fn is_at(text: &str) -> bool {
         text.contains([AT, OF])
     }
 
-    /// Returns the text of an output at a frame, without spaces.
     pub(super) fn text_at(self) -> Option<String> {
         let Some(Quantity::At(at)) = self.quantities().first() else {
             return None;
@@ -238,12 +228,10 @@ impl Function {
     }
 }
 
-/// Returns the frame of a view and its words.
 fn words(view: View) -> String {
     format!("{}{}", view.frame, suffix(view.axes, view.rows, OF))
 }
 
-/// Returns the words of axes and components, each with a sign before it.
 fn suffix(axes: Axes, rows: Rows, sign: char) -> String {
     let mut text = String::new();
     let axes: Option<String> = (axes != Axes::Mixed).then(|| axes.word().to_string());
@@ -255,7 +243,6 @@ fn suffix(axes: Axes, rows: Rows, sign: char) -> String {
     text
 }
 
-/// Returns a view in words.
 fn described(view: View) -> String {
     let axes = match view.axes {
         Axes::Mixed => "",
@@ -272,7 +259,6 @@ fn described(view: View) -> String {
     format!("At frame `{}`{axes}{rows}.", view.frame)
 }
 
-/// Returns a quantity at a frame.
 fn seen(quantity: Quantity, view: View) -> Quantity {
     let of = quantity.facts();
     let at = words(view);
@@ -320,7 +306,6 @@ mod tests {
         let spaced = Function::parse(" jacobian @ camera : angular : local ").unwrap();
         assert_eq!(spaced.text(), "jacobian@camera:local:angular");
         assert_eq!(spaced.quantities()[0].shape().0[0], Axis::Fixed(3));
-        // Mixed axes and six components are what is meant without words.
         assert_eq!(
             Function::parse("jacobian@a:mixed:x_y_z_rx_ry_rz").map(Function::text),
             Ok("jacobian@a".to_string())

@@ -14,16 +14,13 @@ use crate::equations::matrix::{minus, plus, products};
 use crate::equations::operational::damped;
 use crate::scalar::{Divide, Scalar};
 
-/// τ_i
 pub(super) struct ContactTorque;
 
-/// Returns Jᵀ w over all joints of the arm.
 pub(super) fn of_wrench<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
     at.formulation
         .torques_of_wrench(at.arm, at.at, &at.motion.wrench)
 }
 
-/// Returns a − b
 pub(super) fn less<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
     a.iter().zip(b).map(|(a, b)| minus(a, b)).collect()
 }
@@ -66,10 +63,8 @@ impl Formula for ContactTorque {
     }
 }
 
-/// q̈_i
 pub(super) struct ContactAcceleration;
 
-/// Returns a + b
 fn added<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
     a.iter().zip(b).map(|(a, b)| plus(a, b)).collect()
 }
@@ -104,7 +99,6 @@ impl Formula for ContactAcceleration {
             .forward_dynamics(at.arm, at.at, &motion.qd, &tau, &motion.moves)
     }
 
-    /// Returns inverse dynamics of the motion less τ and Jᵀw, of the joints that move.
     fn residual<S: Divide>(at: &Written<'_, S>, qdd: &[S]) -> Vec<S> {
         rest(at, qdd, &added(&at.motion.tau, &of_wrench(at)))
     }
@@ -123,7 +117,7 @@ impl Formula for ContactAcceleration {
     }
 }
 
-/// ŵ_r: the wrench that torques of it alone say, such as those that an observer of momentum finds.
+/// The wrench that torques of it alone say, such as those that an observer of momentum finds.
 pub(super) struct ContactWrench;
 
 impl Formula for ContactWrench {

@@ -1,4 +1,4 @@
-//! D^rot, D^tran, h^rot, h^tran and c of generalized D'Alembert (eqs. 4.2–4.5).
+//! D^rot, D^tran, h^rot and h^tran of generalized D'Alembert (eqs. 4.2–4.5).
 
 use alloc::vec::Vec;
 
@@ -8,7 +8,6 @@ use super::{Argument, ErrorScale, PayloadDependence, Shape, Written};
 use crate::equations::dalembert::Part;
 use crate::scalar::Divide;
 
-/// D^rot_ik
 pub(super) struct RotationInertia;
 
 impl Formula for RotationInertia {
@@ -30,7 +29,6 @@ impl Formula for RotationInertia {
     }
 }
 
-/// D^tran_ik
 pub(super) struct TranslationInertia;
 
 impl Formula for TranslationInertia {
@@ -47,7 +45,6 @@ impl Formula for TranslationInertia {
     }
 }
 
-/// h^rot_i
 pub(super) struct RotationCoriolis;
 
 impl Formula for RotationCoriolis {
@@ -70,7 +67,6 @@ impl Formula for RotationCoriolis {
     }
 }
 
-/// h^tran_i
 pub(super) struct TranslationCoriolis;
 
 impl Formula for TranslationCoriolis {

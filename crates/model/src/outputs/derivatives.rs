@@ -14,7 +14,6 @@ use crate::equations::following::{gathered_columns, spread};
 use crate::equations::forward::{against, free};
 use crate::scalar::Divide;
 
-/// ∂τ_i/∂q_k
 pub(super) struct TorqueByPosition;
 
 impl Formula for TorqueByPosition {
@@ -46,7 +45,6 @@ impl Formula for TorqueByPosition {
     }
 }
 
-/// ∂τ_i/∂q̇_k
 pub(super) struct TorqueByVelocity;
 
 impl Formula for TorqueByVelocity {
@@ -79,16 +77,12 @@ impl Formula for TorqueByVelocity {
 
 const STATE: &[Argument] = &[Argument::Position, Argument::Velocity, Argument::Torque];
 
-/// ∂q̈_i/∂q_k
 pub(super) struct AccelerationByPosition;
 
-/// ∂q̈_i/∂q̇_k
 pub(super) struct AccelerationByVelocity;
 
-/// ∂q̈_i/∂τ_k
 pub(super) struct AccelerationByTorque;
 
-/// Computes them by position and by velocity, of the joints that move.
 fn slopes<S: Divide>(at: &Regrouped<'_, S>) -> [Vec<S>; 2] {
     let (motion, form) = (at.motion, at.form);
     let qdd = spread(at.following, accelerations(at, Unknowns::Joints));
@@ -145,7 +139,6 @@ impl Formula for AccelerationByPosition {
         position
     }
 
-    /// Returns D ∂q̈/∂q + ∂τ/∂q at the motion that τ brings about.
     fn residual<S: Divide>(at: &Written<'_, S>, values: &[S]) -> Vec<S> {
         let (form, motion) = (at.formulation, at.motion);
         let qdd = form.forward_dynamics(at.arm, at.at, &motion.qd, &motion.tau, &motion.moves);
@@ -181,7 +174,6 @@ impl Formula for AccelerationByVelocity {
         velocity
     }
 
-    /// Returns D ∂q̈/∂q̇ + ∂τ/∂q̇
     fn residual<S: Divide>(at: &Written<'_, S>, values: &[S]) -> Vec<S> {
         let form = at.formulation;
         let slopes = form.torque_by_velocity(at.arm, at.at, &at.motion.qd);

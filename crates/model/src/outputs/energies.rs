@@ -11,7 +11,6 @@ use crate::equations::friction::Friction;
 use crate::equations::matrix::{halved, minus, times, total};
 use crate::scalar::{Divide, Scalar};
 
-/// T
 pub(super) struct KineticEnergy;
 
 impl Formula for KineticEnergy {
@@ -34,7 +33,6 @@ impl Formula for KineticEnergy {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        // Link by link, or from the momenta.
         let (chain, qd) = (at.chain, &at.motion.qd);
         Some(vec![match at.form.travel {
             CompositeOrder::Outward => chain.kinetic_energy(at.at, qd),
@@ -46,7 +44,6 @@ impl Formula for KineticEnergy {
     }
 }
 
-/// U
 pub(super) struct PotentialEnergy;
 
 impl Formula for PotentialEnergy {
@@ -69,7 +66,6 @@ impl Formula for PotentialEnergy {
     }
 }
 
-/// p_i
 pub(super) struct Momentum;
 
 impl Formula for Momentum {
@@ -98,7 +94,6 @@ impl Formula for Momentum {
     }
 }
 
-/// (Cᵀq̇)_i
 pub(super) struct MomentumSlope;
 
 impl Formula for MomentumSlope {
@@ -126,7 +121,6 @@ impl Formula for MomentumSlope {
 /// hybrid force/motion control", 2005).
 pub(super) struct MomentumDrift;
 
-/// Returns Cᵀq̇ − c less the torques of friction.
 fn drift<'a, S: Scalar + 'a>(
     slope: Vec<S>,
     gravity: Vec<S>,

@@ -17,7 +17,6 @@ use crate::scalar::{Divide, Scalar};
 
 /// A quantity: what it is, and its formulas, each over any scalar.
 pub(super) trait Formula {
-    /// The value itself.
     const FACTS: Facts;
 
     /// Computes it by a textbook formulation: what everything else is proved against.
@@ -39,9 +38,8 @@ pub(super) trait Formula {
         }
     }
 
-    /// Returns what vanishes if these entries over all joints are the
-    /// quantity's, by an equation that it solves; nothing where
-    /// [`Formula::written`] says what it is.
+    /// Returns what vanishes if these entries over all joints are the quantity's, by an equation
+    /// that it solves; nothing where [`Formula::written`] says what it is.
     fn residual<S: Divide>(_: &Written<'_, S>, _: &[S]) -> Vec<S> {
         Vec::new()
     }
@@ -206,18 +204,15 @@ pub struct Regrouped<'a, S> {
 }
 
 impl<S: Scalar> Regrouped<'_, S> {
-    /// Returns D of the chain, gathered at the leaders of joints that follow.
     pub(super) fn gathered_inertia(&self) -> Vec<Vec<S>> {
         gathered_square(self.following, self.composite.inertia(self.form.travel))
     }
 
-    /// Values over all joints of the arm, over those of the chain.
     pub(super) fn pick(&self, values: &[S]) -> Vec<S> {
         picked(values, self.joints)
     }
 }
 
-/// Returns the values of these joints.
 fn picked<T: Clone>(values: &[T], joints: &[usize]) -> Vec<T> {
     joints.iter().map(|&joint| values[joint].clone()).collect()
 }

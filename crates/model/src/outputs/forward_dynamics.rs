@@ -13,10 +13,9 @@ use crate::equations::forward::{free, inverted, solved};
 use crate::equations::matrix::zeros;
 use crate::scalar::Divide;
 
-/// q̈_i
 pub(super) struct Acceleration;
 
-/// Returns q̈ of a chain: a last joint that nothing depends on first, D of the others.
+/// A last joint that nothing depends on comes first, then D of the others.
 pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>, unknowns: Unknowns) -> Vec<S> {
     let motion = at.motion;
     if !at.following.is_empty() {
@@ -43,7 +42,6 @@ pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>, unknowns: Unknowns
         .accelerations(&d, [&bias, &motion.tau], &motion.moves, unknowns)
 }
 
-/// Returns inverse dynamics of a motion less τ, of the joints that move by themselves.
 pub(super) fn rest<S: Divide>(at: &Written<'_, S>, qdd: &[S], tau: &[S]) -> Vec<S> {
     let (form, motion) = (at.formulation, at.motion);
     let qdd = spread(&at.arm.following, qdd.to_vec());
@@ -80,7 +78,6 @@ impl Formula for Acceleration {
             .forward_dynamics(at.arm, at.at, &motion.qd, &motion.tau, &motion.moves)
     }
 
-    /// Returns inverse dynamics of the motion less τ, of the joints that move.
     fn residual<S: Divide>(at: &Written<'_, S>, qdd: &[S]) -> Vec<S> {
         rest(at, qdd, &at.motion.tau)
     }
@@ -90,10 +87,8 @@ impl Formula for Acceleration {
     }
 }
 
-/// (D⁻¹)_ik
 pub(super) struct InertiaInverse;
 
-/// Returns D⁻¹ of a chain: a last joint that nothing depends on first, D of the others.
 pub(super) fn inverse<S: Divide>(at: &Regrouped<'_, S>) -> Vec<Vec<S>> {
     let (moves, travel) = (&at.motion.moves, at.form.travel);
     match EliminatedTip::new(&at.composite, moves).filter(|_| at.following.is_empty()) {

@@ -19,16 +19,12 @@ use crate::equations::matrix::products;
 use crate::equations::second_derivatives::OfAccelerations;
 use crate::scalar::Divide;
 
-/// ∂²(λᵀq̈)/∂q_i∂q_k
 pub(super) struct AccelerationByPositions;
 
-/// ∂²(λᵀq̈)/∂q_i∂q̇_k
 pub(super) struct AccelerationByPositionAndVelocity;
 
-/// ∂²(λᵀq̈)/∂q̇_i∂q̇_k
 pub(super) struct AccelerationByVelocities;
 
-/// ∂(D⁻¹λ)_i/∂q_k
 pub(super) struct AccelerationByTorqueAndPosition;
 
 /// D⁻¹ as written, and μ = D⁻¹λ.
@@ -57,7 +53,6 @@ impl<S: Divide> Inverted<S> {
     }
 }
 
-/// Returns all four of the chain.
 fn regrouped<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S> {
     let (motion, travel) = (at.motion, at.form.travel);
     let all = || {

@@ -20,7 +20,6 @@ use crate::equations::regressor::Column;
 use crate::equations::{Arm, Formulation};
 use crate::scalar::Divide;
 
-/// The definition of a function by its row, or of a bundle.
 #[derive(Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Definition {
     /// Its name in generated code, on the command line and in the macro.
@@ -38,8 +37,6 @@ pub(super) struct Definition {
 }
 
 impl Definition {
-    /// Returns the definition of a function that returns its own quantities; several of them in
-    /// a struct of its name in Rust.
     pub(super) const fn of(
         name: &'static str,
         in_rust: &'static str,
@@ -63,15 +60,13 @@ impl Definition {
 
 /// A function that a user puts together: of the results of several others, or at a frame.
 ///
-/// What it says of itself is kept for as long as the process runs: so a function
-/// is as small a value as a case of an enumeration, and a process names few. Two
-/// are equal if they say the same.
+/// What it says of itself is kept for as long as the process runs: so a function is as small a
+/// value as a case of an enumeration, and a process names few. Two are equal if they say the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Made(pub(super) &'static Definition);
 
 impl Made {
-    /// Makes the function of a text, or returns the one that was made of it before: a process that
-    /// loads a robot again and again does not grow. Without `std` nothing is remembered.
+    /// Remembered by text, so that loading a robot again leaks nothing; not without `std`.
     pub(super) fn once(text: String, make: impl FnOnce() -> Definition) -> Made {
         let made = || Made(Box::leak(Box::new(make())));
         #[cfg(feature = "std")]

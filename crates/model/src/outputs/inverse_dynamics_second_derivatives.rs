@@ -9,19 +9,14 @@ use super::{Argument, PayloadDependence, Regrouped, Shape, Written};
 use crate::equations::chain::second_derivatives::SecondDerivatives;
 use crate::scalar::Divide;
 
-/// ∂²(λᵀτ)/∂q_i∂q_k
 pub(super) struct TorqueByPositions;
 
-/// ∂²(λᵀτ)/∂q_i∂q̇_k
 pub(super) struct TorqueByPositionAndVelocity;
 
-/// ∂²(λᵀτ)/∂q̇_i∂q̇_k
 pub(super) struct TorqueByVelocities;
 
-/// ∂(D λ)_i/∂q_k
 pub(super) struct TorqueByAccelerationAndPosition;
 
-/// Returns all four of the chain.
 fn regrouped<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S> {
     let motion = at.motion;
     let given = [&motion.qd[..], &motion.qdd, &motion.multiplier];
@@ -29,7 +24,6 @@ fn regrouped<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S
     at.shared[0].get_or_init(all)
 }
 
-/// The facts of all second derivatives, as far as they are the same.
 pub(super) const SHARED: Facts = Facts {
     shape: Shape::MATRIX,
     choices: Some(&[Choice::Travel]),

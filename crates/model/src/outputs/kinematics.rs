@@ -57,7 +57,6 @@ impl Formula for LinkPoses {
     }
 }
 
-/// J_rk
 pub(super) struct Jacobian;
 
 impl Formula for Jacobian {
@@ -83,7 +82,6 @@ impl Formula for Jacobian {
     }
 }
 
-/// (J̇ q̇)_r
 pub(super) struct JacobianRate;
 
 impl Formula for JacobianRate {

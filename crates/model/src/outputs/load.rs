@@ -13,7 +13,6 @@ use super::{Argument, Axis, Shape, Written};
 use crate::equations::load::Loading;
 use crate::scalar::Divide;
 
-/// The base parameters that a payload changes.
 pub(super) struct Load;
 
 impl Formula for Load {

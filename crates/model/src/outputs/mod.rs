@@ -12,10 +12,9 @@
 //! - `formula`: what is said of a quantity, and what its formulas are given
 //! - the others: quantities that belong together
 //!
-//! Readers of robot files and macros, scenes, traces, proofs, printing, reading
-//! back and the checks in floating point all ask here; none of them knows an
-//! output by name. To add one: write its quantity in one of these files, or in one of its own,
-//! and add its row below.
+//! Readers of robot files and macros, scenes, traces, proofs, printing, reading back and the checks
+//! in floating point all ask here; none of them knows an output by name. To add one: write its
+//! quantity in one of these files, or in one of its own, and add its row below.
 
 mod argument;
 mod at;

@@ -15,10 +15,8 @@ use crate::equations::matrix::zeros;
 use crate::equations::operational::{NormalEquations, TaskSpace, driven_by};
 use crate::scalar::Divide;
 
-/// (Λ⁻¹)_rs: the acceleration of the hand under a unit wrench.
 pub(super) struct OperationalInertiaInverse;
 
-/// The facts of most quantities of the hand.
 pub(super) const OF_HAND: Facts = Facts {
     choices: Some(&[Choice::Travel]),
     hand: HandChoice::Axes,
@@ -29,19 +27,16 @@ pub(super) const OF_HAND: Facts = Facts {
     ..Facts::PLAIN
 };
 
-/// Returns what follows from J and D by the textbook.
 pub(super) fn written_space<S: Divide>(at: &Written<'_, S>) -> TaskSpace<S> {
     at.formulation.task_space(at.arm, at.at, &at.motion.moves)
 }
 
-/// Returns the hand of the arm, seen as the form says.
 pub(super) fn hand<'a, S: Divide>(at: &Regrouped<'a, S>) -> Option<SeenHand<'a, S>> {
     let whole = at.textbook.as_ref()?;
     let arm = (whole.arm, whole.at);
     Some(SeenHand::new(whole.formulation, arm, at.form.hand.axes))
 }
 
-/// Returns J′ over the joints of the chain, gathered at the leaders of those that follow.
 pub(super) fn chain_jacobian<S: Divide>(
     at: &Regrouped<'_, S>,
     hand: &SeenHand<'_, S>,
@@ -51,18 +46,15 @@ pub(super) fn chain_jacobian<S: Divide>(
     gathered_rows(at.following, rows.collect())
 }
 
-/// Returns the factors of D over the joints of the chain that move.
 pub(super) fn factor<S: Divide>(at: &Regrouped<'_, S>) -> Factor<S> {
     let d = at.gathered_inertia();
     Factor::new(&submatrix(&d, &free(&at.motion.moves)))
 }
 
-/// Returns what follows from J′ and D's factors.
 pub(super) fn space<S: Divide>(at: &Regrouped<'_, S>, hand: &SeenHand<'_, S>) -> TaskSpace<S> {
     TaskSpace::by_factor(chain_jacobian(at, hand), &factor(at), &at.motion.moves)
 }
 
-/// Returns J̄ and N by normal equations, if the form says so and there are such.
 pub(super) fn normal<S: Divide>(
     at: &Regrouped<'_, S>,
     hand: &SeenHand<'_, S>,
@@ -72,7 +64,6 @@ pub(super) fn normal<S: Divide>(
     NormalEquations::new(&jacobian, &inertia, &motion.damping[0], &motion.moves)
 }
 
-/// Counts how many of two components are turns: of a unit in two powers of metres.
 fn angular(at: &[Index]) -> i32 {
     let turns = |at: &Index| i32::from(matches!(at, Index::Fixed(3..) | Index::Turning));
     at.iter().map(turns).sum()
@@ -100,10 +91,8 @@ impl Formula for OperationalInertiaInverse {
     }
 }
 
-/// Λ_rs
 pub(super) struct OperationalInertia;
 
-/// Returns Λ⁻¹ + λ² 1, which all that has Λ divides by.
 pub(super) fn damped_mobility<S: Divide>(at: &Written<'_, S>) -> Vec<Vec<S>> {
     written_space(at).damped(&at.motion.damping[0])
 }
@@ -144,7 +133,6 @@ impl Formula for OperationalInertia {
     }
 }
 
-/// J̄_ir: the inverse of J that moves the hand with the least kinetic energy.
 pub(super) struct ConsistentInverse;
 
 impl Formula for ConsistentInverse {
@@ -178,7 +166,6 @@ impl Formula for ConsistentInverse {
         let sum = |products: &mut dyn Iterator<Item = S>| {
             products.fold(S::zero(), |sum, product| sum.add(&product))
         };
-        // J̄ (Λ⁻¹ + λ² 1)
         let given =
             |i: usize, r: usize| sum(&mut (0..m).map(|s| inverse[i * m + s].mul(&matrix[s][r])));
         let moving = (0..moves.len()).filter(|&i| moves[i]);
@@ -203,7 +190,6 @@ impl Formula for ConsistentInverse {
     }
 }
 
-/// μ_r: the wrench that keeps the hand's velocity while the joints are driven by nothing else.
 pub(super) struct OperationalBias;
 
 impl Formula for OperationalBias {
@@ -247,8 +233,7 @@ impl Formula for OperationalBias {
     }
 }
 
-/// N_ik: the part of a motion of the joints that the hand does not feel. Torques through Nᵀ do
-/// not accelerate it.
+/// Torques through Nᵀ do not accelerate the hand.
 pub(super) struct NullSpace;
 
 impl Formula for NullSpace {

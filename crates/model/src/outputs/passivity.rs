@@ -40,7 +40,6 @@ impl Formula for CoriolisMatrix {
     }
 }
 
-/// The arguments of it and of its regressor.
 pub(super) const ARGUMENTS: &[Argument] = &[
     Argument::Position,
     Argument::Velocity,

@@ -14,13 +14,9 @@ use crate::scalar::Scalar;
 /// What may be chosen of an output's frame; each choice includes those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) enum FrameChoice {
-    /// Nothing: it is of the joints, or of all links.
     None,
-    /// Which frame.
     Frame,
-    /// In which axes.
     Axes,
-    /// Which of six components.
     Rows,
 }
 
@@ -61,8 +57,7 @@ pub struct Facts {
     pub definite: bool,
     /// True if it exists only where D has an inverse.
     pub inverts_inertia: bool,
-    /// True if it depends on lengths that no torque depends on: where the
-    /// first joints stand.
+    /// True if it depends on lengths that no torque depends on: where the first joints stand.
     pub depends_on_base: bool,
     /// Its dependence on a payload.
     pub payload_dependence: PayloadDependence,
@@ -70,7 +65,6 @@ pub struct Facts {
     pub gravity: bool,
     /// True if joints whose axes meet at the base may be solved for as one.
     pub has_shoulder: bool,
-    /// What may be chosen of the frame that it is of.
     pub(super) frame: FrameChoice,
     /// True if an entry a joint is of the link by itself: where joints follow others there
     /// are more links than coordinates.
@@ -78,7 +72,6 @@ pub struct Facts {
 }
 
 impl Facts {
-    /// The facts of most quantities; each states the rest, and what differs.
     pub(super) const PLAIN: Facts = Facts {
         field: "",
         letter: "",
@@ -104,7 +97,6 @@ impl Facts {
         of_links: false,
     };
 
-    /// Returns its name.
     pub(super) fn symbol(&self) -> &'static str {
         match self.symbol {
             "" => self.letter,
@@ -113,7 +105,6 @@ impl Facts {
     }
 }
 
-/// An association of the chain formulas that matters to a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Choice {
     /// It comes out of the recursion over velocities.
@@ -189,8 +180,7 @@ impl Quantity {
         self.facts().frame != FrameChoice::None
     }
 
-    /// Returns whether it has something of each link by itself, which no joint that moves
-    /// others stands for.
+    /// True if it has one entry for each link.
     pub fn is_of_links(self) -> bool {
         self.facts().of_links || self.shape().0.contains(&Axis::LinkParameters)
     }
@@ -222,7 +212,6 @@ impl Quantity {
         (self.facts().unit)(&indices.collect::<Vec<_>>())
     }
 
-    /// Returns the place among six of a component of a quantity at a frame, if some were chosen.
     fn component(self, place: usize) -> usize {
         let rows = match self {
             Quantity::At(at) if self.facts().frame >= FrameChoice::Rows => at.view().rows,
@@ -275,7 +264,6 @@ impl Quantity {
         let sizes = sizes.over(to.len());
         let entry = |index: usize| {
             let axes = shape.places(index, sizes).into_iter();
-            // The place of the entry among those there are.
             let at = axes.fold(0, |at, (axis, place)| match axis {
                 Axis::Joints => at * from.len() + places[place],
                 other => at * other.length(sizes) + place,
@@ -286,7 +274,6 @@ impl Quantity {
     }
 }
 
-/// Returns a force along a joint's axis, or a torque about it.
 pub(super) fn load(at: &[Index]) -> &'static str {
     match turns(at) {
         0 => "N",
@@ -304,7 +291,6 @@ pub(super) fn kilograms(metres: i32) -> &'static str {
     }
 }
 
-/// Returns the unit where so many turn: none, one, or more.
 pub(super) fn by_turns(turns: i32, [none, one, more]: [&'static str; 3]) -> &'static str {
     match turns {
         0 => none,
@@ -313,8 +299,7 @@ pub(super) fn by_turns(turns: i32, [none, one, more]: [&'static str; 3]) -> &'st
     }
 }
 
-/// Returns how many of the joints turn: a force over an axis is a torque, one
-/// metre more.
+/// Returns how many of the joints turn: a force over an axis is a torque, one metre more.
 pub(super) fn turns(at: &[Index]) -> i32 {
     at.iter().map(|at| i32::from(*at == Index::Turning)).sum()
 }

@@ -1,6 +1,5 @@
-//! The macro behind the list of outputs: two enumerations and the one place
-//! where their members are told apart. `load` comes along with others, and is not
-//! asked for by itself.
+//! The macro behind the list of outputs: two enumerations and the one place where their members are
+//! told apart. `load` comes along with others, and is not asked for by itself.
 
 /// A row an output: its name and its name in Rust, the file of the quantities that are its own,
 /// a line for its documentation, here and in generated code, and what differs from

@@ -40,7 +40,6 @@ impl Formula for BaseRegressor {
     }
 }
 
-/// Returns the unit of an entry: of a torque over that of its parameter.
 fn unit(at: &[Index]) -> &'static str {
     use crate::equations::regressor::LinkParameter;
     let metres = match at {
@@ -57,7 +56,6 @@ fn unit(at: &[Index]) -> &'static str {
     }
 }
 
-/// Y_ik over every inertial parameter of every link, dependent or not.
 pub(super) struct LinkRegressor;
 
 impl Formula for LinkRegressor {
@@ -83,11 +81,9 @@ impl Formula for LinkRegressor {
 }
 
 /// Y_ik of D a + C v + c + b∘v = Y π: what adaptive control (Slotine and Li) multiplies its
-/// estimate by.
-///
-/// It is not the regressor of the torques at other arguments: C(q, q̇) v has two velocities. For
-/// the law that adapts the estimate, Y must be of that very form, with C of the Christoffel
-/// symbols: Ḋ − 2C is skew then, and so the energy of the error falls whatever the estimate is.
+/// estimate by. It is not the regressor of the torques at other arguments, since C(q, q̇) v has two
+/// velocities. With C of the Christoffel symbols Ḋ − 2C is skew, and so the energy of the error
+/// falls whatever the estimate is.
 pub(super) struct PassivityRegressor;
 
 impl Formula for PassivityRegressor {

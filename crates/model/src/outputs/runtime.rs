@@ -1,5 +1,4 @@
-//! Parameters that are arguments where somebody asks for that: gravity, and what
-//! the hand carries.
+//! Parameters that are arguments where somebody asks for that: gravity, and what the hand carries.
 
 use super::Argument;
 

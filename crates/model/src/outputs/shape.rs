@@ -13,8 +13,7 @@ pub enum Axis {
     Fixed(usize),
     /// An entry an inertial parameter, link by link, in a scene too.
     LinkParameters,
-    /// An entry a base parameter: how many there are, the arm says, and the
-    /// scene.
+    /// An entry a base parameter: how many there are, the arm says, and the scene.
     BaseParameters,
     /// An entry a regrouped parameter that a payload changes.
     Load,
@@ -29,8 +28,7 @@ pub struct Sizes {
     pub joints: usize,
     /// The base parameters; zero where nothing is over these.
     pub base: usize,
-    /// The regrouped parameters that a payload changes; zero where there is none
-    /// at run time.
+    /// The regrouped parameters that a payload changes; zero where there is none at run time.
     pub load: usize,
 }
 
@@ -119,7 +117,6 @@ mod tests {
         assert!(Shape::SCALAR.places(0, three).is_empty());
     }
 
-    /// A scene's rows cut the axes over joints and leave those over parameters.
     #[test]
     fn parameters_are_not_cut_by_rows() {
         let shape = Shape(&[Axis::Joints, Axis::LinkParameters]);

@@ -11,7 +11,6 @@ use crate::scalar::{Divide, Scalar};
 /// τ_i of τ = D q̈ + h + c + b∘q̇ (eq. 2.3)
 pub(super) struct Torque;
 
-/// Returns τ of a chain at its velocities and these accelerations.
 pub(super) fn torques<S: Scalar>(at: &Regrouped<'_, S>, qdd: &[S]) -> Vec<S> {
     let (chain, qd, form) = (at.chain, &at.motion.qd, at.form);
     if !form.composite_h {
@@ -145,7 +144,6 @@ impl Formula for Coriolis {
     }
 }
 
-/// h_ikm
 pub(super) struct Christoffel;
 
 impl Formula for Christoffel {

@@ -37,8 +37,7 @@ pub fn inverse(pose: &Columns<Wide>) -> Columns<Wide> {
 /// Returns the placement that a pose is, lengths beside those of this size.
 pub fn placement(pose: &Columns<Wide>, size: &Rational) -> Placement {
     let [x, y, z] = &pose.axes;
-    // R = Rz(yaw) Ry(pitch) Rx(roll): x is (cos pitch cos yaw, cos pitch sin yaw,
-    // −sin pitch).
+    // R = Rz(yaw) Ry(pitch) Rx(roll): x is (cos pitch cos yaw, cos pitch sin yaw, −sin pitch).
     let level = length(&[x[0], x[1], Wide::zero()]);
     let pitch = Angle::recovered(&x[2].neg(), &level);
     let (roll, yaw) = match pitch.quarter_turns() {
@@ -56,8 +55,7 @@ pub fn placement(pose: &Columns<Wide>, size: &Rational) -> Placement {
 }
 
 /// Returns a body given in a frame, seen from one in which that frame has this pose, which was
-/// computed from lengths of this size: beside them what is left of a difference may be
-/// nothing.
+/// computed from lengths of this size: beside them what is left of a difference may be nothing.
 pub fn moved(body: &Body, pose: &Columns<Wide>, size: &Rational) -> Body {
     let com = body.com.each_ref().map(Wide::from_rational);
     let com = pose.apply(&com, &Wide::one());

@@ -1,37 +1,33 @@
 //! Joints by placements: from frames in frames to the rows of a DH table.
 //!
-//! A data sheet or a URDF says where each link's frame is in the one before at
-//! q = 0, and about which of its axes the joint moves. The equations want DH
-//! rows. [`derive()`] finds these, once, when the robot is read: so every
-//! formulation, proof and search sees the same rows whichever way they were
-//! written.
+//! A data sheet or a URDF says where each link's frame is in the one before at q = 0, and about
+//! which of its axes the joint moves. The equations want DH rows. [`derive()`] finds these, once,
+//! when the robot is read: so every formulation, proof and search sees the same rows whichever way
+//! they were written.
 //!
 //! - this file: what is given, and the walk from the base to the hand
 //! - `row`: one row, from an axis to the next
 //! - [`frame`]: poses in wide floats: inverses, placements, bodies that move over
 //!
-//! The rows are of the standard convention. Frame i lies on the axis of joint
-//! i + 1, its x along the common normal from the axis of joint i, as far as
-//! there is one; of the two directions that it can have, it is the one in which
-//! θ_i is nearer to zero. Frame 0 is on the first axis, next to the origin of the
-//! base; the last frame is at the origin of the last link's own frame. What is
-//! left over at both ends are the robot's base, its tool and the frame of its
-//! payloads, so that poses are those of the frames which were given, and what the
-//! hand carries is given in the last link's own.
+//! The rows are of the standard convention. Frame i lies on the axis of joint i + 1, its x along
+//! the common normal from the axis of joint i, as far as there is one; of the two directions that
+//! it can have, it is the one in which θ_i is nearer to zero. Frame 0 is on the first axis, next to
+//! the origin of the base; the last frame is at the origin of the last link's own frame. What is
+//! left over at both ends are the robot's base, its tool and the frame of its payloads, so that
+//! poses are those of the frames which were given, and what the hand carries is given in the last
+//! link's own.
 //!
-//! Everything is computed with 256 bits and then recovered
-//! ([`recover`](crate::number::recover)): exact where the geometry is, rounded
-//! once where it is not.
+//! Everything is computed with 256 bits and then recovered ([`recover`](crate::number::recover)):
+//! exact where the geometry is, rounded once where it is not.
 //!
 //! # Parallel axes
 //!
-//! Between *parallel* axes, sin α < 2⁻¹⁵⁰, there are many common normals: the one
-//! beside the link's own origin is taken. Between *nearly* parallel ones, sin α
-//! below [`NEARLY_PARALLEL`], there is one only, and it may be anywhere: with 1e-4
-//! rad between axes 0.4 m apart, 4 km away, and lengths of that size would take
-//! seven digits of every torque with them. There the frame stays where the next
-//! axis passes the plane beside the link's own origin, and turns by an angle β about y
-//! after the twist (Hayati's fifth parameter), [`Joint::beta`].
+//! Between *parallel* axes, sin α < 2⁻¹⁵⁰, there are many common normals: the one beside the link's
+//! own origin is taken. Between *nearly* parallel ones, sin α below [`NEARLY_PARALLEL`], there is
+//! one only, and it may be anywhere: with 1e-4 rad between axes 0.4 m apart, 4 km away, and lengths
+//! of that size would take seven digits of every torque with them. There the frame stays where the
+//! next axis passes the plane beside the link's own origin, and turns by an angle β about y after
+//! the twist (Hayati's fifth parameter), [`Joint::beta`].
 //!
 //! [`Joint::beta`]: crate::robot::Joint::beta
 
@@ -125,7 +121,7 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
 }
 
 impl Joint {
-    /// Returns the link's body in the frame of its row.
+    /// In the frame of the joint's row.
     fn body(&self) -> Body {
         Body {
             mass: self.mass.clone(),
@@ -162,8 +158,7 @@ fn placed_in(back: &Columns<Wide>, own: Option<&Placement>, size: &Rational) -> 
     frame::placement(&pose, size)
 }
 
-/// Returns what lengths are small against: the arm stretched out, or a metre if
-/// it has no length.
+/// Returns what lengths are small against: the arm stretched out, or a metre if it has no length.
 fn size(robot: &Robot, placed: &[Placed]) -> Rational {
     let ends = [&robot.base, &robot.tool, &robot.payload_frame];
     let ends = ends.into_iter().flatten();
@@ -176,13 +171,11 @@ fn size(robot: &Robot, placed: &[Placed]) -> Rational {
     }
 }
 
-/// Returns whether a number is nothing beside what is of this size.
 fn is_nothing(value: &Wide, size: &Rational) -> bool {
     let value = num_traits::Signed::abs(&value.to_rational());
     value <= size * crate::number::recover::near()
 }
 
-/// Returns a + s b, for points along lines.
 fn along(a: &[Wide; 3], s: &Wide, b: &[Wide; 3]) -> [Wide; 3] {
     core::array::from_fn(|i| a[i].add(&s.mul(&b[i])))
 }

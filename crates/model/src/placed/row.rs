@@ -1,5 +1,4 @@
-//! One row of the table: from a frame on the axis of joint i to one on the axis
-//! of joint i + 1.
+//! One row of the table: from a frame on the axis of joint i to one on the axis of joint i + 1.
 
 use super::frame::{length, unit};
 use super::{along, is_nothing};
@@ -18,13 +17,11 @@ const PARALLEL: f64 = 7e-46;
 
 /// A joint's axis in the frame of the link before it.
 pub(super) struct Axis {
-    /// Its direction.
     pub(super) along: Vector<Wide>,
     /// The link's own frame at q = 0, whose origin is a point of it.
     pub(super) link: Columns<Wide>,
 }
 
-/// A row, and the frame that it leads to.
 pub(super) struct Row {
     pub(super) theta: Angle,
     pub(super) d: Wide,
@@ -48,16 +45,13 @@ pub(super) fn first_frame(first: &Axis) -> Columns<Wide> {
     frame(x, z, along(&first.link.origin, &back, z))
 }
 
-/// Returns the frame of these axes x and z at an origin.
 fn frame(x: Vector<Wide>, z: &Vector<Wide>, origin: Vector<Wide>) -> Columns<Wide> {
     let axes = [x, cross(z, &x), *z];
     Columns { axes, origin }
 }
 
-/// Returns the row from a frame on its axis to one on the next axis.
 pub(super) fn to_axis(here: &Columns<Wide>, next: &Axis, size: &Rational) -> Row {
     let u = &here.axes[2];
-    // Beside the link's own origin, where nothing says how far along the axis.
     let beside = dot(&here.origin, u).neg();
     let normal = cross(u, &next.along);
     let sine = length(&normal).magnitude();
@@ -66,7 +60,6 @@ pub(super) fn to_axis(here: &Columns<Wide>, next: &Axis, size: &Rational) -> Row
     }
     let origin = along(&here.origin, &beside, u);
     let p = difference(&next.link.origin, &origin);
-    // Where the next axis passes the plane beside the link's origin.
     let drop = dot(&p, u).over(&dot(&next.along, u));
     let passes = drop.map(|drop| along(&p, &drop.neg(), &next.along));
     match passes {
@@ -77,8 +70,7 @@ pub(super) fn to_axis(here: &Columns<Wide>, next: &Axis, size: &Rational) -> Row
     }
 }
 
-/// Returns the row to the last link: the row only turns and slides, to the link's own axes where
-/// these are quarter turns away.
+/// The row only turns and slides, to the link's own axes where these are quarter turns away.
 pub(super) fn to_link(here: &Columns<Wide>) -> Row {
     let u = &here.axes[2];
     let d = dot(&opposite(&here.origin), u);
@@ -101,7 +93,6 @@ pub(super) fn to_link(here: &Columns<Wide>) -> Row {
     }
 }
 
-/// Returns one common normal.
 fn askew(here: &Columns<Wide>, next: &Axis, normal: &Vector<Wide>) -> Row {
     let (u, w) = (&here.axes[2], &next.along);
     let p = difference(&next.link.origin, &here.origin);
@@ -184,7 +175,6 @@ fn near(here: &Columns<Wide>, x: Vector<Wide>) -> Vector<Wide> {
     if backward { opposite(&x) } else { x }
 }
 
-/// Returns θ: how far a vector across the axis is turned from the frame's x.
 fn turn(here: &Columns<Wide>, x: &Vector<Wide>) -> Angle {
     let SinCosPair { sin, cos } = components(here, x);
     Angle::recovered(&sin, &cos)

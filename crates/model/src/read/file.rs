@@ -13,7 +13,7 @@ use super::{Reading, guard, joint, link, mimic, scene, suggest, syntax};
 use crate::placed::{Placed, derive};
 use crate::robot::{Convention, Finding, Frame, Joint, Placement, Robot, RobotWarning};
 
-/// Reads a robot file, reporting to the sink; `None` only after an error.
+/// `None` only after an error.
 pub(super) fn read(source: &str, cx: &mut Context) -> Option<Reading> {
     if !guard::admits(source, &mut cx.sink) {
         return None;
@@ -48,7 +48,6 @@ pub(super) fn read(source: &str, cx: &mut Context) -> Option<Reading> {
     })
 }
 
-/// Reads the robot, and returns the findings about it.
 fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Finding>) {
     const NAME: &str = "name = \"puma560\"; the generated module is called after it";
     const WHICH: &str = "\"standard\" where joint i acts along z of frame i − 1, \"modified\" (Craig) where it acts along z of frame i";
@@ -102,8 +101,7 @@ fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Finding>) {
     (mimic::split(cx, robot, &mimics), findings)
 }
 
-/// Reads the names of warnings, and silences them. An unknown name is an error: it silences
-/// nothing, and its author thinks it does.
+/// An unknown name is an error: it silences nothing, and its author thinks it does.
 fn allow(cx: &mut Context, value: &Value) -> Option<()> {
     let names = RobotWarning::WORDS.map(|(name, _)| name);
     let help = format!("allow = [\"{}\"]", names[0]);
@@ -150,7 +148,6 @@ fn joints<'v>(cx: &mut Context, list: &'v Value<'v>) -> Option<Vec<joint::Read<'
     })
 }
 
-/// Reads the frames that are fixed to links.
 fn frames(cx: &mut Context, joints: &[Joint], list: &Value) -> Option<Vec<Frame>> {
     const NAME: &str = "name = \"camera\": functions are called after it, `jacobian_camera`";
     const LINK: &str = "link = 3, or the name of its joint: what the frame is fixed to";
@@ -181,9 +178,7 @@ fn frames(cx: &mut Context, joints: &[Joint], list: &Value) -> Option<Vec<Frame>
     })
 }
 
-/// Gives a robot its rows where all joints are placed, and refuses joints of which only some
-/// are. Returns the findings about the robot: of joints that are placed, about their
-/// placements.
+/// Warnings about placed joints are about their placements, not about the rows.
 fn rows(cx: &mut Context, robot: &mut Robot, read: Vec<joint::Read>) -> Vec<Finding> {
     let is_placed = read.iter().any(|joint| joint.placed.is_some());
     let mut placed: Vec<Placed> = Vec::with_capacity(read.len());

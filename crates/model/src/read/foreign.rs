@@ -4,19 +4,15 @@
 use alloc::format;
 use alloc::string::String;
 
-/// Characters that look like a minus sign.
 const DASHES: [char; 9] = [
     '\u{2010}', '\u{2011}', '\u{2012}', '\u{2013}', '\u{2014}', '\u{2015}', '\u{2212}', '\u{fe63}',
     '\u{ff0d}',
 ];
-/// Characters that look like a quotation mark.
 const QUOTES: [char; 7] = [
     '\u{201c}', '\u{201d}', '\u{201e}', '\u{2018}', '\u{2019}', '\u{00ab}', '\u{00bb}',
 ];
-/// Characters that look like a space, or like nothing.
 const SPACES: [char; 5] = ['\u{00a0}', '\u{2007}', '\u{2009}', '\u{202f}', '\u{200b}'];
 
-/// Returns the format of a text that is none of TOML's, with what to do about it.
 pub(super) fn format_of(source: &str) -> Option<(&'static str, &'static str)> {
     const TOML: &str =
         "a robot file is TOML: `name = \"arm\"` and a [[joint]] table for every joint";
@@ -49,7 +45,6 @@ pub(super) fn format_of(source: &str) -> Option<(&'static str, &'static str)> {
     (first == "---" || first.starts_with("%YAML") || keyed).then_some(("YAML", TOML))
 }
 
-/// Returns the message and the help about a character that TOML does not take.
 pub(super) fn character(c: char) -> Option<(String, &'static str)> {
     let code = u32::from(c);
     let (what, help) = if DASHES.contains(&c) {
@@ -67,8 +62,6 @@ pub(super) fn character(c: char) -> Option<(String, &'static str)> {
     Some((message, help))
 }
 
-/// Returns the help for a text that would be a number or an angle but for one of these
-/// characters or a comma.
 pub(super) fn in_text(text: &str) -> Option<String> {
     if let Some(dash) = text.chars().find(|c| DASHES.contains(c)) {
         let meant = text.replace(dash, "-");
@@ -77,7 +70,6 @@ pub(super) fn in_text(text: &str) -> Option<String> {
     decimal_comma(text.trim()).map(|meant| format!("decimals have a point: {meant}"))
 }
 
-/// Returns `17.4` for `17,4`.
 fn decimal_comma(text: &str) -> Option<String> {
     let (whole, part) = text.split_once(',')?;
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
@@ -86,7 +78,6 @@ fn decimal_comma(text: &str) -> Option<String> {
     (digits(alone) && digits(fraction)).then(|| format!("{whole}.{part}"))
 }
 
-/// Returns `17.4` for `17,4`, where the comma at this byte cuts the number in two.
 pub(super) fn decimal_comma_at(source: &str, comma: usize) -> Option<String> {
     let (before, rest) = (source.get(..comma)?, source.get(comma..)?);
     let ends = |c: char| c.is_whitespace() || matches!(c, '=' | '[' | '{' | ']' | '}' | '#');
@@ -96,8 +87,7 @@ pub(super) fn decimal_comma_at(source: &str, comma: usize) -> Option<String> {
     decimal_comma(text.trim_end_matches(','))
 }
 
-/// Returns the first number with a decimal comma in an array's text, with a point: `-9.81`
-/// of `[0, 0, -9,81]`.
+/// Gives `-9.81` for `[0, 0, -9,81]`.
 pub(super) fn decimal_comma_in(array: &str) -> Option<String> {
     let inner = array.trim().trim_start_matches('[').trim_end_matches(']');
     let mut words = inner
@@ -106,7 +96,6 @@ pub(super) fn decimal_comma_in(array: &str) -> Option<String> {
     words.find_map(decimal_comma)
 }
 
-/// Returns the number without the zeros that it begins with.
 pub(super) fn leading_zeros(word: &str) -> Option<String> {
     let (sign, digits) = match word.strip_prefix('-') {
         Some(digits) => ("-", digits),
@@ -120,7 +109,6 @@ pub(super) fn leading_zeros(word: &str) -> Option<String> {
     let (whole, next) = (rest.starts_with(|c: char| c.is_ascii_digit()), zeros + 1);
     match (number, zeros, whole) {
         (true, 1.., true) => Some(format!("{sign}{rest}")),
-        // 00, 00.5
         (true, 2.., false) => digits.get(next - 2..).map(|rest| format!("{sign}{rest}")),
         _ => None,
     }

@@ -18,7 +18,6 @@ const MAX_KEYS: usize = 8192;
 /// The longest string or key, in bytes.
 const MAX_STRING: usize = 4096;
 
-/// Returns whether the text may be parsed, and reports the first limit that it exceeds.
 pub(super) fn admits(source: &str, sink: &mut Sink) -> bool {
     if source.len() > MAX_BYTES {
         // The length stays unknown: no more than this is read of a file.

@@ -12,19 +12,16 @@ use crate::number::{Angle, Rational};
 use crate::placed::Placed;
 use crate::robot::{Joint, JointKind, Limits};
 
-/// The keys of a row of the DH table.
 const ROW: [&str; 6] = ["alpha", "beta", "a", "d", "theta", "offset"];
 
-/// A joint as its table says.
 pub(super) struct Read<'v> {
     pub(super) joint: Joint,
-    /// The link's placement and the joint's axis, if it has no row.
     pub(super) placed: Option<Placed>,
     pub(super) mimic: Option<&'v Value<'v>>,
     pub(super) span: Range<usize>,
 }
 
-/// Reads a joint. Zeros stand in for values that cannot be read, which are reported.
+/// Zeros stand in for values that cannot be read, which are reported.
 pub(super) fn read<'v>(cx: &mut Context, mut keys: Table<'v>) -> Read<'v> {
     const KIND: &str = "kind = \"revolute\" or \"prismatic\"";
     const MASS: &str = "mass = 4.8, in kg; a link without mass has mass = 0";
@@ -82,18 +79,15 @@ pub(super) fn read<'v>(cx: &mut Context, mut keys: Table<'v>) -> Read<'v> {
     }
 }
 
-/// Reads a number that is zero unless given.
 fn number(cx: &mut Context, keys: &mut Table, key: &'static str) -> Rational {
     keys.optional(cx, key, Context::number).unwrap_or_default()
 }
 
-/// Reads an angle that is zero unless given.
 fn angle(cx: &mut Context, keys: &mut Table, key: &'static str) -> Angle {
     keys.optional(cx, key, Context::angle).unwrap_or_default()
 }
 
-/// Reads the constant parts of d and theta: one of them belongs to the joint's
-/// variable, and is called `offset`.
+/// The constant part of the joint's variable, d or theta, is called `offset`.
 fn variable(cx: &mut Context, keys: &mut Table, kind: Option<JointKind>) -> (Rational, Angle) {
     let (d, theta) = (number(cx, keys, "d"), angle(cx, keys, "theta"));
     let (key, kind, is_zero, own) = match kind {
@@ -119,7 +113,6 @@ fn variable(cx: &mut Context, keys: &mut Table, kind: Option<JointKind>) -> (Rat
     own
 }
 
-/// Returns the link's placement and the joint's axis, where they are given instead of a row.
 fn placed(cx: &mut Context, keys: &mut Table) -> Option<Placed> {
     const AXIS: &str = "axis = [0, 0, 1]: the joint's axis in the axes of its link's frame";
     let (place, axis) = (keys.get("placement"), keys.get("axis"));

@@ -11,7 +11,6 @@ use super::suggest;
 use super::value::Context;
 use crate::robot::Joint;
 
-/// Reads the joint that moves a link; `help` shows a link.
 pub(super) fn read(cx: &mut Context, joints: &[Joint], value: &Value, help: &str) -> Option<usize> {
     let Some(text) = text_of(value) else {
         return cx.wanted(value, "a link", help);
@@ -26,13 +25,11 @@ pub(super) fn read(cx: &mut Context, joints: &[Joint], value: &Value, help: &str
     found
 }
 
-/// Returns the number or the name of a joint as text.
 pub(super) fn text_of(value: &Value) -> Option<String> {
     let number = value.as_integer().map(|number| number.to_string());
     value.as_str().map(ToString::to_string).or(number)
 }
 
-/// Returns the index of the joint with a number, from one, or a name.
 pub(super) fn find(joints: &[Joint], text: &str) -> Option<usize> {
     match text.parse::<usize>() {
         Ok(number) => number.checked_sub(1).filter(|joint| *joint < joints.len()),
@@ -43,7 +40,6 @@ pub(super) fn find(joints: &[Joint], text: &str) -> Option<usize> {
     }
 }
 
-/// Returns the likely fix of a text that names no joint.
 pub(super) fn meant(joints: &[Joint], text: &str) -> String {
     let n = joints.len();
     let names: Vec<&str> = joints.iter().filter_map(|j| j.name.as_deref()).collect();

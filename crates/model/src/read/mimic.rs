@@ -13,11 +13,9 @@ use super::{joint, link};
 use crate::number::Rational;
 use crate::robot::{Follower, Joint, JointKind, Position, Robot};
 
-/// A `mimic`, for messages.
 const HELP: &str = "mimic = { joint = 2, multiplier = -1, offset = 0 }: q is multiplier times the \
                     position of that joint, plus offset";
 
-/// A joint's leader and the line along which it follows.
 pub(super) struct Mimic<'v> {
     leader: usize,
     multiplier: Rational,
@@ -25,7 +23,6 @@ pub(super) struct Mimic<'v> {
     value: &'v Value<'v>,
 }
 
-/// Reads the `mimic` of every joint; one that cannot be read is reported and left out.
 pub(super) fn read<'v>(
     cx: &mut Context,
     joints: &[Joint],
@@ -102,8 +99,7 @@ fn one<'v>(
     })
 }
 
-/// Takes the joints of a robot that follow others out of its coordinates. One that
-/// follows a follower follows the leader of that.
+/// A joint that follows a follower follows the leader of that.
 pub(super) fn split(cx: &mut Context, robot: Robot, mimics: &[Option<Mimic>]) -> Robot {
     let mut followers = Vec::new();
     for (row, mimic) in mimics.iter().enumerate() {

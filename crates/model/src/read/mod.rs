@@ -31,16 +31,15 @@
 //! An oddity that is not wrong is a warning, each with a name ([`RobotWarning`]) in its help. The
 //! file silences it by that name.
 //!
-//! Gravity, poses, Jacobians and wrenches are in base axes, which are frame 0's
-//! own without a `base`. A placement is where a frame is in the one before: moved
-//! by `xyz` metres, its axes turned by `rpy` about the fixed axes x, y and z, in
-//! this order, as in URDF. Joints are placed all or none; their `com` and
-//! `inertia`, the `tool` and payloads are in the links' own frames, whose
-//! origins lie on the joints' axes. [`placed`](crate::placed) says which rows they
-//! get. `link_poses` and the parameters of regressors are those of the links' own frames: a
-//! joint with a row may say where that is in the row's, `frame`. Frames by name are in the links' own where joints are
-//! placed, and in the rows' otherwise. A row may turn about y after
-//! its twist, `beta`, where axes are nearly parallel.
+//! Gravity, poses, Jacobians and wrenches are in base axes, which are frame 0's own without a
+//! `base`. A placement is where a frame is in the one before: moved by `xyz` metres, its axes
+//! turned by `rpy` about the fixed axes x, y and z, in this order, as in URDF. Joints are placed
+//! all or none; their `com` and `inertia`, the `tool` and payloads are in the links' own frames,
+//! whose origins lie on the joints' axes. [`placed`](crate::placed) says which rows they get.
+//! `link_poses` and the parameters of regressors are those of the links' own frames: a joint with a
+//! row may say where that is in the row's, `frame`. Frames by name are in the links' own where
+//! joints are placed, and in the rows' otherwise. A row may turn about y after its twist, `beta`,
+//! where axes are nearly parallel.
 //!
 //! `report` collects and prints diagnostics; `suggest` finds the likely word, `foreign` the likely
 //! intention where the text is no TOML.

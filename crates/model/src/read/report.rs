@@ -11,7 +11,6 @@ use super::{Reading, RobotWarning, Severity};
 
 /// More errors than this are counted, not listed.
 const MAX_LISTED: usize = 200;
-/// The widest piece of a line that is shown.
 const MAX_WIDTH: usize = 120;
 
 /// Something about a robot file, and where.
@@ -62,7 +61,6 @@ impl Diagnostic {
         text
     }
 
-    /// Returns the line around the span, fit to print, with the carets' place.
     fn excerpt(&self, source: &str) -> Option<(String, usize, usize)> {
         let line = source.lines().nth(self.line.checked_sub(1)?)?;
         let column = self.column.saturating_sub(1);
@@ -119,7 +117,6 @@ impl fmt::Display for Diagnostics {
 
 impl core::error::Error for Diagnostics {}
 
-/// Collects diagnostics and knows the lines of the source.
 pub(super) struct Sink {
     pub(super) source: String,
     line_starts: Vec<usize>,
@@ -141,7 +138,6 @@ impl Sink {
         }
     }
 
-    /// Silences a warning, wherever in the file it is.
     pub(super) fn allow(&mut self, warning: RobotWarning) {
         self.allowed.insert(warning);
     }
@@ -154,8 +150,6 @@ impl Sink {
         self.push(Severity::Note, None, span, message, help);
     }
 
-    /// Adds a warning, whose help ends with the way to silence it, or an error if there is no
-    /// warning.
     pub(super) fn found(
         &mut self,
         warning: Option<RobotWarning>,
@@ -190,7 +184,7 @@ impl Sink {
         });
     }
 
-    /// Returns line and column of a byte, both from one.
+    /// Both count from one.
     pub(super) fn position(&self, byte: usize) -> (usize, usize) {
         let line = self.line_starts.partition_point(|start| *start <= byte);
         let start = self.line_starts.get(line.wrapping_sub(1)).copied();
@@ -200,8 +194,7 @@ impl Sink {
         (line.max(1), column + 1)
     }
 
-    /// Returns what was read with its notes, or the errors alone: with them, the rest is
-    /// only in the way.
+    /// Errors come alone: beside them, the rest is only in the way.
     pub(super) fn finish(mut self, read: Option<Reading>) -> Result<Reading, Diagnostics> {
         self.found.sort_by_key(|d| d.span.start);
         let allowed = self.allowed;
@@ -225,7 +218,6 @@ impl Sink {
     }
 }
 
-/// Returns the error for bytes that are not UTF-8 from `at` on.
 pub(super) fn not_utf8(bytes: &[u8], at: usize) -> Diagnostics {
     let good = bytes.get(..at).unwrap_or_default();
     let good = core::str::from_utf8(good).unwrap_or_default();
@@ -235,7 +227,6 @@ pub(super) fn not_utf8(bytes: &[u8], at: usize) -> Diagnostics {
     Diagnostics(sink.found)
 }
 
-/// Quotes user text inside a message: short, and without control characters.
 pub(super) fn quote(text: &str) -> String {
     let mut shown: String = text
         .chars()

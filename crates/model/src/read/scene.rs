@@ -14,7 +14,6 @@ use super::value::{Context, bytes_of};
 use crate::robot::{Follower, Joint, JointKind, Position, Robot};
 use crate::scene::{Float, MotionBox, Payload, Scale, Scene, Tolerance};
 
-/// Reads all scenes of a file.
 pub(super) fn read(cx: &mut Context, robot: &Robot, root: &Value, scenes: &Value) -> Vec<Scene> {
     const HELP: &str = "each scene is a [scene.NAME] table";
     let Some(table) = Table::open(cx, scenes, "scene", "scene", HELP) else {
@@ -78,7 +77,6 @@ fn scene(cx: &mut Context, robot: &Robot, name: &str, keys: &mut Table) -> Scene
     }
 }
 
-/// Returns the joint with a number, from one, or a name.
 fn joint(cx: &mut Context, robot: &Robot, text: &str, span: Range<usize>) -> Option<usize> {
     let found = link::find(&robot.joints, text);
     if found.is_some() {
@@ -110,7 +108,6 @@ fn kind(robot: &Robot, joint: usize) -> Option<JointKind> {
 fn lock(cx: &mut Context, robot: &Robot, keys: &mut Table) -> Option<Vec<(usize, Position)>> {
     let place = keys.place_of("lock");
     keys.optional(cx, "lock", |cx, value| {
-        // A joint that is named instead of a table of joints goes into the help.
         let named = value
             .as_str()
             .and_then(|text| link::find(&robot.joints, text));
@@ -179,7 +176,6 @@ fn bounds(cx: &mut Context, robot: &Robot, keys: &mut Table) -> Option<MotionBox
     })
 }
 
-/// Reads a list of the box: an entry a joint.
 fn each<T>(
     cx: &mut Context,
     keys: &mut Table,

@@ -44,8 +44,7 @@ const OTHER_WORDS: [(&str, &[&str]); 29] = [
     ("newton_euler", &["newton", "rne"]),
 ];
 
-/// Returns the likely fix of a bundle that cannot be read, with the output that was
-/// probably meant.
+/// Returns the likely fix of a bundle that cannot be read, with the output that was probably meant.
 pub fn for_bundle(error: &BundleError) -> String {
     let word = error.unknown.as_deref();
     match word.and_then(|word| closest(word, &Function::ALL.map(Function::name))) {
@@ -54,7 +53,6 @@ pub fn for_bundle(error: &BundleError) -> String {
     }
 }
 
-/// Returns the known key, or both, that an unknown one probably stands for.
 pub(super) fn for_key(word: &str, known: &[&str]) -> Option<String> {
     const FRICTION: &str = "write `viscous` for friction that grows with the speed, `coulomb` for one that does not, or both";
     if word == "friction" && known.contains(&"viscous") && known.contains(&"coulomb") {

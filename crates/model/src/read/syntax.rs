@@ -10,7 +10,6 @@ use super::report::{Sink, quote};
 use crate::number::Angle;
 use crate::number::parse::NumberError;
 
-/// Reports an error of the TOML parser.
 pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
     if let Some((format, help)) = foreign::format_of(source) {
         sink.error(0..1, format!("the file is {format}, not TOML"), help);
@@ -107,7 +106,6 @@ pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
     sink.error(start..end.max(start + 1), message, &help);
 }
 
-/// Returns the value that starts at a byte, up to what ends a value in TOML.
 fn word_at(source: &str, start: usize) -> &str {
     let rest = source.get(start..).unwrap_or_default();
     let end = rest.find(|c: char| c.is_whitespace() || matches!(c, ',' | ']' | '}' | '#'));

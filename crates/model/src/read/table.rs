@@ -12,21 +12,17 @@ use super::report::quote;
 use super::suggest;
 use super::value::{Context, bytes_of, first_line};
 
-/// A table that is read key by key.
 pub(super) struct Table<'v> {
     entries: &'v Entries<'v>,
-    /// Its place in the file, as findings have it.
     pub(super) place: String,
     /// The span of the error about a missing key.
     pub(super) span: Range<usize>,
     /// Its name in messages: `the robot`, `joint 3`.
     name: String,
-    /// The keys that were asked for: the known ones.
     known: Vec<&'static str>,
 }
 
 impl<'v> Table<'v> {
-    /// Takes a value as a table; `help` shows one.
     pub(super) fn open(
         cx: &mut Context,
         value: &'v Value<'v>,
@@ -46,7 +42,6 @@ impl<'v> Table<'v> {
         })
     }
 
-    /// Returns its entries in the order of the file.
     pub(super) fn entries(&self) -> Vec<(&'v Key<'v>, &'v Value<'v>)> {
         in_order(self.entries)
     }
@@ -59,8 +54,7 @@ impl<'v> Table<'v> {
         self.entries.get(key)
     }
 
-    /// Reads the value of an optional key. Nothing more is reported at the place of a value
-    /// that cannot be read.
+    /// Nothing more is reported at the place of a value that cannot be read.
     pub(super) fn optional<T>(
         &mut self,
         cx: &mut Context,
@@ -74,7 +68,6 @@ impl<'v> Table<'v> {
         read
     }
 
-    /// Reads the value of a key that must be there; `help` shows one.
     pub(super) fn required<T>(
         &mut self,
         cx: &mut Context,
@@ -90,8 +83,7 @@ impl<'v> Table<'v> {
         self.optional(cx, key, read)
     }
 
-    /// Reads the table of an optional key, and reports the keys that `read` does not ask for;
-    /// `help` shows such a table.
+    /// Reports the keys that `read` does not ask for.
     pub(super) fn table<T>(
         &mut self,
         cx: &mut Context,
@@ -108,7 +100,6 @@ impl<'v> Table<'v> {
         })
     }
 
-    /// Returns the place of a key.
     pub(super) fn place_of(&self, key: &str) -> String {
         match self.place.as_str() {
             "" => key.to_string(),
@@ -116,7 +107,6 @@ impl<'v> Table<'v> {
         }
     }
 
-    /// Reports every key that was not asked for.
     pub(super) fn finish(self, cx: &mut Context) {
         for key in self.entries.keys() {
             if self.known.contains(&&*key.name) {

@@ -19,27 +19,22 @@ use crate::number::{Angle, Rational, Snapped};
 use crate::outputs::Function;
 use crate::robot::{Inertia, JointKind, Placement, Position, values};
 
-/// The diagnostics of a reading.
 pub(super) struct Context {
     pub(super) sink: Sink,
-    /// The places of values that are missing or cannot be read: others stand in for them, and
-    /// nothing is reported of those.
+    /// Places of values that are missing or unreadable: nothing is reported of their stand-ins.
     pub(super) unread: Vec<String>,
 }
 
-/// Returns the bytes of a key or a value. The parser leaves the quotes of a string out,
-/// and for an empty one points at the quote alone.
+/// The parser leaves the quotes of a string out, and for an empty one points at the quote alone.
 pub(super) fn bytes_of(span: Span) -> Range<usize> {
     span.start..span.end.max(span.start)
 }
 
-/// Returns the part of a span on its first line: the part that a message points at.
 pub(super) fn first_line(source: &str, span: Range<usize>) -> Range<usize> {
     let line = source.get(span.clone()).and_then(|s| s.lines().next());
     span.start..span.start + line.map_or(1, |line| line.trim_end().len().max(1))
 }
 
-/// Returns the placement of an optional key.
 pub(super) fn placement(
     cx: &mut Context,
     keys: &mut Table,
@@ -51,7 +46,6 @@ pub(super) fn placement(
 }
 
 impl Context {
-    /// Returns whether a place of the file, or one around it, is missing or cannot be read.
     pub(super) fn is_unread(&self, place: &str) -> bool {
         let is_of = |unread: &String| match place.strip_prefix(unread.as_str()) {
             Some(rest) => rest.is_empty() || rest.starts_with('/'),
@@ -60,13 +54,11 @@ impl Context {
         self.unread.iter().any(is_of)
     }
 
-    /// Returns the literal of a number as it stands in the source.
     fn literal(&self, value: &Value) -> String {
         let literal = self.sink.source.get(bytes_of(value.span));
         literal.unwrap_or_default().to_string()
     }
 
-    /// Reports an error about a value.
     pub(super) fn refuse<T>(
         &mut self,
         value: &Value,
@@ -78,7 +70,6 @@ impl Context {
         None
     }
 
-    /// Reports a value of the wrong type.
     pub(super) fn wanted<T>(&mut self, value: &Value, expected: &str, help: &str) -> Option<T> {
         let found = match value.as_ref() {
             ValueInner::String(text) => format!("the string {}", quote(text)),
@@ -92,7 +83,6 @@ impl Context {
         self.refuse(value, format!("expected {expected}, found {found}"), help)
     }
 
-    /// Reads a number, exact; `"1/3"` too.
     pub(super) fn number(&mut self, value: &Value) -> Option<Rational> {
         self.number_or(
             value,
@@ -100,7 +90,6 @@ impl Context {
         )
     }
 
-    /// Reads a length, m.
     pub(super) fn length(&mut self, value: &Value) -> Option<Rational> {
         self.number_or(
             value,
@@ -108,8 +97,6 @@ impl Context {
         )
     }
 
-    /// Reads a velocity or an acceleration, in `unit` of a joint that turns: the help for an
-    /// angle is in that unit.
     pub(super) fn rate(
         &mut self,
         value: &Value,
@@ -128,7 +115,6 @@ impl Context {
         }
     }
 
-    /// Reads a number without unit, a part of something.
     pub(super) fn part(&mut self, value: &Value) -> Option<Rational> {
         self.number_or(
             value,
@@ -167,7 +153,6 @@ impl Context {
         }
     }
 
-    /// Reads an angle, and warns of one that is near a right angle.
     pub(super) fn angle(&mut self, value: &Value) -> Option<Angle> {
         let snapped = self.snapped(value)?;
         if let Snapped::Near {
@@ -184,7 +169,6 @@ impl Context {
         Some(snapped.angle())
     }
 
-    /// Reads an angle: radians as a number, or one of the text forms.
     fn snapped(&mut self, value: &Value) -> Option<Snapped> {
         let snapped = match value.as_ref() {
             ValueInner::Integer(_) | ValueInner::Float(_) => {
@@ -216,7 +200,6 @@ impl Context {
         Some(snapped)
     }
 
-    /// Reads a position of a joint: an angle, or of one that slides a length.
     pub(super) fn position(&mut self, value: &Value, kind: Option<JointKind>) -> Option<Position> {
         match kind {
             Some(JointKind::Prismatic) => self.length(value).map(Position::Length),
@@ -224,8 +207,7 @@ impl Context {
         }
     }
 
-    /// Reads both ends of a range of positions. Near a right angle they are no slips: no equation
-    /// has them.
+    /// Near a right angle they are no slips: no equation has them.
     pub(super) fn range(
         &mut self,
         value: &Value,
@@ -238,7 +220,6 @@ impl Context {
         })
     }
 
-    /// Reads the placement that a table says, among other keys.
     pub(super) fn placement(&mut self, table: &mut Table) -> Option<Placement> {
         const XYZ: &str = "xyz = [x, y, z], in m";
         const RPY: &str = "rpy = [roll, pitch, yaw], turns about the fixed axes x, y and z, e.g. [0, \"pi/2\", 0]";
@@ -256,7 +237,6 @@ impl Context {
         })
     }
 
-    /// Reads a text.
     pub(super) fn string(&mut self, value: &Value) -> Option<String> {
         match value.as_str() {
             Some(text) => Some(text.to_string()),
@@ -264,7 +244,6 @@ impl Context {
         }
     }
 
-    /// Reads one of a few words; `help` is for a text that is like none of them.
     pub(super) fn word<T: Copy>(
         &mut self,
         value: &Value,
@@ -286,8 +265,6 @@ impl Context {
         self.wanted(value, &format!("\"{}\"", names.join("\" or \"")), &help)
     }
 
-    /// Reads a list of outputs by name, bundles among them; `whose` is the owner of the list in
-    /// messages.
     pub(super) fn outputs(&mut self, value: &Value, whose: &str) -> Option<Vec<Function>> {
         let items = self.list(value, "a list", "outputs = [\"inverse_dynamics\"]")?;
         if items.is_empty() {
@@ -317,7 +294,6 @@ impl Context {
         Some(outputs)
     }
 
-    /// Returns the items of a list.
     pub(super) fn list<'v>(
         &mut self,
         value: &'v Value<'v>,
@@ -330,7 +306,7 @@ impl Context {
         }
     }
 
-    /// Reads the items of a list, all of them before it gives up.
+    /// Reads all of them before it gives up.
     pub(super) fn each<'v, T>(
         &mut self,
         items: &'v [Value<'v>],
@@ -341,7 +317,6 @@ impl Context {
         read.into_iter().collect()
     }
 
-    /// Reads `N` values in an array.
     pub(super) fn array<T, const N: usize>(
         &mut self,
         value: &Value,
@@ -353,7 +328,6 @@ impl Context {
         read.try_into().ok()
     }
 
-    /// Returns the items of an array of a length.
     fn items<'v>(
         &mut self,
         value: &'v Value<'v>,
@@ -370,7 +344,6 @@ impl Context {
         self.wanted(value, expected, comma.as_deref().unwrap_or(help))
     }
 
-    /// Reads an inertia tensor: six entries or three rows.
     pub(super) fn inertia(&mut self, value: &Value) -> Option<Inertia<Rational>> {
         const HELP: &str =
             "write [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] or three rows of three, about the centre of mass";

@@ -34,8 +34,7 @@ impl Defect {
 }
 
 impl Inertia<Rational> {
-    /// Returns the reason why no body of this mass can have this tensor, if there is
-    /// one.
+    /// Returns the reason why no body of this mass can have this tensor, if there is one.
     pub fn defect(&self, mass: &Rational) -> Option<Defect> {
         let tensor = self.rows();
         if !is_semidefinite(&tensor) {
@@ -53,8 +52,7 @@ impl Inertia<Rational> {
     }
 }
 
-/// Returns whether a symmetric matrix is positive semidefinite: no principal minor, not only of
-/// the leading ones, is negative.
+/// No principal minor, not only of the leading ones, is negative.
 fn is_semidefinite(m: &[[Rational; 3]; 3]) -> bool {
     let minor = |i: usize, k: usize| &m[i][i] * &m[k][k] - &m[i][k] * &m[k][i];
     let det = &m[0][0] * minor(1, 2) - &m[0][1] * (&m[1][0] * &m[2][2] - &m[1][2] * &m[2][0])
@@ -75,7 +73,6 @@ mod tests {
         tensor.defect(&Rational::from_integer(mass.into()))
     }
 
-    /// The border cases (flat bodies, thin rods, points) are bodies.
     #[test]
     fn bodies() {
         for good in [

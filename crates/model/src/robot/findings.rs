@@ -126,7 +126,6 @@ impl fmt::Display for Finding {
     }
 }
 
-/// Collects findings.
 #[derive(Default)]
 pub(crate) struct Findings(pub(crate) Vec<Finding>);
 
@@ -160,7 +159,6 @@ impl Findings {
     }
 }
 
-/// Returns the place of a key of the joint with this zero-based index.
 pub(super) fn of_joint(index: usize, key: &str) -> String {
     format!("joint/#{}/{key}", index + 1)
 }

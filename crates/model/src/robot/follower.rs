@@ -66,7 +66,6 @@ impl Follower {
         Some(())
     }
 
-    /// Returns the leader's position where the joint is at this one.
     fn at_leader(&self, at: &Position) -> Position {
         let part = Rational::one() / &self.multiplier;
         let back = self.offset.scaled(&-Rational::one());
@@ -144,8 +143,8 @@ impl Robot {
         rows
     }
 
-    /// Returns whether its followers are in the order of their rows, each after a joint of
-    /// its kind and in a way that equations have.
+    /// True if the followers are in the order of their rows, each after a joint of its kind and in
+    /// a way that equations have.
     pub(super) fn follow(&self) -> bool {
         let ascends = self.followers.windows(2).all(|two| two[0].row < two[1].row);
         let rows = self.joints.len() + self.followers.len();

@@ -94,9 +94,8 @@ pub struct Robot {
     /// The hand in the last frame, unless it is that frame: what forward
     /// kinematics and Jacobians are of.
     pub tool: Option<Placement>,
-    /// The frame that payloads are given in, those of scenes and those at run time,
-    /// in the last frame, unless it is that frame. Of an arm by placements it is the
-    /// last link's own.
+    /// The frame that payloads are given in, those of scenes and those at run time, in the last
+    /// frame, unless it is that frame. Of an arm by placements it is the last link's own.
     pub payload_frame: Option<Placement>,
     /// The joints from the base to the hand; 1 to [`Robot::MAX_JOINTS`]. Each is a row of the
     /// table and a coordinate; rows between them may be followers.
@@ -106,8 +105,7 @@ pub struct Robot {
     /// Frames that are fixed to links, by their names; at most [`Robot::MAX_FRAMES`].
     pub frames: Vec<Frame>,
     /// Lines for the head of generated files, such as the differences from the model that it was
-    /// imported from. They are no parameters, and have no part in its
-    /// [hash](Robot::input_hash).
+    /// imported from. They are no parameters, and have no part in its [hash](Robot::input_hash).
     pub notes: Vec<String>,
 }
 
@@ -134,8 +132,7 @@ impl Placement {
         self.xyz.iter().map(Signed::abs).sum()
     }
 
-    /// Returns the placement, unless it moves nothing: one that is left out says the
-    /// same.
+    /// Returns the placement, unless it moves nothing.
     pub fn unless_identity(self) -> Option<Self> {
         (!self.is_identity()).then_some(self)
     }
@@ -200,9 +197,8 @@ pub struct Joint {
     pub alpha: Angle,
     /// A turn β_i about y after the twist, A_i Ry(β_i); of standard DH only.
     ///
-    /// Where the next axis is *nearly* parallel, the common normal is far away
-    /// or nowhere; with this angle (Hayati's) the frame stays near. Zero for
-    /// every other joint.
+    /// Where the next axis is *nearly* parallel, the common normal is far away or nowhere; with
+    /// this angle (Hayati's) the frame stays near. Zero for every other joint.
     pub beta: Angle,
     /// Length a_i, m.
     pub a: Rational,
@@ -360,12 +356,10 @@ pub enum Position {
 }
 
 impl Position {
-    /// Returns true if a joint of this kind can have it.
     pub(crate) fn is_of(&self, kind: JointKind) -> bool {
         matches!(self, Position::Angle(_)) == (kind == JointKind::Revolute)
     }
 
-    /// Returns true if it is below another one of its kind.
     pub(crate) fn is_below(&self, other: &Self) -> bool {
         match (self, other) {
             (Position::Angle(a), Position::Angle(b)) => a.cmp_value(b).is_lt(),
@@ -375,7 +369,6 @@ impl Position {
     }
 }
 
-/// As messages have it.
 impl fmt::Display for Position {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

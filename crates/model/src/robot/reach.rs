@@ -13,8 +13,7 @@ use crate::number::{Rational, Rounded};
 /// metres for an arm without lengths, was probably given in kg·mm².
 const MAX_GYRATION: i64 = 3;
 
-/// Returns the largest reach of an arm, m, without its base: zero of one without
-/// lengths.
+/// In metres, without the base; zero of an arm without lengths.
 pub(crate) fn reach(robot: &Robot, placed: &[Placement]) -> Rational {
     let largest = |xyz: &[Rational; 3]| xyz.iter().map(Signed::abs).sum::<Rational>();
     let travel = |joint: &Joint| {
@@ -34,9 +33,7 @@ pub(crate) fn reach(robot: &Robot, placed: &[Placement]) -> Rational {
     rows.sum::<Rational>() + steps + bodies.max().unwrap_or_default()
 }
 
-/// Returns the message and the help about an inertia that is far too large for its mass on an
-/// arm of this reach. A body whose mass is all at a
-/// distance k from an axis has the moment m k².
+/// A body whose mass is all at a distance k from an axis has the moment m k².
 pub(crate) fn large_inertia(
     inertia: &Inertia<Rational>,
     mass: &Rational,

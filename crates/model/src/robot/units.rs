@@ -31,17 +31,14 @@ pub(super) fn whole(value: i64) -> Rational {
     Rational::from_integer(value.into())
 }
 
-/// Returns a number as the file would have it.
 pub(crate) fn shown(value: &Rational) -> String {
     write_decimal(value).unwrap_or_else(|| value.to_string())
 }
 
-/// Returns a thousandth of the number: metres of millimetres.
 fn thousandth(value: &Rational) -> String {
     shown(&(value / whole(1000)))
 }
 
-/// Returns the help about an angle that is too large for radians.
 fn degrees(value: &str) -> String {
     format!("angles are in rad: of degrees, write \"{value}deg\"")
 }
@@ -75,7 +72,6 @@ impl Findings {
         self.warning(RobotWarning::UnusualGravity, "gravity", message, &help);
     }
 
-    /// Warns of gravity that points along the base's z more than along its other axes.
     pub(super) fn upward_gravity(&mut self, [x, y, z]: &[Rational; 3]) {
         if !z.is_positive() || x.abs() > *z || y.abs() > *z {
             return;
@@ -119,7 +115,6 @@ impl Findings {
         self.doubtful_width(index, joint);
     }
 
-    /// Warns of Coulomb friction that is smoothed over every speed that there is.
     fn doubtful_width(&mut self, index: usize, joint: &Joint) {
         let width = &joint.coulomb_width;
         let Some(limit) = &joint.limits.velocity else {
@@ -214,7 +209,6 @@ pub(super) fn turns_text(c: char) -> bool {
     matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Returns the likely fix of a name with one of them.
 pub(super) fn without_turns(name: &str) -> String {
     let plain: String = name.chars().filter(|c| !turns_text(*c)).collect();
     match plain.is_empty() {

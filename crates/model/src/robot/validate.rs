@@ -29,7 +29,6 @@ pub const HAND: &str = "hand";
 /// The longest name of a frame, in bytes: functions are called after it.
 const MAX_FRAME_NAME: usize = 48;
 
-/// The endings of the other ways to call a function.
 pub(crate) const ENDINGS: [&str; 2] = ["_batch", "_columns"];
 
 impl Robot {
@@ -39,8 +38,7 @@ impl Robot {
         self.validate_placed(&[])
     }
 
-    /// Returns every error and warning about a robot whose joints are placed, before it has rows:
-    /// about the numbers of the file, not about those derived from them.
+    /// `placed` are the placements of joints that have no rows yet; empty for a robot with rows.
     pub(crate) fn validate_placed(&self, placed: &[Placement]) -> Vec<Finding> {
         let mut findings = Findings::default();
         let reach = reach::reach(self, placed);
@@ -333,18 +331,16 @@ pub(crate) const WORDS: [&str; 51] = [
     "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
 
-/// Returns true if no module can have this name.
 fn is_keyword(name: &str) -> bool {
     WORDS.contains(&name) || ["union", "core", "std"].contains(&name)
 }
 
-/// Returns true if a name has small letters, digits and `_` only.
+/// Small letters, digits and `_` only.
 pub(crate) fn is_plain(name: &str) -> bool {
     let known = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     name.chars().all(known)
 }
 
-/// Returns true if a plain name has a letter first.
 pub(crate) fn is_snake(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_lowercase()) && is_plain(name)
 }

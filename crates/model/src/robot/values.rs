@@ -101,7 +101,6 @@ pub fn short_hash(text: &str) -> String {
     hash.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Returns the word of a value in a table of words.
 pub(crate) fn word<T: PartialEq>(words: &[(&'static str, T)], value: &T) -> &'static str {
     let mut words = words.iter();
     let found = words.find(|(_, meaning)| meaning == value);

@@ -1,8 +1,7 @@
 //! The robot file that says exactly what a [`Robot`] says, and its hash.
 //!
-//! There is one text for one robot: keys in a fixed order, values that equal
-//! their default left out, numbers in one form. So the text can stand for the
-//! robot wherever two robots are compared.
+//! There is one text for one robot: keys in a fixed order, values that equal their default left
+//! out, numbers in one form. So the text can stand for the robot wherever two robots are compared.
 
 use alloc::format;
 use alloc::string::String;
@@ -77,7 +76,6 @@ impl Robot {
 
 fn write_joint(text: &mut String, joint: &Joint) {
     let zero = || String::from("0");
-    // The constant part of the variable is called offset in the file.
     let (d, theta, offset) = match joint.kind {
         JointKind::Revolute => (number(&joint.d), zero(), angle(&joint.theta)),
         JointKind::Prismatic => (zero(), angle(&joint.theta), number(&joint.d)),

@@ -1,5 +1,4 @@
-//! A value with its rate of change: the derivative of a formula from the same
-//! text as the formula.
+//! A value with its rate of change: the derivative of a formula from the same text as the formula.
 
 use super::{Divide, Scalar};
 use crate::scalar::SinCosPair;

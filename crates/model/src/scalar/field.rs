@@ -1,9 +1,8 @@
 //! Integers modulo a prime p just below 2⁶¹.
 //!
-//! Two formulas that agree at a random point of the field are the same
-//! rational function but for a chance of at most degree/p. There are three primes, so that
-//! what was found by one is checked by another: a false constant that the first cannot tell
-//! from the true one the second can.
+//! Two formulas that agree at a random point of the field are the same rational function but for a
+//! chance of at most degree/p. There are three primes, so that what was found by one is checked by
+//! another: a false constant that the first cannot tell from the true one the second can.
 
 use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
@@ -20,8 +19,7 @@ pub type Field = Modulo<{ (1 << 61) - 1 }>;
 /// The field of proofs: integers modulo 2⁶¹ − 45.
 pub type ProofField = Modulo<{ (1 << 61) - 45 }>;
 
-/// The field that confirms fractions found in the field of searches: integers modulo
-/// 2⁶¹ − 229.
+/// The field that confirms fractions found in the field of searches: integers modulo 2⁶¹ − 229.
 pub type SecondField = Modulo<{ (1 << 61) - 229 }>;
 
 impl<const PRIME: u64> Modulo<PRIME> {
@@ -90,7 +88,6 @@ impl<const PRIME: u64> Modulo<PRIME> {
         (sin, cos)
     }
 
-    /// Returns the residue of an integer, word by word.
     fn residue(x: &BigInt) -> Self {
         let shift = Modulo(Self::EXCESS << 3); // 2⁶⁴
         let words = x.iter_u64_digits().rev();
@@ -245,7 +242,6 @@ mod tests {
         assert_eq!(residue.mul(&Own::new(3)), Own::from_i64(-1));
         let pole = BigRational::new(BigInt::from(1), BigInt::from(PRIME));
         assert_eq!(Own::<PRIME>::from_rational(&pole), None);
-        // Beyond a word: powers of what is a word.
         for base in [-9_876_543_210_987_654_321_i128, 3] {
             let large = num_traits::pow(BigInt::from(base), 40);
             let small = Own::<PRIME>::from_rational(&BigInt::from(base).into()).unwrap();

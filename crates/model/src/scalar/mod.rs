@@ -66,10 +66,9 @@ pub trait Scalar: Clone {
 
 /// A scalar with quotients: what programs run in.
 ///
-/// A formula may divide only by what cannot vanish wherever it is meant to
-/// hold, and says why. Where a divisor is zero all the same there is no
-/// quotient, and no scalar panics: floats return an infinity or NaN, the field
-/// returns zero, and [`sparse`] residues are lost.
+/// A formula may divide only by what cannot vanish wherever it is meant to hold, and says why.
+/// Where a divisor is zero all the same there is no quotient, and no scalar panics: floats return
+/// an infinity or NaN, the field returns zero, and [`sparse`] residues are lost.
 pub trait Divide: Scalar {
     /// Returns `self / other`
     fn div(&self, other: &Self) -> Self;

@@ -123,7 +123,6 @@ mod tests {
     use super::*;
     use crate::scalar::field::{Field, Points};
 
-    /// Every operation on every pair of cases gives the value that the field gives.
     #[test]
     fn structure_changes_no_value() {
         let mut points = Points::new(0x5a);
@@ -162,7 +161,6 @@ mod tests {
         assert_eq!(Zero.mul(&quotient), Lost);
     }
 
-    /// A fused product is rounded once.
     #[test]
     fn floats_fuse() {
         let x = Value(1.0 + f64::EPSILON);

@@ -43,15 +43,13 @@ impl Scene {
     }
 }
 
-/// Takes a range of the box for a limit, where there is one.
 fn bound<T: Clone>(limit: &mut Option<T>, all: &Option<Vec<T>>, joint: usize) {
     if let Some(own) = all.as_ref().and_then(|all| all.get(joint)) {
         *limit = Some(own.clone());
     }
 }
 
-/// Makes a link and what is fixed to it, in the same frame, one: with d between the centres of
-/// mass and μ = m₁m₂/(m₁ + m₂), I = I₁ + I₂ + μ (d·d 1 − d dᵀ).
+/// With d between the centres of mass and μ = m₁m₂/(m₁ + m₂), I = I₁ + I₂ + μ (d·d 1 − d dᵀ).
 fn carry(link: &mut Joint, payload: &Payload) {
     let total = &link.mass + &payload.mass;
     let share = match total.is_zero() {

@@ -30,8 +30,7 @@ pub struct Scene {
     /// The joints whose torques are wanted, in this order; `None` for every
     /// joint that is not locked. Every quantity has these rows *and* columns.
     pub joints: Option<Vec<usize>>,
-    /// Joints that stay where they are, with their positions, in the order of
-    /// the file.
+    /// Joints that stay where they are, with their positions, in the order of the file.
     pub lock: Vec<(usize, Position)>,
     /// Instead of the robot's.
     pub gravity: Option<[Rational; 3]>,
@@ -66,7 +65,6 @@ pub struct MotionBox {
 }
 
 impl MotionBox {
-    /// Returns the velocities or the accelerations; none of anything else.
     pub(crate) fn rate(&self, rate: Limit) -> Option<&Vec<Rational>> {
         match rate {
             Limit::Velocity => self.velocity.as_ref(),
@@ -98,9 +96,8 @@ impl Tolerance {
 /// The scale T_i of a joint's torque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Scale {
-    /// The actuator's torque limit, above zero. An entry of D or of h_ikm is
-    /// relative to what alone takes that limit at the largest rates of the box:
-    /// min(T_i/q̈_k, T_k/q̈_i), T_i/(q̇_k q̇_m).
+    /// The actuator's torque limit, above zero. An entry of D or of h_ikm is relative to what alone
+    /// takes that limit at the largest rates of the box: min(T_i/q̈_k, T_k/q̈_i), T_i/(q̇_k q̇_m).
     Actuator,
     /// A size that the model's own result attains on the box: it is found by
     /// climbing from actual states, so at its largest or just below.

@@ -43,7 +43,6 @@ struct Check<'a> {
 }
 
 impl<'a> Check<'a> {
-    /// Reports an error at a key of the scene, or at the scene.
     fn error(&mut self, key: impl Display, message: impl Into<String>, help: &str) {
         self.found.error(self.place(key), message, help);
     }
@@ -69,7 +68,6 @@ impl<'a> Check<'a> {
         self.robot.joints.get(index)
     }
 
-    /// Checks that there are such joints, and none twice.
     fn list(&mut self, key: &str, joints: &[usize], twice: &str) {
         for (index, &joint) in joints.iter().enumerate() {
             let place = format!("{key}/#{}", index + 1);

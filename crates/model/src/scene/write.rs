@@ -9,8 +9,7 @@ use crate::robot::values::{
     lines, list, number, numbers, position, quoted, range, short_hash, table, word,
 };
 
-/// Writes a scene as its table in a robot file, `[scene.NAME]`, joints by
-/// number.
+/// Writes a scene as its table in a robot file, `[scene.NAME]`, joints by number.
 pub fn write(scene: &Scene) -> String {
     let mut text = format!("[scene.{}]\n", scene.name);
     let outputs = list(scene.outputs.iter().map(|o| format!("\"{}\"", o.text())));
@@ -65,8 +64,7 @@ pub fn write(scene: &Scene) -> String {
 }
 
 impl Scene {
-    /// Returns the first 16 hexadecimal digits of the SHA-256 of the
-    /// [written](write()) scene.
+    /// Returns the first 16 hexadecimal digits of the SHA-256 of the [written](write()) scene.
     pub fn short_hash(&self) -> String {
         short_hash(&write(self))
     }

@@ -30,7 +30,6 @@ fn triple(json: &Value) -> [f64; 3] {
     numbers(json).try_into().unwrap()
 }
 
-/// Returns a golden robot and its states.
 pub fn read(name: &str) -> (Arm<f64>, Vec<Value>) {
     let json = json(&format!("golden/{name}"));
     let robot = &json["robot"];
@@ -71,8 +70,6 @@ pub fn extremes() -> Vec<Value> {
     list(&json("extremes")["cases"]).to_vec()
 }
 
-/// Returns the arm of an extreme case in any scalar, from its float parameters and the pair of
-/// a float angle.
 pub fn extreme<S: Scalar>(
     case: &Value,
     number: impl Fn(f64) -> S,
@@ -111,7 +108,6 @@ pub fn normwise(a: &[f64], b: &[f64]) -> f64 {
     if size == 0.0 { error } else { error / size }
 }
 
-/// Checks the values that belong to the keys of a state, and returns the worst error.
 #[track_caller]
 pub fn check(found: &[(&str, Vec<f64>)], state: &Value, bound: f64, what: &str) -> f64 {
     let errors = found.iter().map(|(key, found)| {
@@ -122,7 +118,6 @@ pub fn check(found: &[(&str, Vec<f64>)], state: &Value, bound: f64, what: &str) 
     errors.fold(0.0, f64::max)
 }
 
-/// Returns τ, c, D and h of a runtime at a state, with their keys.
 pub fn by_runtime(runtime: &Reference<f64>, state: &Value) -> [(&'static str, Vec<f64>); 4] {
     let [q, qd, qdd] = ["q", "qd", "qdd"].map(|key| vector(&numbers(&state[key])));
     let d = runtime.inertia(&q).unwrap();

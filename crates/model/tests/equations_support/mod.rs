@@ -10,7 +10,6 @@ use dalembert_model::equations::{Arm, DhVariables, JointPosition, Link, SinCosPa
 use dalembert_model::robot::{Convention, Inertia, JointKind};
 use dalembert_model::scalar::Scalar;
 
-/// Returns an arm of links, of which nothing more is known.
 pub fn arm<S>(convention: Convention, gravity: [S; 3], links: Vec<Link<S>>) -> Arm<S> {
     Arm {
         convention,
@@ -23,7 +22,6 @@ pub fn arm<S>(convention: Convention, gravity: [S; 3], links: Vec<Link<S>>) -> A
     }
 }
 
-/// Returns a link without friction and rotor.
 pub fn link<S: Scalar>(
     kind: JointKind,
     [alpha, theta]: [SinCosPair<S>; 2],
@@ -46,7 +44,6 @@ pub fn link<S: Scalar>(
     }
 }
 
-/// Returns the variables of an arm at float positions.
 pub fn placed<S: Scalar>(
     arm: &Arm<S>,
     q: &[f64],
@@ -61,7 +58,6 @@ pub fn placed<S: Scalar>(
     arm.at(&position)
 }
 
-/// Returns the sine and the cosine of an angle in doubles.
 pub fn sincos(angle: f64) -> SinCosPair<f64> {
     let (sin, cos) = libm::sincos(angle);
     SinCosPair { sin, cos }

@@ -13,7 +13,6 @@ use super::{arm, link};
 
 pub const CONVENTIONS: [Convention; 2] = [Convention::Standard, Convention::Modified];
 
-/// An arm and one state of it.
 #[derive(Clone)]
 pub struct Case<S = Field> {
     pub arm: Arm<S>,
@@ -22,7 +21,7 @@ pub struct Case<S = Field> {
     pub qdd: Vec<S>,
 }
 
-/// Returns a general arm of n joints at a general state; the bits say which of them slide.
+/// The bits say which of the joints slide.
 pub fn case(convention: Convention, n: usize, bits: u32, points: &mut Points) -> Case {
     let gravity = triple(points);
     let links = (0..n).map(|i| match bits >> i & 1 {
@@ -35,7 +34,6 @@ pub fn case(convention: Convention, n: usize, bits: u32, points: &mut Points) ->
     Case { arm, at, qd, qdd }
 }
 
-/// Returns every pattern of kinds up to so many joints, in both conventions.
 pub fn every_kind(most: usize, points: &mut Points) -> Vec<Case> {
     let mut all = Vec::new();
     for convention in CONVENTIONS {
@@ -46,7 +44,6 @@ pub fn every_kind(most: usize, points: &mut Points) -> Vec<Case> {
     all
 }
 
-/// Draws the position of an arm.
 pub fn position<S: Scalar>(
     arm: &Arm<S>,
     points: &mut Points,
@@ -59,7 +56,6 @@ pub fn position<S: Scalar>(
     arm.links.iter().map(draw).collect()
 }
 
-/// Draws a pose somewhere, turned about all three axes.
 pub fn pose(points: &mut Points) -> Columns<Field> {
     let turned = Columns::identity()
         .turn_z(&pair(points))
@@ -98,7 +94,6 @@ pub fn fields(n: usize, points: &mut Points) -> Vec<Field> {
     (0..n).map(|_| points.field()).collect()
 }
 
-/// Returns residues that know their zeros and ones.
 pub fn known(values: &[Field]) -> Vec<Known> {
     values.iter().copied().map(Known).collect()
 }

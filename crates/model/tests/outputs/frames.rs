@@ -3,8 +3,6 @@
 use super::*;
 use dalembert_model::equations::frames::NamedFrame;
 
-/// Returns an arm with frames on its links: `inner` on the first, `outer` on the last, and each
-/// link's own.
 fn with_frames(case: &Case, points: &mut Points) -> Arm<Field> {
     let last = case.arm.links.len() - 1;
     let mut arm = case.arm.clone();
@@ -18,7 +16,6 @@ fn with_frames(case: &Case, points: &mut Points) -> Arm<Field> {
     arm
 }
 
-/// Returns the values of a text's only quantity, by all formulations the same.
 fn at_frame(text: &str, arm: &Arm<Field>, case: &Case, motion: &Motion<Field>) -> Vec<Field> {
     let case = Case {
         arm: arm.clone(),
@@ -51,9 +48,6 @@ fn one(n: usize) -> Vec<Field> {
     one
 }
 
-/// Every formulation agrees at every frame, in all axes and of chosen components; a frame
-/// on the last link is a tool, joints behind a frame do not move it, the rate of J q̇ is
-/// J̇ q̇, and velocities and wrenches do the same work in all axes.
 #[test]
 fn frames_are_hands_in_other_places() {
     let mut points = Points::new(0x6672);
@@ -79,7 +73,6 @@ fn frames_are_hands_in_other_places() {
                 let j = of(&format!("jacobian{view}"), &arm);
                 let some = of(&format!("jacobian{view}:x_rz"), &arm);
                 assert_eq!(some, [&j[..n], &j[5 * n..]].concat());
-                // J̇ q̇ is what J q̇ changes by.
                 let seen = Function::parse(&format!("jacobian{view}")).unwrap();
                 let Quantity::At(seen) = seen.quantities()[0] else {
                     panic!("a frame");
@@ -103,8 +96,6 @@ fn frames_are_hands_in_other_places() {
     }
 }
 
-/// Λ⁻¹, Λ, J̄, N, μ and the wrench of torques are made of J, D⁻¹ and each other as their
-/// names say, at frames and of chosen components.
 #[test]
 fn operational_space_fits_together() {
     let mut points = Points::new(0x6f70);
@@ -136,7 +127,6 @@ fn operational_space_fits_together() {
                 *entry = one.sub(entry);
             }
             assert_eq!(of("null_space_projector"), projector);
-            // μ, with what the joints are loaded with at this velocity.
             let still = arm.clone().without_friction();
             let rest = vec![Field::ZERO; n];
             let exact = Formulation::LagrangeEuler;
@@ -144,7 +134,6 @@ fn operational_space_fits_together() {
             let driven = matrix_product(&j, &matrix_product(&d_inv, &loads, n), n);
             let rest: Vec<Field> = driven.iter().zip(&rate).map(|(a, b)| a.sub(b)).collect();
             assert_eq!(of("operational_bias"), matrix_product(&inertia, &rest, m));
-            // The wrench of its own torques, but for the damping.
             let torques = matrix_product(&transposed, &motion.wrench[..m], m);
             let pushed = Motion {
                 tau: torques,

@@ -19,8 +19,7 @@ fn at_true_speeds(case: &mut Case, points: &mut Points) {
 
 type Moving<S> = (Arm<S>, Vec<DhVariables<S>>, Vec<S>);
 
-/// Returns the arm, its position and its velocities as they change at the case's velocities and
-/// accelerations: the r of Coulomb friction changes by −q̇ r³ q̈, as 1/√(q̇² + w²) does.
+/// The r of Coulomb friction changes by −q̇ r³ q̈, as 1/√(q̇² + w²) does.
 fn accelerating(case: &Case) -> Moving<Dual<Field>> {
     let (mut arm, at) = moving(case);
     for (link, (qd, qdd)) in arm.links.iter_mut().zip(case.qd.iter().zip(&case.qdd)) {
@@ -35,9 +34,7 @@ fn accelerating(case: &Case) -> Moving<Dual<Field>> {
     (arm, at, qd.collect())
 }
 
-/// The derivatives of τ and of q̈ are their rates along a motion, with q̇ for the rate of q and q̈
-/// for that of q̇; the second ones of λᵀτ and of λᵀq̈ are the rates of λᵀ times the first, which
-/// differentiates other formulas than their own.
+/// The rates of λᵀ times the first derivatives differentiate other formulas than the second ones.
 #[test]
 fn derivatives_are_rates_along_a_motion() {
     use Quantity::*;
@@ -96,7 +93,6 @@ fn derivatives_are_rates_along_a_motion() {
             ),
             (inverse, (AccelerationByTorqueAndPosition, false), None),
         ] {
-            // Rows of a matrix, or of its transpose, times what changes.
             let along = |(quantity, transposed): (Quantity, bool), rates: &[Field]| {
                 let form = Formulation::NewtonEulerLink;
                 let entries = written(quantity, form, &case, &motion, &[]);

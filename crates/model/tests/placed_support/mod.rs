@@ -20,7 +20,6 @@ pub struct Joint {
     rpy: [f64; 3],
     axis: [f64; 3],
     slides: bool,
-    /// That of the link, and what it carries.
     bodies: Vec<Body>,
     viscous: f64,
     armature: f64,
@@ -33,7 +32,6 @@ pub struct Arm {
     joints: Vec<Joint>,
 }
 
-/// Draws arms and states.
 pub struct Drawn(Points);
 
 impl Drawn {
@@ -55,7 +53,6 @@ impl Drawn {
         [self.number(most), self.number(most), self.number(most)]
     }
 
-    /// Draws zero, a right angle to the last digit of a double, or anything.
     fn angles(&mut self) -> [f64; 3] {
         std::array::from_fn(|_| match self.below(4) {
             0 | 1 => 0.0,
@@ -111,7 +108,6 @@ impl Drawn {
         }
     }
 
-    /// Returns every axis tilted from the one before by about this angle.
     pub fn nearly_parallel(&mut self, n: usize, angle: f64) -> Arm {
         let mut arm = self.arm(n);
         for joint in &mut arm.joints {
@@ -125,7 +121,6 @@ impl Drawn {
 }
 
 impl Arm {
-    /// Adds a load on the last link: that of the tests.
     pub fn payload(&mut self) {
         self.joints.last_mut().unwrap().bodies.push(Body {
             mass: 2.5,
@@ -135,7 +130,6 @@ impl Arm {
     }
 }
 
-/// Returns the robot file, without what is carried.
 pub fn file(arm: &Arm) -> String {
     let placed = |xyz: &[f64; 3], rpy: &[f64; 3]| format!("{{ xyz = {xyz:?}, rpy = {rpy:?} }}");
     let [base, tool] = [arm.base, arm.tool].map(|(xyz, rpy)| placed(&xyz, &rpy));
@@ -176,7 +170,6 @@ fn then(a: &Pose, b: &Pose) -> Pose {
     (a.0 * b.0, a.1 + a.0 * b.1)
 }
 
-/// Torques and the pose of the tool.
 fn by_frames(arm: &Arm, q: &[f64], qd: &[f64], qdd: &[f64]) -> (Vec<f64>, Pose) {
     let mut at: Pose = (rotation(arm.base.1), Vector3::from(arm.base.0));
     let (mut omega, mut turning, mut moving) = (Vector3::zeros(), Vector3::zeros(), -arm.gravity);
@@ -194,7 +187,6 @@ fn by_frames(arm: &Arm, q: &[f64], qd: &[f64], qdd: &[f64]) -> (Vec<f64>, Pose) 
             false => (about(own, q[i]), Vector3::zeros()),
         };
         at = then(&at, &step);
-        // The origin as a point of the link before, then the joint's own motion.
         let lever = at.1 - before;
         moving += turning.cross(&lever) + omega.cross(&omega.cross(&lever));
         if joint.slides {
@@ -229,8 +221,7 @@ fn by_frames(arm: &Arm, q: &[f64], qd: &[f64], qdd: &[f64]) -> (Vec<f64>, Pose) 
     ((0..n).map(torque).collect(), then(&at, &tool))
 }
 
-/// Returns the ten numbers of every link as the file gives them, in the link's frame: the mass,
-/// first moments and the tensor about the origin.
+/// In the link's frame: the mass, first moments and the tensor about the origin.
 fn parameters(arm: &Arm) -> DVector<f64> {
     let link = |joint: &Joint| {
         let mut sum = [0.0; 10];
@@ -249,8 +240,7 @@ fn parameters(arm: &Arm) -> DVector<f64> {
     DVector::from_vec(all)
 }
 
-/// Returns the worst difference at some states, relative to the largest torque; of
-/// poses, in metres. Torques are those of the file's own parameters, too, by the regressor.
+/// The worst difference is relative to the largest torque; of poses, in metres.
 pub fn compare(arm: &Arm, robot: &Robot, drawn: &mut Drawn) -> f64 {
     let runtime = Reference::<f64>::from_robot(robot);
     let mut worst: f64 = 0.0;

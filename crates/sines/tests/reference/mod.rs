@@ -4,13 +4,12 @@
 //! Sums and products of two doubles are exact as pairs (Knuth, Dekker). What is
 //! left of the angle has an error of 2⁻¹⁰⁴, and the series, whose first terms
 //! are in pairs and the others in doubles, 2⁻⁷⁰: a term in doubles is at most
-//! z⁴/8! < 2⁻¹⁸ with an error of 2⁻⁵². `against_the_big_float` measures it.
+//! z⁴/8! < 2⁻¹⁸ with an error of 2⁻⁵². `against_the_wide_float` measures it.
 
 /// A double and what it lacks.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair(pub f64, pub f64);
 
-/// Returns a + b
 fn sum(a: f64, b: f64) -> Pair {
     let s = a + b;
     let of_b = s - a;
@@ -24,7 +23,6 @@ fn halves(a: f64) -> (f64, f64) {
     (high, a - high)
 }
 
-/// Returns a·b
 fn product(a: f64, b: f64) -> Pair {
     let p = a * b;
     let ((a1, a2), (b1, b2)) = (halves(a), halves(b));
@@ -55,7 +53,6 @@ const QUARTER: [f64; 4] = [
     -2.7529965190440717e-37,
 ];
 
-/// Returns the angle less quarter turns, and how many.
 fn reduced(x: f64) -> (i64, Pair) {
     let k = (x * core::f64::consts::FRAC_2_PI).round();
     let first = sum(x - k * QUARTER[0], -(k * QUARTER[1]));
@@ -128,7 +125,6 @@ pub fn ulp(x: f64) -> f64 {
     x.abs().next_up() - x.abs()
 }
 
-/// Returns the error of a result in ulps of the true value.
 pub fn ulps(found: f64, exact: Pair) -> f64 {
     // Just below a power of two an ulp is half as large as at it.
     let power = exact.0.to_bits().is_multiple_of(1 << 52);

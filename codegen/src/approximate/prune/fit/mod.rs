@@ -1,10 +1,9 @@
 //! Constants corrected for what was left out: least squares.
 //!
-//! A constant may take any value at no cost. To first order the outputs'
-//! errors at the samples are E + J·δ with δ the changes of the constants and
-//! J from [`Nodes::adjoints`]. With Cholesky's factor of JᵀJ, what no change of
-//! constants takes away from E costs two products with J: quick enough to rank
-//! every candidate by, above all if candidates share them.
+//! A constant may take any value at no cost. To first order the outputs' errors at the samples are
+//! E + J·δ with δ the changes of the constants and J from [`Nodes::adjoints`]. With Cholesky's
+//! factor of JᵀJ, what no change of constants takes away from E costs two products with J: quick
+//! enough to rank every candidate by, above all if candidates share them.
 //!
 //! - this file: J, and what the constants leave
 //! - `products`: J with many errors side by side
@@ -17,7 +16,6 @@ pub(super) use products::LANES;
 pub(in crate::approximate) use products::dot;
 use products::{Columns, gram};
 
-/// Returns the monomials of a value at the samples, and the length of them all.
 pub(super) fn sized(column: &[f64], motions: &Motions) -> (Vec<f64>, f64) {
     let mut column = column.to_vec();
     motions.monomials(&mut column);
@@ -30,9 +28,8 @@ pub(super) fn sized(column: &[f64], motions: &Motions) -> (Vec<f64>, f64) {
 /// where J changes with them. It also keeps JᵀJ far from singular.
 const INERTIA: f64 = 3.0;
 
-/// What the constants can change.
 pub(super) struct Fit {
-    /// Which constant each column of J belongs to: op, and which operand it is.
+    /// The constant of each column of J: its operation, and which operand it is.
     places: Vec<(usize, usize)>,
     /// J, weighted, without what the other columns can do by themselves.
     columns: Columns,
@@ -40,15 +37,12 @@ pub(super) struct Fit {
     factor: Vec<Vec<f64>>,
 }
 
-/// Weighted errors, and what constants leave of them.
 pub(super) struct Trial {
     pub errors: Vec<f64>,
-    /// The columns of constants that cannot change.
     pub gone: Vec<usize>,
 }
 
 impl Fit {
-    /// Makes it from the columns of a program under edits; `weights` of rows.
     pub(super) fn new(
         nodes: &Nodes,
         edits: &[Option<Value>],
@@ -93,7 +87,6 @@ impl Fit {
         Fit::of(all)
     }
 
-    /// Makes it from J's columns and the inertia of each.
     fn of(all: Vec<((usize, usize), Vec<f64>, f64)>) -> Fit {
         let mut fit = Fit {
             places: Vec::new(),
@@ -132,14 +125,12 @@ impl Fit {
         fit
     }
 
-    /// Returns the columns of the constants of some operations.
     pub(super) fn of_ops(&self, which: impl Fn(usize) -> bool) -> Vec<usize> {
         let places = self.places.iter().enumerate();
         let of = places.filter(|(_, (op, _))| which(*op));
         of.map(|(column, _)| column).collect()
     }
 
-    /// Takes away what constants can take away.
     pub(super) fn settle(&self, trials: &mut [&mut Trial]) {
         for trials in trials.chunks_mut(LANES) {
             let rows = trials.first().map_or(0, |trial| trial.errors.len());
@@ -167,7 +158,6 @@ impl Fit {
         }
     }
 
-    /// Returns the changes of constants that do so; of those in `gone` none.
     pub(super) fn changes(&self, errors: &[f64], gone: &[usize]) -> Vec<((usize, usize), f64)> {
         let products = self
             .columns
@@ -196,8 +186,7 @@ impl Fit {
     /// Returns the least squares if some changes are zero, from those if none is: with S
     /// the inverse of JᵀJ + inertia and G what is gone, x − S_G (S_GG)⁻¹ x_G.
     fn without(&self, mut x: Vec<f64>, gone: &[usize]) -> Vec<f64> {
-        // Gauss's elimination: a pivot is one at its own column, and zero at
-        // those before.
+        // Gauss's elimination: a pivot is one at its own column, and zero at those before.
         let mut pivots: Vec<(usize, Vec<f64>)> = Vec::new();
         for &column in gone {
             let mut unit = vec![0.0; self.places.len()];
@@ -232,7 +221,6 @@ mod tests {
     use super::*;
     use crate::random::Random;
 
-    /// A constant that is gone is as one that never was.
     #[test]
     fn what_is_gone_cannot_help() {
         let mut random = Random::new(7);
@@ -243,7 +231,6 @@ mod tests {
         for (_, column, _) in &columns {
             add(&mut errors, 0.5, column);
         }
-        // One that another one can do by itself, almost.
         columns[5].1 = columns[2].1.iter().map(|x| x + 1e-3).collect();
         let left = |fit: &Fit, gone: &[usize]| {
             let (errors, gone) = (errors.clone(), gone.to_vec());

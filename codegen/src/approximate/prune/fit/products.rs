@@ -6,13 +6,10 @@
 /// Rows that a Gram matrix takes together: of a hundred columns they fit a cache.
 const BLOCK: usize = 512;
 
-/// Rows that errors take together.
 const ROWS: usize = 128;
 
-/// Errors that go through J side by side.
 pub(in crate::approximate::prune) const LANES: usize = 8;
 
-/// A row of theirs.
 pub(super) type Lanes = [f64; LANES];
 
 /// J by columns. A constant of one link moves the outputs of some joints only, so
@@ -20,7 +17,7 @@ pub(super) type Lanes = [f64; LANES];
 #[derive(Clone, Debug, Default)]
 pub(super) struct Columns {
     pub columns: Vec<Vec<f64>>,
-    /// Of each block of [`ROWS`] rows, the columns that are not zero there.
+    /// For each block of [`ROWS`] rows, the columns that are not zero there.
     live: Vec<Vec<usize>>,
 }
 
@@ -38,7 +35,7 @@ impl Columns {
         }
     }
 
-    /// Returns JᵀE. Two columns at a time: each sum is the one that it would be alone.
+    /// Two columns at a time: each sum is the one that it would be alone.
     pub(super) fn transposed(&self, errors: &[Lanes]) -> Vec<Lanes> {
         let mut products = vec![[0.0; LANES]; self.columns.len()];
         let blocks = errors.chunks(ROWS).zip(&self.live);
@@ -74,7 +71,6 @@ impl Columns {
         products
     }
 
-    /// Computes E − J·δ. Four columns at a time, one after the other in each row.
     pub(super) fn subtract(&self, changes: &[Lanes], errors: &mut [Lanes]) {
         let blocks = errors.chunks_mut(ROWS).zip(&self.live);
         for (block, (errors, live)) in blocks.enumerate() {
@@ -111,7 +107,6 @@ fn is_live(part: &[f64]) -> bool {
     part.iter().any(|x| *x != 0.0)
 }
 
-/// Returns JᵀJ, the lower triangle.
 pub(super) fn gram(columns: &[&[f64]]) -> Vec<Vec<f64>> {
     let rows = columns.first().map_or(0, |column| column.len());
     let mut gram: Vec<Vec<f64>> = (0..columns.len()).map(|k| vec![0.0; k + 1]).collect();
@@ -132,7 +127,6 @@ pub(super) fn gram(columns: &[&[f64]]) -> Vec<Vec<f64>> {
     gram
 }
 
-/// Computes a + x·b
 #[inline(always)]
 fn add(a: &mut Lanes, x: f64, b: &Lanes) {
     a[0] += x * b[0];

@@ -5,7 +5,6 @@ use crate::approximate::prune::columns::{Nodes, Value};
 use crate::approximate::prune::fit::{dot, sized};
 use crate::program::Operation;
 
-/// Returns zero, the middle of its values, and for a sum one of its operands.
 pub(super) fn candidates(nodes: &Nodes, node: usize, columns: &[f64]) -> Vec<Value> {
     let m = nodes.samples;
     let mut values = vec![Value::Known(0.0)];
@@ -31,13 +30,11 @@ pub(super) fn candidates(nodes: &Nodes, node: usize, columns: &[f64]) -> Vec<Val
     values
 }
 
-/// Correlations below this are not worth a trial.
 const LEAST: f64 = 0.5;
 
 /// Values that run alike: a place can take another value whose own work is
 /// done anyway, constants that scale it are corrected.
 pub(super) struct Alike {
-    /// Monomials of each live value at the samples, of length one.
     directions: Vec<Option<Vec<f64>>>,
     most: usize,
 }
@@ -66,8 +63,6 @@ impl Alike {
         }
     }
 
-    /// Returns the values computed before a node that run most like it, the most
-    /// alike first.
     pub(super) fn of(&self, node: usize) -> Vec<Value> {
         let Some(mine) = &self.directions[node] else {
             return Vec::new();

@@ -6,27 +6,22 @@ use crate::approximate::prune::columns::Nodes;
 use crate::approximate::prune::fit::{Fit, Trial};
 use crate::bound::work;
 
-/// Errors of a variant at states that take about a unit of work, with the run
-/// that they are from.
+/// Errors of a variant at states that take about a unit of work, with the run that they are from.
 const MEASURED: usize = 8;
 
-/// How large errors are.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Potential {
     /// Σ price·error/allowance.
     pub sum: f64,
-    /// The worst error/allowance.
     pub worst: f64,
 }
 
-/// An edited program whose constants are to be corrected.
 pub(super) struct Attempt {
     pub potential: Potential,
     trial: Trial,
 }
 
 impl Greedy<'_> {
-    /// Returns the worst sampled error of each output against its allowance.
     pub(in crate::approximate::prune) fn relative(&self, state: &State) -> Vec<f64> {
         let errors = self.errors(&state.nodes, &state.nodes.run(&state.edits));
         let outputs = errors
@@ -40,14 +35,12 @@ impl Greedy<'_> {
             .collect()
     }
 
-    /// The potential after constants are corrected.
     pub(super) fn settled(&self, state: &State, columns: &[f64], fit: &Fit) -> Potential {
         let mut attempts = [self.attempt(state, columns, fit)];
         self.make_up(fit, &mut attempts);
         attempts[0].potential
     }
 
-    /// Returns what is to be settled: the program that was priced last.
     pub(super) fn attempt(&self, state: &State, columns: &[f64], fit: &Fit) -> Attempt {
         let mut errors = self.errors(&state.nodes, columns);
         let potential = self.potential(&errors);
@@ -59,13 +52,11 @@ impl Greedy<'_> {
         Attempt { potential, trial }
     }
 
-    /// Returns the columns of the constants that the program that was priced last does not read.
     pub(super) fn gone(&self, state: &State, fit: &Fit) -> Vec<usize> {
         let (live, inputs) = (&self.scratch.live, state.nodes.inputs.len());
         fit.of_ops(|op| !live[inputs + op])
     }
 
-    /// Corrects constants where that is better.
     pub(super) fn make_up(&self, fit: &Fit, attempts: &mut [Attempt]) {
         let mut trials: Vec<&mut Trial> = attempts.iter_mut().map(|a| &mut a.trial).collect();
         fit.settle(&mut trials);
@@ -80,7 +71,6 @@ impl Greedy<'_> {
         }
     }
 
-    /// Returns monomials, output after output, position after position.
     pub(super) fn errors(&self, nodes: &Nodes, columns: &[f64]) -> Vec<f64> {
         let mut errors = nodes.values(columns);
         for (error, truth) in errors.iter_mut().zip(self.truth) {
@@ -90,7 +80,6 @@ impl Greedy<'_> {
         errors
     }
 
-    /// Returns how large errors are, against allowances.
     pub(super) fn potential(&self, errors: &[f64]) -> Potential {
         work::count(1 + errors.len() / MEASURED);
         let m = errors.len() / self.allowances.len();

@@ -17,7 +17,6 @@ use crate::approximate::motions::Motions;
 use crate::edits::Edit;
 use crate::random::Random;
 
-/// A program with its edits and its constants as they are now.
 #[derive(Clone)]
 pub(super) struct State {
     pub nodes: Nodes,
@@ -33,37 +32,26 @@ impl State {
     }
 }
 
-/// A search at sampled states.
 pub(super) struct Greedy<'a> {
     motions: &'a Motions,
-    /// The full model's outputs, output after output.
     truth: &'a [f64],
-    /// The largest admissible error of each output.
     allowances: Vec<f64>,
-    /// Of the least squares, row by row: 1/allowance, and more where errors
-    /// are largest.
+    /// Weights of the least squares, row by row: 1/allowance, and more where errors are largest.
     weights: Vec<f64>,
-    /// Of each output at each position.
     levels: Vec<f64>,
     scratch: Scratch,
-    /// The columns that candidates are tried on.
     trial: Vec<f64>,
     dirty: Vec<bool>,
-    /// What cannot stand in each node's place.
+    /// Values that cannot stand in each node's place.
     hopeless: Vec<Vec<Value>>,
-    /// What could not if errors counted half.
+    /// Those that could not even if errors counted half.
     pub(super) never: Vec<Vec<Value>>,
-    /// What an output's error weighs in the ranking.
     prices: Vec<f64>,
-    /// Edits in a row that are corrected with the derivatives from before them.
     reuses: usize,
-    /// The candidates that are ranked again before one is taken.
     ranked_again: usize,
-    /// How many other values are tried in a value's place.
     alike: usize,
 }
 
-/// A candidate and how it ranked.
 #[derive(Clone, Copy)]
 struct Ranked {
     node: usize,
@@ -121,8 +109,8 @@ impl<'a> Greedy<'a> {
         }
     }
 
-    /// Knows from a search over the same nodes what cannot stand in their places: as
-    /// far as no larger shares of the allowances would change that.
+    /// Takes over from a search on the same nodes what no larger shares of the allowances would
+    /// change.
     pub(super) fn knowing(mut self, never: Vec<Vec<Value>>) -> Self {
         self.hopeless.clone_from(&never);
         self.never = never;
@@ -133,8 +121,7 @@ impl<'a> Greedy<'a> {
         price(&state.nodes, &state.edits, &mut self.scratch)
     }
 
-    /// Edits until nothing admissible saves anything. `noise` blurs the
-    /// ranking.
+    /// `noise` blurs the ranking.
     pub(super) fn drop_all(&mut self, state: &mut State, noise: f64, random: &mut Random) {
         let mut columns = state.nodes.run(&state.edits);
         let mut fit = self.fit(state, &columns);
@@ -197,7 +184,6 @@ impl<'a> Greedy<'a> {
         }
     }
 
-    /// Takes back what saves nothing.
     pub(super) fn restore_idle(&mut self, state: &mut State) {
         let mut paid = self.price(state);
         for node in (0..state.edits.len()).rev() {
@@ -213,15 +199,12 @@ impl<'a> Greedy<'a> {
         }
     }
 
-    /// Takes the last steps: idle edits go, constants are corrected and shortened.
     pub(super) fn settle(&mut self, state: &mut State, original: &Nodes, rounds: usize) {
         self.restore_idle(state);
         self.polish(state, rounds);
         state.nodes.shorten(original);
     }
 
-    /// Returns the edits as the program knows them; constants that nothing reads any
-    /// more are not among them.
     pub(super) fn edits(&mut self, original: &Nodes, state: &State) -> Vec<Edit> {
         let mut state = state.clone();
         self.price(&state);

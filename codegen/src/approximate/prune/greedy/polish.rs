@@ -5,7 +5,6 @@ use crate::approximate::prune::columns::Value;
 use crate::approximate::prune::fit::Fit;
 
 impl Greedy<'_> {
-    /// Corrects constants until the worst error shrinks no more.
     pub(in crate::approximate::prune) fn polish(&mut self, state: &mut State, rounds: usize) {
         self.price(state);
         let mut columns = state.nodes.run(&state.edits);
@@ -59,8 +58,7 @@ impl Greedy<'_> {
         Fit::new(nodes, edits, live, columns, self.motions, weights)
     }
 
-    /// Returns the columns under edits that may have come after a fit, constants corrected by it;
-    /// `None`, and constants as they were, if they cannot make up for the edits so.
+    /// `None`, with the constants as they were, if they cannot make up for the edits.
     pub(super) fn corrected(
         &mut self,
         state: &mut State,
@@ -77,8 +75,6 @@ impl Greedy<'_> {
         None
     }
 
-    /// Changes constants against the errors of the edits, but those that the program that was
-    /// priced last does not read; the new columns from the present ones.
     fn correct(&self, state: &mut State, columns: Vec<f64>, fit: &Fit) -> Vec<f64> {
         let gone = self.gone(state, fit);
         let mut errors = self.errors(&state.nodes, &columns);

@@ -16,7 +16,6 @@ const HOPELESS: f64 = 5.0;
 const MARGIN: f64 = 2.0;
 
 impl Greedy<'_> {
-    /// Returns every admissible candidate.
     pub(super) fn rank_all(
         &mut self,
         state: &mut State,
@@ -60,8 +59,6 @@ impl Greedy<'_> {
         ranked.collect()
     }
 
-    /// Returns the growth of the error an operation saved, of each candidate; `None` if
-    /// it saves nothing or goes too far.
     pub(super) fn scores(
         &mut self,
         state: &mut State,
@@ -73,7 +70,6 @@ impl Greedy<'_> {
         let mut scores = vec![None; candidates.len()];
         self.trial.clear();
         self.trial.extend_from_slice(columns);
-        // Together as long as their errors stay at hand.
         for (candidates, scores) in candidates.chunks(LANES).zip(scores.chunks_mut(LANES)) {
             let mut attempts = Vec::new();
             let mut saved = Vec::new();
@@ -104,8 +100,7 @@ impl Greedy<'_> {
         scores
     }
 
-    /// Returns the program if a node's edit is new and the columns, of which `trial` is a copy, are
-    /// not.
+    /// Expects `trial` to be a copy of `columns`, which are from before the edit.
     fn retry(&mut self, state: &State, columns: &[f64], fit: &Fit, node: usize) -> Attempt {
         let nodes = &state.nodes;
         let (m, inputs) = (nodes.samples, nodes.inputs.len());

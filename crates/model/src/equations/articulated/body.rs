@@ -8,7 +8,6 @@ use crate::equations::matrix::{
 use crate::equations::screws::{Twist, Wrench};
 use crate::scalar::Divide;
 
-/// Rows of a 3×3 matrix.
 type Block<S> = [Vector<S>; 3];
 
 /// The articulated inertia, symmetric, in blocks: the moment is
@@ -30,7 +29,6 @@ impl<S: Divide> Articulated<S> {
         }
     }
 
-    /// Returns a rigid link about its frame's origin, and V × (I V) at its velocity.
     pub(super) fn of(link: &Link<S>, velocity: &Twist<S>) -> (Self, Wrench<S>) {
         let (mass, com) = (&link.mass, &link.com);
         let first = scaled(mass, com);
@@ -108,7 +106,6 @@ impl<S: Divide> Articulated<S> {
     }
 }
 
-/// Returns the power of a wrench on a motion.
 pub(super) fn power<S: Divide>(wrench: &Wrench<S>, motion: &Twist<S>) -> S {
     plus(
         &dot(&wrench.moment, &motion.turn),
@@ -120,12 +117,10 @@ fn block_sum<S: Divide>(a: &Block<S>, b: &Block<S>) -> Block<S> {
     core::array::from_fn(|i| sum(&a[i], &b[i]))
 }
 
-/// Returns [p]× M: p × each column.
 fn columns_crossed<S: Divide>(p: &Vector<S>, block: &Block<S>) -> Block<S> {
     transposed(&transposed(block).map(|column| cross(p, &column)))
 }
 
-/// Returns M [p]×: each row r becomes (M [p]×) = (r × p), row by row.
 fn rows_crossed<S: Divide>(block: &Block<S>, p: &Vector<S>) -> Block<S> {
     block.each_ref().map(|row| cross(row, p))
 }

@@ -2,11 +2,10 @@
 //! Algorithms* (2008), section 7.3, in the axes of each link's own frame, both
 //! DH conventions, rotors' inertia and friction included.
 //!
-//! The articulated body i is link i with all that follows it, each joint free
-//! to move under its own torque. What it answers to an acceleration a of its
-//! frame is I a + p; the joint before gives way along its axis, and takes the
-//! part d = Sᵀ I S + armature along it out of I. Nothing is assembled or
-//! factorised: D does not occur.
+//! The articulated body i is link i with all that follows it, each joint free to move under its own
+//! torque. What it answers to an acceleration a of its frame is I a + p; the joint before gives way
+//! along its axis, and takes the part d = Sᵀ I S + armature along it out of I. Nothing is assembled
+//! or factorised: D does not occur.
 //!
 //! - `body`: what a body answers to motions
 //! - `step`: from one frame to the next, through a joint
@@ -24,20 +23,16 @@ use crate::scalar::Divide;
 use body::{Articulated, power};
 use step::Step;
 
-/// The values that the way out leaves for the way back.
 struct Joint<S> {
     /// I S: what an acceleration along the joint takes.
     push: Wrench<S>,
-    /// The rest of the torque.
     rest: S,
     /// 1/d; zero of a joint that is held.
     inverse: S,
-    /// Velocity product of the joint.
     drift: Twist<S>,
 }
 
-/// Returns q̈ of the joints that move, zero of the others, which are held where they
-/// are.
+/// Returns q̈ of the joints that move, zero of the others, which are held where they are.
 pub fn forward_dynamics<S: Divide>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
@@ -47,7 +42,6 @@ pub fn forward_dynamics<S: Divide>(
 ) -> Vec<S> {
     let n = arm.links.len();
     let steps: Vec<Step<'_, S>> = (0..n).map(|i| Step::new(arm, i, at)).collect();
-    // Velocities, outward.
     let mut velocities: Vec<Twist<S>> = Vec::with_capacity(n);
     let mut drifts = Vec::with_capacity(n);
     let rest = Twist::rest();
@@ -58,7 +52,6 @@ pub fn forward_dynamics<S: Divide>(
         velocities.push(velocity);
         drifts.push(drift);
     }
-    // Articulated bodies, inward.
     let mut joints: Vec<Joint<S>> = Vec::with_capacity(n);
     let mut body = Articulated::zero();
     let mut bias = Wrench::zero();
@@ -66,7 +59,6 @@ pub fn forward_dynamics<S: Divide>(
         let (step, link) = (&steps[i], &arm.links[i]);
         let (own, own_bias) = Articulated::of(link, &velocities[i]);
         let (whole, whole_bias) = (body.plus(&own), bias.with(&own_bias));
-        // To the joint's frame, and from there to the one before.
         let (whole, whole_bias) = step.back_in(Convention::Standard, whole, whole_bias);
         let push = whole.times(&step.along(&S::one()));
         let pivot = plus(step.depends_on(&push), &link.armature);

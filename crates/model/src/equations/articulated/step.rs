@@ -7,7 +7,6 @@ use crate::equations::{Arm, DhVariables, Link};
 use crate::robot::Convention;
 use crate::scalar::Divide;
 
-/// From frame i−1 to frame i: where the joint is, and the constant way.
 pub(super) struct Step<'a, S> {
     arm: &'a Arm<S>,
     link: &'a Link<S>,
@@ -28,18 +27,15 @@ impl<'a, S: Divide> Step<'a, S> {
         }
     }
 
-    /// Returns z at a rate: both conventions move about or along the z axis of the
-    /// joint's frame, which is i−1 in standard DH and i in modified.
+    /// A joint moves about or along z of its frame, which is i−1 in standard DH and i in modified.
     pub(super) fn along(&self, rate: &S) -> Twist<S> {
         Twist::of_joint(self.link.kind, [S::zero(), S::zero(), rate.clone()])
     }
 
-    /// Returns the part of a wrench in the joint's frame that the joint feels.
     pub(super) fn depends_on<'w>(&self, wrench: &'w Wrench<S>) -> &'w S {
         &wrench.part(self.link.kind)[2]
     }
 
-    /// Returns a motion of frame i−1 through the joint, then seen from frame i.
     pub(super) fn outward<T>(
         &self,
         before: &Twist<S>,
@@ -54,7 +50,6 @@ impl<'a, S: Divide> Step<'a, S> {
         }
     }
 
-    /// Returns a motion from frame i−1 to frame i.
     fn seen(&self, motion: &Twist<S>) -> Twist<S> {
         let shift = sum(&motion.shift, &cross(&motion.turn, &self.lever));
         let turned = |v: &Vector<S>| self.link.to_link(self.arm.convention, self.at, v);

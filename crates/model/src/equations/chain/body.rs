@@ -114,7 +114,6 @@ impl<S: Scalar> Body<S> {
 
     /// Returns it in other axes: r → R r.
     pub fn turned(&self, rotation: &Rotation<S>) -> Self {
-        // R Σ, then (R Σ) Rᵀ.
         let columns = self.second.rows();
         let row = |own: &Vector<S>| columns.each_ref().map(|column| dot(own, column));
         let half = rotation.each_ref().map(row);

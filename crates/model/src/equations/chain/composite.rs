@@ -33,8 +33,7 @@ pub struct Composite<'a, S> {
     twists: Vec<Vec<Twist<S>>>,
 }
 
-/// What turning and driving a joint does to its composite body, about the origin and in the
-/// axes of a frame.
+/// The effect of turning and driving a joint on its composite, about a frame's origin in its axes.
 pub(super) struct Acting<S, const WRENCHES: usize, const VECTORS: usize> {
     pub(super) wrenches: [Wrench<S>; WRENCHES],
     pub(super) vectors: [Vector<S>; VECTORS],
@@ -77,7 +76,6 @@ impl<'a, S: Scalar> Composite<'a, S> {
         }
     }
 
-    /// Returns the wrench of a unit acceleration of joint k on its composite.
     pub(super) fn momentum(&self, k: usize) -> Wrench<S> {
         let (link, body) = (&self.chain.links[k], &self.bodies[k]);
         let second = &body.second;
@@ -127,7 +125,6 @@ impl<'a, S: Scalar> Composite<'a, S> {
     /// Returns `h[i][k][m]` = h_ikm, n×n×n.
     pub fn christoffel(&self) -> Vec<Vec<Vec<S>>> {
         let n = self.chain.links.len();
-        // [m][k][i] for i < m and k ≤ m.
         let outer: Vec<Vec<Vec<S>>> = (0..n)
             .map(|m| (0..=m).map(|k| self.christoffel_row(k, m)).collect())
             .collect();
@@ -155,7 +152,6 @@ impl<'a, S: Scalar> Composite<'a, S> {
     pub fn gravity(&self, travel: CompositeOrder) -> Vec<S> {
         let chain = self.chain;
         if travel == CompositeOrder::Inward {
-            // The weight of all links about each origin, links summed.
             let rest = zeros(chain.links.len());
             let (spin, couple) = (AccelerationForm::Column, MomentForm::SecondMoments);
             return chain.inverse_dynamics(self.at, &rest, &rest, spin, couple);
@@ -179,9 +175,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
         c
     }
 
-    /// Returns τ, length n, without armature and damping: what a joint does to the
-    /// joints before it and to its own composite, plus what the motion of the
-    /// joints before, and gravity, do to that composite.
+    /// Returns τ, length n, without armature and damping.
     pub fn torques(
         &self,
         gravity: &Vector<S>,
@@ -197,7 +191,6 @@ impl<'a, S: Scalar> Composite<'a, S> {
         let mut wrenches = Vec::with_capacity(n);
         let mut own = Vec::with_capacity(n);
         for (i, link) in chain.links.iter().enumerate() {
-            // The motion of frame i with its own joint at rest.
             let still = before.next(link, &self.at[i], &S::zero(), &S::zero(), spin);
             let body = &self.bodies[i];
             let at_rest = still.wrench(body, MomentForm::SecondMoments);
@@ -228,8 +221,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
         torques
     }
 
-    /// Returns the wrench of Δ_k Δ_m on the composite body m, `turn` being the angular part of
-    /// Δ_k.
+    /// Returns the wrench of Δ_k Δ_m on the composite body m, `turn` being the angular part of Δ_k.
     fn quadratic(&self, m: usize, turn: &Vector<S>) -> Wrench<S> {
         let (link, body) = (&self.chain.links[m], &self.bodies[m]);
         match link.kind {
@@ -241,7 +233,6 @@ impl<'a, S: Scalar> Composite<'a, S> {
                     moment: [y, negative(&x), S::zero()],
                 }
             }
-            // Every point moves along the slide.
             JointKind::Prismatic => slid(body, &cross(turn, &link.axis)),
         }
     }
@@ -254,13 +245,10 @@ impl<'a, S: Scalar> Composite<'a, S> {
         }
     }
 
-    /// Returns what joint i feels of a wrench about the origin of frame m.
     pub(super) fn project(&self, i: usize, m: usize, wrench: &Wrench<S>) -> S {
         self.chain.rescaled(i, wrench.along(&self.twist(i, m)))
     }
 
-    /// Converts a matrix over the joints, whose rows and columns both have
-    /// a unit.
     pub(super) fn matrix_in_metres(&self, matrix: &mut [Vec<S>]) {
         let chain = self.chain;
         for (i, row) in matrix.iter_mut().enumerate() {
@@ -304,14 +292,12 @@ impl<'a, S: Scalar> Composite<'a, S> {
         }
     }
 
-    /// Returns a twist in the axes of frame j, seen from frame i ≥ j.
     pub(super) fn twist_outward(&self, twist: &Twist<S>, j: usize, i: usize) -> Twist<S> {
         let out = |seen: Twist<S>, m: usize| self.chain.links[m].twist_outward(&self.at[m], &seen);
         (j + 1..=i).fold(twist.clone(), out)
     }
 }
 
-/// Returns the wrench of a body whose points all have this acceleration.
 fn slid<S: Scalar>(body: &Body<S>, acceleration: &Vector<S>) -> Wrench<S> {
     Wrench {
         force: scaled(&body.mass, acceleration),

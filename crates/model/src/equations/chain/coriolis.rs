@@ -11,9 +11,9 @@ use crate::scalar::Scalar;
 /// The twist of a joint and its rate.
 type Earlier<S> = [Twist<S>; 2];
 
-/// Of a joint and its composite body half of what the joints before feel for each unit of its
-/// velocity, and the wrench of a unit acceleration; half of what the rate of the composite gives
-/// along the joint for each turn of all that it is part of.
+/// For a joint with its composite: half of the wrench per unit velocity that the joints before
+/// feel, the wrench of a unit acceleration, and half of the composite's rate along the joint per
+/// turn.
 type Later<S> = Acting<S, 2, 1>;
 
 impl<S: Scalar> Composite<'_, S> {
@@ -33,7 +33,6 @@ impl<S: Scalar> Composite<'_, S> {
         matrix
     }
 
-    /// Returns what each joint contributes by itself, from the hand inward.
     fn velocity_parts(&self, qd: &[S]) -> (Vec<Earlier<S>>, Vec<Later<S>>) {
         let chain = self.chain;
         let velocities = chain.velocities(self.at, qd);

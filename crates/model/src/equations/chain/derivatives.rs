@@ -22,28 +22,23 @@ pub struct Slopes<S> {
     pub velocity: Vec<Vec<S>>,
 }
 
-/// ∫ V dm and ∫ V rᵀ dm, row by row, of bodies in motion, V the velocity of
-/// the point r.
+/// ∫ V dm and ∫ V rᵀ dm, row by row, of bodies in motion, V the velocity of the point r.
 #[derive(Clone, Debug)]
 pub(super) struct Flow<S> {
     momentum: Vector<S>,
     moment: Rotation<S>,
 }
 
-/// The contribution of one joint and its composite body.
 pub(super) struct Joint<S> {
     /// The first and second rate of the joint's twist.
     pub(super) drift: [Twist<S>; 2],
-    /// The wrench of a unit acceleration.
     pub(super) push: Wrench<S>,
-    /// The part of the composite's rate along the joint for each turn of
-    /// all that it is part of.
+    /// The part of the composite's rate along the joint for each turn of all that it is part of.
     swing: Vector<S>,
     /// ∂τ_i/∂q_i, and the wrench that the joints before feel.
     pub(super) position: (S, Wrench<S>),
     /// ∂τ_i/∂q̇_i, and the wrench that the joints before feel.
     pub(super) velocity: (S, Wrench<S>),
-    /// ∫ V dm and ∫ V rᵀ dm of the composite body.
     pub(super) flow: Flow<S>,
 }
 
@@ -88,7 +83,6 @@ impl<S: Scalar> Composite<'_, S> {
         slopes
     }
 
-    /// Returns what each joint contributes by itself, from the hand inward.
     pub(super) fn own_slopes(&self, qd: &[S], qdd: &[S]) -> Vec<Joint<S>> {
         let chain = self.chain;
         let velocities = chain.velocities(self.at, qd);
@@ -192,8 +186,7 @@ impl<S: Scalar> Flow<S> {
         }
     }
 
-    /// Returns V = v + ω × r over one body: ∫ V dm = m v + ω × s and
-    /// ∫ V rᵀ dm = v sᵀ + [ω]× Σ.
+    /// Returns V = v + ω × r over one body: ∫ V dm = m v + ω × s and ∫ V rᵀ dm = v sᵀ + [ω]× Σ.
     pub(super) fn of(body: &Body<S>, velocity: &Twist<S>) -> Self {
         let (omega, origin) = (&velocity.turn, &velocity.shift);
         let columns = body.second.rows().map(|column| cross(omega, &column));
@@ -240,7 +233,6 @@ impl<S: Scalar> Flow<S> {
         self.half_of_turn(&turn.each_ref().map(twice))
     }
 
-    /// Returns half of [`Flow::of_turn`].
     pub(super) fn half_of_turn(&self, turn: &Vector<S>) -> Wrench<S> {
         let m = &self.moment;
         let component = |i: usize| {
@@ -279,13 +271,11 @@ impl<S: Scalar> Flow<S> {
         )
     }
 
-    /// Returns what [`Flow::of_turn`] gives along the joint, as a form in the
-    /// turn.
+    /// Returns what [`Flow::of_turn`] gives along the joint, as a form in the turn.
     pub(super) fn swing(&self, link: &ChainLink<S>) -> Vector<S> {
         self.half_swing(link).each_ref().map(twice)
     }
 
-    /// Returns half of [`Flow::swing`].
     pub(super) fn half_swing(&self, link: &ChainLink<S>) -> Vector<S> {
         match link.kind {
             JointKind::Revolute => {

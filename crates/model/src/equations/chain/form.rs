@@ -46,7 +46,6 @@ pub enum HandChoice {
 }
 
 impl HandForm {
-    /// Returns the forms that differ.
     fn all(choice: HandChoice) -> Vec<HandForm> {
         let axes = [HandAxes::Asked, HandAxes::FirstAndLast, HandAxes::Last];
         let axes = &axes[..if choice == HandChoice::None { 1 } else { 3 }];
@@ -57,9 +56,8 @@ impl HandForm {
 }
 
 impl Form {
-    /// Returns the forms that differ where the recursion over velocities is read, or not, where
-    /// something travels, or not, where C is wanted, or not, and by what is read of the hand;
-    /// the usually cheapest first.
+    /// Returns the forms that differ if the recursion over velocities is read, something travels or
+    /// C is wanted, and by what is read of the hand; the usually cheapest first.
     pub fn all(recursion: bool, travels: bool, flows: bool, hand: HandChoice) -> Vec<Form> {
         let hands = HandForm::all(hand).into_iter();
         let of = |hand| {
@@ -102,8 +100,7 @@ impl Form {
         forms
     }
 
-    /// Returns whether it has a choice that nothing reads, made otherwise than
-    /// the first.
+    /// True if a choice that nothing reads is not the first one.
     fn is_idle(self, recursion: bool, travels: bool) -> bool {
         let rates = self.spin == AccelerationForm::Rates;
         let euler = self.couple == MomentForm::Euler;

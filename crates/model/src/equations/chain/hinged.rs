@@ -18,7 +18,6 @@ pub(super) struct Hinged<S> {
     pub(super) moment: Vector<S>,
 }
 
-/// The part that a joint of the shoulder leaves of ω̇ of the frame before.
 pub(super) struct Solved<S> {
     /// (τ − p_z) / D
     pub(super) own: S,
@@ -27,7 +26,6 @@ pub(super) struct Solved<S> {
 }
 
 impl<S: Scalar> Hinged<S> {
-    /// Returns it in the axes of the frame before.
     pub(super) fn carried(&self, link: &ChainLink<S>, at: &Displacement<S>) -> Self {
         // A tensor turns as second moments do.
         let body = Body {
@@ -44,7 +42,6 @@ impl<S: Scalar> Hinged<S> {
         }
     }
 
-    /// Returns it with a body whose origin is this high above the point, and its own wrench.
     pub(super) fn with(&self, body: &Body<S>, height: &S, wrench: &Wrench<S>) -> Self {
         let lever = [S::zero(), S::zero(), height.clone()];
         let own = body.moved(&lever).tensor();

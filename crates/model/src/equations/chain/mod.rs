@@ -66,8 +66,7 @@ pub struct Chain<S> {
 pub struct ChainLink<S> {
     /// Revolute or prismatic.
     pub kind: JointKind,
-    /// Revolute: axes of frame i at θ = 0 in the axes of frame i−1.
-    /// Prismatic: the identity.
+    /// Revolute: axes of frame i at θ = 0 in the axes of frame i−1. Prismatic: the identity.
     pub rotation: Rotation<S>,
     /// Origin of frame i (at q = 0 if prismatic) in frame i−1.
     pub offset: Vector<S>,
@@ -97,7 +96,6 @@ impl<S: Scalar> Chain<S> {
     /// Returns the chain of a skeleton in a regrouping.
     pub fn new(skeleton: &Skeleton<S>, regrouping: &Regrouping<S>) -> Chain<S> {
         let mut links: Vec<ChainLink<S>> = Vec::with_capacity(skeleton.links.len());
-        // How far the regrouping moved the origin before.
         let mut shift: Vector<S> = zero_vector();
         for (Segment { link, .. }, regrouping) in skeleton.links.iter().zip(&regrouping.links) {
             let step = match link.kind {
@@ -126,8 +124,7 @@ impl<S: Scalar> Chain<S> {
         chain
     }
 
-    /// Marks the last link if it looks the same however far it has turned:
-    /// then its frame need not turn, only its rate counts. A probe does not.
+    /// A frame need not turn if its link looks the same after any turn and has no probe.
     fn free_spin(&mut self) {
         if let Some(last) = self.links.last_mut() {
             last.spins_freely = last.kind == JointKind::Revolute
@@ -145,8 +142,7 @@ impl<S: Scalar> Chain<S> {
         self
     }
 
-    /// Returns a rate of a joint in the chain's unit of length, or a load of it or a slope by it
-    /// back from there: slides are scaled.
+    /// Slides are scaled: a rate to the chain's unit of length, a load or a slope back from there.
     fn rescaled(&self, joint: usize, value: S) -> S {
         match self.links[joint].kind {
             JointKind::Revolute => value,
@@ -154,7 +150,6 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
-    /// Returns rates in the chain's unit.
     fn rates(&self, rates: &[S]) -> Vec<S> {
         let rates = rates.iter().take(self.links.len()).cloned().enumerate();
         rates.map(|(i, rate)| self.rescaled(i, rate)).collect()
@@ -193,8 +188,7 @@ impl<S> Chain<S> {
 }
 
 impl<S: Clone> Chain<S> {
-    /// Returns the same chain at velocities of which each r_i is this, where a
-    /// joint has Coulomb friction.
+    /// Returns the chain at velocities of these r_i, where joints have Coulomb friction.
     #[must_use]
     pub fn at_speeds(mut self, per_speed: &[Option<S>]) -> Chain<S> {
         for (link, per_speed) in self.links.iter_mut().zip(per_speed) {
@@ -223,7 +217,6 @@ impl<S: Scalar> ChainLink<S> {
         }
     }
 
-    /// Returns the joint's unit twist.
     fn twist(&self) -> Twist<S> {
         Twist::of_joint(self.kind, self.axis.clone())
     }
@@ -237,7 +230,6 @@ impl<S: Scalar> ChainLink<S> {
         }
     }
 
-    /// Returns the joint axis in the axes of frame i−1, a constant.
     fn axis_before(&self) -> Vector<S> {
         apply(&self.rotation, &self.axis)
     }
@@ -251,7 +243,6 @@ impl<S: Scalar> ChainLink<S> {
     }
 }
 
-/// Returns the rotation by an angle in the plane of two axes.
 fn turn<S: Scalar>(angle: &SinCosPair<S>, [i, j]: [usize; 2]) -> Rotation<S> {
     let mut turned = identity();
     [turned[i][i], turned[j][j]] = [angle.cos.clone(), angle.cos.clone()];
@@ -265,12 +256,10 @@ fn product<S: Scalar>(a: &Rotation<S>, b: &Rotation<S>) -> Rotation<S> {
         .map(|row| columns.each_ref().map(|column| dot(row, column)))
 }
 
-/// Returns R v
 fn apply<S: Scalar>(rotation: &Rotation<S>, v: &Vector<S>) -> Vector<S> {
     rotation.each_ref().map(|row| dot(row, v))
 }
 
-/// Returns Rᵀ v
 fn apply_transposed<S: Scalar>(rotation: &Rotation<S>, v: &Vector<S>) -> Vector<S> {
     apply(&transposed(rotation), v)
 }

@@ -1,5 +1,4 @@
-//! Energies and momenta of a chain: what a link's motion is, not what changes
-//! it.
+//! Energies and momenta of a chain: what a link's motion is, not what changes it.
 
 use alloc::vec::Vec;
 
@@ -10,7 +9,6 @@ use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
 impl<S: Scalar> Twist<S> {
-    /// Returns the velocity of the next link.
     fn next(&self, link: &ChainLink<S>, at: &Displacement<S>, rate: &S) -> Self {
         let carried = sum(&self.shift, &cross(&self.turn, &link.lever(at)));
         let own = scaled(rate, &link.axis);
@@ -29,7 +27,6 @@ impl<S: Scalar> Twist<S> {
 }
 
 impl<S: Scalar> Chain<S> {
-    /// Returns the velocity of every link, in its own axes.
     pub(super) fn velocities(&self, at: &[Displacement<S>], qd: &[S]) -> Vec<Twist<S>> {
         let rates = self.rates(qd);
         let mut before = Twist::rest();
@@ -41,15 +38,13 @@ impl<S: Scalar> Chain<S> {
         velocities
     }
 
-    /// Returns T, link by link: ½ m v·v + v·(ω × ∫ r dm) + ½ ω·(I ω), and what the
-    /// rotors have.
+    /// Returns T, link by link: ½ m v·v + v·(ω × ∫ r dm) + ½ ω·(I ω), and what the rotors have.
     pub fn kinetic_energy(&self, at: &[Displacement<S>], qd: &[S]) -> S {
         let velocities = self.velocities(at, qd);
         let mut energy = S::zero();
         for ((link, velocity), rate) in self.links.iter().zip(&velocities).zip(qd) {
             let (omega, origin) = (&velocity.turn, &velocity.shift);
             let body = &link.body;
-            // Halves go into the constants.
             let half = body.tensor().map(halved);
             let spin = tensor_times(&half, omega);
             let slide = sum(

@@ -13,7 +13,6 @@ use crate::scalar::{Divide, Scalar};
 struct Pair {
     before: usize,
     after: usize,
-    /// True if they turn opposite ways.
     opposite: bool,
 }
 
@@ -27,7 +26,7 @@ impl Pair {
     }
 }
 
-/// Returns q̈ of D q̈ = τ − bias over the joints that move, zero of the others.
+/// Solves D q̈ = τ − bias over the joints that move; zero of the others.
 fn solved_in_pairs<S: Divide>(
     pairs: &[Pair],
     d: &[Vec<S>],
@@ -101,7 +100,6 @@ impl<S: Divide> Chain<S> {
 }
 
 impl<S: Scalar> Chain<S> {
-    /// Joints that move and turn about parallel axes, one after the other.
     fn pairs(&self, moves: &[bool]) -> Vec<Pair> {
         let mut pairs = Vec::new();
         for group in self.parallel() {
@@ -129,7 +127,6 @@ mod tests {
     use crate::read;
     use crate::scalar::field::{Field, Points};
 
-    /// Returns four parallel axes, one of them the other way, and one across.
     fn chain() -> Chain<Exact> {
         let joint =
             |alpha| format!("[[joint]]\nkind = \"revolute\"\na = 1\nalpha = {alpha}\nmass = 0\n");

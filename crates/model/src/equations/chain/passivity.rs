@@ -12,7 +12,6 @@ use crate::equations::matrix::{
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
-/// A link that moves with two velocities at once.
 #[derive(Clone, Debug)]
 struct Mixed<S> {
     /// ω of q̇.
@@ -32,7 +31,6 @@ impl<S: Scalar> Mixed<S> {
         }
     }
 
-    /// Returns the motion of the next link; `half` is half its rate of v.
     fn next(
         &self,
         link: &ChainLink<S>,
@@ -90,8 +88,7 @@ impl<S: Scalar> Chain<S> {
         self.torques(at, &motions, MomentForm::SecondMoments, &exerted, drive)
     }
 
-    /// Computes how the links move with both velocities at once: U and v̇,
-    /// bilinear in them. Wrenches are linear in these, whatever the body.
+    /// U and v̇ are bilinear in both velocities, and wrenches linear in these for any body.
     pub(super) fn mixed_motions(
         &self,
         at: &[Displacement<S>],

@@ -19,12 +19,9 @@ pub enum Displacement<S> {
     Slide(S),
 }
 
-/// A link's place among links that turn about parallel axes.
 #[derive(Clone, Copy)]
 struct FramePlacement {
-    /// Which of the groups it is in.
     group: usize,
-    /// The group's links up to and with this one.
     index: usize,
 }
 
@@ -84,7 +81,6 @@ impl<S: Scalar> Chain<S> {
                 JointPosition::Prismatic(_) => None,
             })
             .collect();
-        // The sum of their angles, about the axis of the first link of their group.
         let sum = |links: &[(usize, bool)]| {
             links
                 .iter()
@@ -100,8 +96,6 @@ impl<S: Scalar> Chain<S> {
                     })
                 })
         };
-        // The turn from joint `from` to joint `to` of the group, about the
-        // axis of the place.
         let between = |from: usize, to: usize, place: FramePlacement| {
             let links = &groups[place.group];
             let turn = match from <= to {
@@ -113,7 +107,6 @@ impl<S: Scalar> Chain<S> {
         };
         let mut chain = self.clone();
         let mut at = Vec::with_capacity(position.len());
-        // Which turn of the group the frame before has made; its own.
         let mut before: Option<(usize, FramePlacement)> = None;
         for (i, (q, place)) in position.iter().zip(places).enumerate() {
             let link = &mut chain.links[i];
@@ -153,16 +146,13 @@ impl<S: Scalar> Chain<S> {
 }
 
 impl<S: Scalar> ChainLink<S> {
-    /// Turns all that is fixed to the link about z.
     fn turn_bodies(&mut self, turn: &SinCosPair<S>) {
         self.body = self.body.turned_z(turn);
         self.probes = Probe::each(&self.probes, |body| body.turned_z(turn));
     }
 }
 
-/// Returns whether an axis points against the one before; `None` if they are
-/// not parallel. R = Rz(β) leaves a turn about z as it is; past R = Rz(β) Rx(π)
-/// it turns the other way.
+/// R = Rz(β) leaves a turn about z as it is; past R = Rz(β) Rx(π) it turns the other way.
 pub(super) fn sense<S: Scalar>(rotation: &Rotation<S>) -> Option<bool> {
     let along = &rotation[2][2];
     if along.is_one() {

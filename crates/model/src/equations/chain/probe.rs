@@ -1,5 +1,4 @@
-//! What is fixed to the links of a chain beside their bodies: the columns of a
-//! regressor.
+//! What is fixed to the links of a chain beside their bodies: the columns of a regressor.
 
 use alloc::vec::Vec;
 
@@ -47,7 +46,6 @@ pub enum Probed<S> {
 }
 
 impl<S> Probed<S> {
-    /// Returns a body through `f`.
     fn through<T>(&self, f: impl FnOnce(&Body<S>) -> Body<T>) -> Probed<T> {
         match self {
             Probed::Body(body) => Probed::Body(f(body)),
@@ -62,7 +60,6 @@ impl<S> Probe<S> {
         matches!(self.of, Probed::Body(_))
     }
 
-    /// Returns every body through `f`.
     pub(super) fn each<T>(
         probes: &[Probe<S>],
         mut f: impl FnMut(&Body<S>) -> Body<T>,
@@ -75,8 +72,6 @@ impl<S> Probe<S> {
     }
 }
 
-/// Returns the columns of a joint, from its DH frame into a frame in which that is
-/// turned and moved.
 pub(super) fn probes<S: Scalar>(
     columns: &[Column<S>],
     joint: usize,

@@ -35,7 +35,6 @@ pub enum MomentForm {
 pub(super) struct Motion<S> {
     pub(super) omega: Vector<S>,
     pub(super) omega_dot: Vector<S>,
-    /// U, column by column.
     pub(super) u: [Vector<S>; 3],
     /// v̇ of the origin.
     pub(super) acceleration: Vector<S>,
@@ -52,13 +51,11 @@ impl<S: Scalar> Motion<S> {
         }
     }
 
-    /// Returns U r
     pub(super) fn u_times(&self, r: &Vector<S>) -> Vector<S> {
         let xy = sum(&scaled(&r[0], &self.u[0]), &scaled(&r[1], &self.u[1]));
         sum(&xy, &scaled(&r[2], &self.u[2]))
     }
 
-    /// Returns the motion of the next link.
     pub(super) fn next(
         &self,
         link: &ChainLink<S>,
@@ -84,7 +81,6 @@ impl<S: Scalar> Motion<S> {
         }
     }
 
-    /// Returns the motion of the next link, which turns, where ω̇ is this along its axis.
     pub(super) fn next_along(
         &self,
         link: &ChainLink<S>,
@@ -120,7 +116,6 @@ impl<S: Scalar> Motion<S> {
         }
     }
 
-    /// Returns the wrench of a body in this motion.
     pub(super) fn wrench(&self, body: &Body<S>, couple: MomentForm) -> Wrench<S> {
         Wrench {
             force: sum(
@@ -209,7 +204,7 @@ pub(super) fn from_column<S: Scalar>(
     (omega_dot, u)
 }
 
-/// Returns U r = ω̇ × r + ω × (ω × r)
+/// U r = ω̇ × r + ω × (ω × r), column by column.
 fn from_rates<S: Scalar>(omega: &Vector<S>, omega_dot: &Vector<S>) -> [Vector<S>; 3] {
     let [x, y, z] = omega;
     let [dx, dy, dz] = omega_dot;
@@ -237,8 +232,7 @@ impl<S: Scalar> Chain<S> {
         self.torques(at, &motions, couple, &zero_vector(), drive)
     }
 
-    /// Returns τ of links in motion, with a moment that the last one exerts on something
-    /// else and with what the drive of each joint adds.
+    /// The last link exerts a moment on something else; `drive` is added for each joint.
     pub(super) fn torques(
         &self,
         at: &[Displacement<S>],
@@ -258,7 +252,6 @@ impl<S: Scalar> Chain<S> {
         torques
     }
 
-    /// Returns the motion of every link.
     pub(super) fn motions(
         &self,
         at: &[Displacement<S>],
@@ -276,7 +269,6 @@ impl<S: Scalar> Chain<S> {
         motions
     }
 
-    /// Returns the part of a wrench on link i that the joint feels.
     pub(super) fn load(&self, i: usize, wrench: &Wrench<S>) -> S {
         let Wrench { force, moment } = wrench;
         match self.links[i].kind {
@@ -285,7 +277,6 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
-    /// Returns a wrench about the origin of frame i, about that of frame i−1.
     pub(super) fn to_previous(
         &self,
         i: usize,

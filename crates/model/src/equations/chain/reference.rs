@@ -9,7 +9,6 @@ use crate::equations::matrix::{dot, minus, plus, times};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
-/// a, and the motion of every link at these accelerations.
 pub(super) struct ReferenceMotion<S> {
     pub(super) accelerations: Vec<S>,
     pub(super) links: Vec<Motion<S>>,
@@ -53,7 +52,6 @@ impl<S: Scalar> Chain<S> {
         motion
     }
 
-    /// Returns what the drive of a joint takes at its velocity and at this acceleration.
     pub(crate) fn drive(&self, joint: usize, qd: &[S], accelerations: &[S]) -> S {
         let link = &self.links[joint];
         let inertial = times(&link.armature, &accelerations[joint]);

@@ -16,10 +16,8 @@ use crate::equations::matrix::{Vector, cross, difference, dot, sum, zero_vector,
 use crate::equations::screws::Twist;
 use crate::scalar::Scalar;
 
-/// A point that several axes pass through.
 struct Centre<S> {
     joints: Vec<usize>,
-    /// Where it is in the frame of the link that is looked at.
     at: Vector<S>,
 }
 
@@ -49,8 +47,6 @@ impl<S: Scalar> Chain<S> {
         self.powers(at, &motions, [v, a], travel)
     }
 
-    /// Returns the powers of the probes' wrenches, at the motions of the links and with
-    /// what friction and rotors multiply.
     fn powers(
         &self,
         at: &[Displacement<S>],
@@ -106,7 +102,6 @@ impl<S: Scalar> Chain<S> {
     }
 }
 
-/// Returns the origin of a frame as a point where axes meet, if several do by structure.
 fn meeting<S: Scalar>(twists: &[Twist<S>]) -> Option<Centre<S>> {
     let passes = |twist: &Twist<S>| {
         let turns = twist.turn.iter().any(|x| !x.is_zero());
@@ -121,11 +116,9 @@ fn meeting<S: Scalar>(twists: &[Twist<S>]) -> Option<Centre<S>> {
     })
 }
 
-/// Returns the point on a joint's axis that most others pass through, the first such.
 fn widest<S>(centres: &[Centre<S>], joint: usize) -> Option<usize> {
     let on_axis = centres.iter().enumerate();
     let on_axis = on_axis.filter(|(_, centre)| centre.joints.contains(&joint));
-    // The last of the largest in reverse is the first.
     let widest = on_axis.rev().max_by_key(|(_, centre)| centre.joints.len());
     widest.map(|(index, _)| index)
 }

@@ -11,9 +11,8 @@ use crate::scalar::Scalar;
 /// The regrouping of one link, in metres and kilograms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkRegrouping<S> {
-    /// Where the frame's origin lies, from the end of the step before the
-    /// joint, in the axes of the frame: on the axis for a revolute joint,
-    /// anywhere for a prismatic one.
+    /// Where the frame's origin lies, from the end of the step before the joint, in the axes of the
+    /// frame: on the axis for a revolute joint, anywhere for a prismatic one.
     pub origin: Vector<S>,
     /// The mass that a revolute link keeps.
     pub mass: S,
@@ -30,7 +29,6 @@ pub struct LinkRegrouping<S> {
 }
 
 impl<S: Scalar> LinkRegrouping<S> {
-    /// Returns that of a link which keeps nothing that can move.
     fn base(origin: Vector<S>) -> Self {
         LinkRegrouping {
             origin,
@@ -73,7 +71,6 @@ impl<S: Scalar> Regrouping<S> {
 }
 
 impl<S: Scalar> Chain<S> {
-    /// Moves over what each link does not keep, from the hand to the base.
     pub(super) fn regroup(&mut self, regrouping: &Regrouping<S>) {
         for i in (0..self.links.len()).rev() {
             let link = &self.links[i];
@@ -93,7 +90,6 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
-    /// Lengths in another unit.
     pub(super) fn change_unit(&mut self, unit: &S, per_unit: &S) {
         if unit.is_one() {
             return;
@@ -109,7 +105,6 @@ impl<S: Scalar> Chain<S> {
 }
 
 impl<S: Scalar> ChainLink<S> {
-    /// Returns what of a body of the link moves to the link before.
     fn moving(&self, body: &Body<S>, keep: &LinkRegrouping<S>) -> Body<S> {
         let mut moving = Body::zero();
         match self.kind {
@@ -124,12 +119,10 @@ impl<S: Scalar> ChainLink<S> {
         moving
     }
 
-    /// Returns what has moved, in the frame of the link before.
     fn arriving(&self, moving: &Body<S>) -> Body<S> {
         match self.kind {
             JointKind::Revolute => moving.carried(&self.rotation, &self.offset),
-            // Second moments without mass have no place, only axes, and these
-            // are shared.
+            // Second moments without mass have no place, only axes, and these are shared.
             JointKind::Prismatic => moving.clone(),
         }
     }

@@ -62,7 +62,6 @@ impl<S: Scalar> Composite<'_, S> {
         all
     }
 
-    /// Returns what each joint contributes by itself.
     fn pairs(&self, [qd, qdd, multiplier]: [&[S]; 3]) -> (Vec<Earlier<S>>, Vec<Later<S>>) {
         let chain = self.chain;
         let joints = self.own_slopes(qd, qdd);
@@ -88,7 +87,6 @@ impl<S: Scalar> Composite<'_, S> {
 }
 
 impl<S: Scalar> SecondDerivatives<S> {
-    /// Enters what joints i ≤ k have together, seen from one frame.
     fn enter(&mut self, [i, k]: [usize; 2], earlier: &Earlier<S>, later: &Later<S>) {
         let [own, virtually, first, second] = earlier;
         let [force, momentum, damping, push] = &later.wrenches;
@@ -102,13 +100,11 @@ impl<S: Scalar> SecondDerivatives<S> {
         self.velocity[k][i] = velocity;
         self.mixed[i][k] = plus(&damping.along(virtually), &dot(swing, &first.turn));
         self.driven[k][i] = push.along(virtually);
-        // Of a joint by itself both ways give the same.
         self.mixed[k][i] = plus(&twice(&momentum.along(first)), &dot(couple, &own.turn));
         self.driven[i][k] = momentum.along(own);
     }
 }
 
-/// Returns what follows from the flow of Λ and ∫ v × ℓ dm of the composite body.
 fn later<S: Scalar>(
     body: &Body<S>,
     joint: &Joint<S>,

@@ -38,8 +38,8 @@ impl<S: Scalar> Chain<S> {
         self.shoulder().is_some()
     }
 
-    /// Returns the heights of the joints at the base whose axes meet, if there are as many as it
-    /// takes: of each frame's origin along its axis, seen from the point.
+    /// Finds the heights of the joints at the base whose axes meet: of each frame's origin along
+    /// its axis, seen from the point.
     pub(super) fn shoulder(&self) -> Option<Vec<S>> {
         let most = self.links.len().checked_sub(BEYOND)?;
         let all = (0..FEWEST).filter_map(|origin| self.through(origin));
@@ -48,8 +48,7 @@ impl<S: Scalar> Chain<S> {
         wide.next()
     }
 
-    /// Returns the heights of the joints at the base whose axes pass through the origin of this
-    /// frame. Turning about an axis leaves what is on it where it is.
+    /// Turning about an axis leaves what is on it where it is.
     fn through(&self, origin: usize) -> Option<Vec<S>> {
         let turns = |link: &ChainLink<S>| link.kind == JointKind::Revolute;
         let height = |point: &Vector<S>| {
@@ -58,7 +57,6 @@ impl<S: Scalar> Chain<S> {
         };
         let mut heights = alloc::vec![S::zero()];
         for link in self.links.get(1..=origin)?.iter().rev() {
-            // The point seen from the origin before.
             let along = [S::zero(), S::zero(), negative(&heights[0])];
             let seen = sum(&apply(&link.rotation, &along), &link.offset);
             heights.insert(0, negative(&height(&seen)?));
@@ -78,8 +76,7 @@ impl<S: Scalar> Chain<S> {
         Some(heights)
     }
 
-    /// Returns the origin of the first frame beyond, seen from the point in the axes of that
-    /// frame.
+    /// Returns the origin of the first frame beyond, seen from the point in the axes of that frame.
     fn lever_beyond(&self, heights: &[S], at: &[Displacement<S>]) -> Vector<S> {
         let first = heights.len();
         let along = [S::zero(), S::zero(), heights[first - 1].clone()];
@@ -104,9 +101,8 @@ impl<S: Divide> Composite<'_, S> {
         Some(sums(&rest, &motion.accelerations))
     }
 
-    /// Returns q̈ beyond a reference under τ, zero of joints that do not move, of a chain with a
-    /// shoulder of these heights; `exerted` is the moment that the last link exerts on something
-    /// else.
+    /// Returns q̈ beyond a reference under τ; `exerted` is the moment that the last link exerts on
+    /// something else.
     pub(super) fn accelerations_by_shoulder(
         &self,
         heights: &[S],
@@ -121,7 +117,6 @@ impl<S: Divide> Composite<'_, S> {
         let drive = |i: usize| chain.drive(i, qd, &reference.accelerations);
         let wrench = |i: usize| reference.links[i].wrench(&chain.links[i].body, form.couple);
 
-        // What τ leaves of the joints beyond, and the moment about the point.
         let mut felt = Wrench::couple(exerted.clone());
         let mut left = zeros(n);
         for i in (first..n).rev() {
@@ -157,7 +152,6 @@ impl<S: Divide> Composite<'_, S> {
         };
         hinged = hinged.carried(&chain.links[first], &self.at[first]);
 
-        // The joints of the shoulder, inward and back.
         let mut solved: Vec<Option<Solved<S>>> = Vec::with_capacity(first);
         for (i, link) in chain.links[..first].iter().enumerate().rev() {
             hinged = hinged.with(&link.body, &heights[i], &wrench(i));

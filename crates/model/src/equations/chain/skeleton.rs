@@ -51,8 +51,6 @@ impl<S: Scalar> Skeleton<S> {
         columns: &[Column<S>],
     ) -> Skeleton<S> {
         let mut links: Vec<Segment<S>> = Vec::with_capacity(arm.links.len());
-        // What is constant between the last frame and the next joint, and
-        // whether a locked joint is part of it.
         let mut turned = identity();
         let mut moved: Vector<S> = zero_vector();
         let mut merged = false;
@@ -66,7 +64,6 @@ impl<S: Scalar> Skeleton<S> {
                 moved = sum(&moved, &apply(&turned, &along));
                 turned = product(&turned, &twist);
             }
-            // From the joint's moving frame on, before the link's own frame.
             let (rest, reach) = match arm.convention {
                 Convention::Standard => (twist, along),
                 Convention::Modified => (identity(), zero_vector()),
@@ -139,11 +136,7 @@ impl<S: Scalar> Skeleton<S> {
 }
 
 impl<S: Scalar> ChainLink<S> {
-    /// Makes what locked joints turn about parallel axes a part of θ, composed once instead of
-    /// turning every vector.
-    ///
-    /// R = Rz(β) is no rotation but an offset of θ; R = Rz(β) Rx(π) is
-    /// Rx(π) Rz(−β).
+    /// R = Rz(β) only offsets θ, and R = Rz(β) Rx(π) is Rx(π) Rz(−β); composed once.
     fn absorb_turn(&mut self) {
         let r = &self.rotation;
         let Some(opposite) = sense(r) else { return };

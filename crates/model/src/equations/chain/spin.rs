@@ -63,7 +63,6 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
                 [share, rest]
             }
         };
-        // I_xx and I_yy as they are, I_zz what is left.
         let mut body = link.body.clone();
         let taken = halved(&minus(&inertia, &rest));
         body.second.xx = minus(&second.xx, &taken);
@@ -87,13 +86,10 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         })
     }
 
-    /// Returns the joints before the last.
     fn at(&self) -> &[Displacement<S>] {
         &self.whole.at[..self.chain.links.len()]
     }
 
-    /// Returns what a unit acceleration of each joint before adds to the last
-    /// one's.
     fn brought(&self) -> Vec<S> {
         let last = self.chain.links.len();
         let along = |i: usize| self.whole.twist(i, last).turn[2].clone();
@@ -112,7 +108,6 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
             minus(&times(&half, y), &times(&second.xy, x)),
         ];
         let own = minus(&times(x, &spread[1]), &times(y, &spread[0]));
-        // J ω_z of the link, less what is left of it without a turn of its own.
         let momentum = minus(&times(&self.inertia, &plus(z, rate)), &times(&self.rest, z));
         let double = twice(rate);
         let couple = [
@@ -151,7 +146,6 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         let left = minus(&left, &own);
         let composite = Composite::new(chain, at);
         let drive = |i: usize| chain.drive(i, qd, reference);
-        // What is beyond the reference.
         let rest = match form.shoulder.then(|| chain.shoulder()).flatten() {
             None => {
                 let bias = match form.composite_h {
@@ -190,7 +184,6 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         let inner = inverted(&d, &moves[..last]);
         let brought = self.brought();
         let along = |row: &[S]| product(row, &brought);
-        // The accelerations of the joints before under a unit torque of the last one.
         let given: Vec<S> = inner
             .iter()
             .map(|row| negative(&times(&self.share, &along(row))))
@@ -206,8 +199,7 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
 }
 
 impl<S: Scalar> ChainLink<S> {
-    /// Returns whether, by structure, it turns about an axis through its centre of mass
-    /// that is a principal one.
+    /// The axis passes through the centre of mass. By structure, not by value.
     fn turns_about_principal_axis(&self) -> bool {
         let (body, second) = (&self.body, &self.body.second);
         let across = [&body.first[0], &body.first[1], &second.xz, &second.yz];

@@ -1,5 +1,4 @@
-//! The recursive Newton–Euler forms: motion outward from the base, forces
-//! inward from the hand.
+//! The recursive Newton–Euler forms: motion outward from the base, forces inward from the hand.
 //!
 //! - [`table1`]: every vector in base axes (Table 1)
 //! - [`table2`]: every vector in the axes of its own link (Table 2)
@@ -13,7 +12,6 @@ use super::Link;
 use super::matrix::{Vector, opposite, plus, times, zero_vector};
 use crate::scalar::Scalar;
 
-/// The motion of one link.
 #[derive(Clone, Debug)]
 pub(super) struct Motion<S> {
     omega: Vector<S>,
@@ -33,8 +31,6 @@ impl<S: Scalar> Motion<S> {
     }
 }
 
-/// Returns what the drive adds to the torque of the chain: friction and the
-/// armature's inertia.
 fn with_drive<S: Scalar>(link: &Link<S>, torque: &S, qd: &S, qdd: &S) -> S {
     let damped = plus(torque, &link.friction.torque(qd));
     plus(&damped, &times(&link.armature, qdd))

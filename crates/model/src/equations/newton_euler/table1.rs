@@ -84,8 +84,7 @@ fn wrenches_on<S: Scalar>(arm: &Arm<S>, bodies: &[Body<S>]) -> Vec<Wrench<S>> {
         let inertial_force = scaled(&link.mass, &sum(&motion.acceleration, &of_com));
         let inertial_moment = body.euler(link);
 
-        // The lever of f_{i+1}, and that of F_i, from the point the moment is
-        // taken about.
+        // The lever of f_{i+1}, and that of F_i, from the point the moment is taken about.
         let [lever, centre] = match arm.convention {
             Convention::Standard => [body.lever.clone(), sum(&body.lever, &body.com)],
             Convention::Modified => {
@@ -105,7 +104,6 @@ fn wrenches_on<S: Scalar>(arm: &Arm<S>, bodies: &[Body<S>]) -> Vec<Wrench<S>> {
     wrenches
 }
 
-/// Returns every link in base axes, from the base to the hand.
 fn bodies<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
@@ -144,7 +142,6 @@ fn bodies<S: Scalar>(
 }
 
 impl<S: Scalar> Body<S> {
-    /// Returns v̇ of a tool's origin, or of the frame's own.
     fn acceleration_of(&self, tool: Option<&Columns<S>>) -> Vector<S> {
         let Some(tool) = tool else {
             return self.motion.acceleration.clone();
@@ -156,7 +153,6 @@ impl<S: Scalar> Body<S> {
         sum(&self.motion.acceleration, &of_lever)
     }
 
-    /// Returns it with its own motion instead of that of the link before.
     fn moved(mut self, convention: Convention, kind: JointKind, qd: &S, qdd: &S) -> Self {
         let before = self.motion.clone();
         let own = &mut self.motion;

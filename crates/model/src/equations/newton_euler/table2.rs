@@ -1,5 +1,4 @@
-//! Table 2: each vector in the axes of its own link, where I_i and s̄_i are
-//! constant.
+//! Table 2: each vector in the axes of its own link, where I_i and s̄_i are constant.
 
 use alloc::vec::Vec;
 
@@ -17,8 +16,7 @@ use crate::scalar::Scalar;
 /// (standard DH; modified DH has only the second form).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Moment {
-    /// ⁱR_{i+1}[n_{i+1} + (ⁱ⁺¹R_i p_i*) × f_{i+1}]: the lever is turned into
-    /// frame i+1.
+    /// ⁱR_{i+1}[n_{i+1} + (ⁱ⁺¹R_i p_i*) × f_{i+1}]: the lever is turned into frame i+1.
     AsPrinted,
     /// ⁱR_{i+1} n_{i+1} + p_i* × (ⁱR_{i+1} f_{i+1}): uses the force that is
     /// turned anyway. Fewer operations, and never less accurate.
@@ -69,7 +67,6 @@ pub fn inverse_dynamics<S: Scalar>(
     let mut wrench = Wrench::zero();
     for i in (0..n).rev() {
         let (link, motion) = (&arm.links[i], &motions[i]);
-        // The step to the next link; ⁿR_{n+1} = 1.
         let next = (i + 1 < n).then(|| LinkStep::new(arm, at, i + 1));
         let turned = |v: &Vector<S>| match &next {
             Some(next) => next.to_previous(v),
@@ -125,7 +122,6 @@ pub fn inverse_dynamics<S: Scalar>(
     torques
 }
 
-/// Returns ω_n, ω̇_n, v̇_n in the axes of frame n.
 pub(in crate::equations) fn last_motion<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
@@ -136,7 +132,6 @@ pub(in crate::equations) fn last_motion<S: Scalar>(
     last.unwrap_or_else(|| Motion::of_base(&arm.gravity))
 }
 
-/// Returns ω_i, ω̇_i, v̇_i from the base to the hand.
 fn motions<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S], qdd: &[S]) -> Vec<Motion<S>> {
     let mut motions: Vec<Motion<S>> = Vec::with_capacity(arm.links.len());
     let base = Motion::of_base(&arm.gravity);
@@ -152,8 +147,7 @@ fn motions<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S], qdd: &[S]) 
     motions
 }
 
-/// Computes the rows of Table 2 as it stands: the joint moves along z_{i−1}, before the rotation
-/// X.
+/// The joint moves along z_{i−1}, before the rotation X, and the rows of Table 2 stand as printed.
 fn standard<S: Scalar>(step: &LinkStep<S>, before: &Motion<S>, qd: &S, qdd: &S) -> Motion<S> {
     let lever = step.link.lever_here(&step.at.d);
     let of_lever = |omega: &Vector<S>, omega_dot: &Vector<S>| {
@@ -189,8 +183,7 @@ fn standard<S: Scalar>(step: &LinkStep<S>, before: &Motion<S>, qd: &S, qdd: &S) 
     }
 }
 
-/// Returns the same for modified DH: the joint moves along z_i, after the
-/// rotation X, and the lever P_i belongs to the previous link.
+/// The joint moves along z_i, after the rotation X, and the lever P_i belongs to the previous link.
 fn modified<S: Scalar>(step: &LinkStep<S>, before: &Motion<S>, qd: &S, qdd: &S) -> Motion<S> {
     let lever = step.lever_before();
     let of_lever = sum(
@@ -217,12 +210,10 @@ fn modified<S: Scalar>(step: &LinkStep<S>, before: &Motion<S>, qd: &S, qdd: &S) 
     }
 }
 
-/// Returns v + s z_0
 fn plus_z<S: Scalar>(v: &Vector<S>, s: &S) -> Vector<S> {
     [v[0].clone(), v[1].clone(), plus(&v[2], s)]
 }
 
-/// The step from frame i−1 to frame i.
 struct LinkStep<'a, S> {
     convention: Convention,
     link: &'a Link<S>,
@@ -238,12 +229,10 @@ impl<'a, S: Scalar> LinkStep<'a, S> {
         }
     }
 
-    /// Returns X v = ⁱR_{i−1} v
     fn to_link(&self, v: &Vector<S>) -> Vector<S> {
         self.link.to_link(self.convention, self.at, v)
     }
 
-    /// Returns ⁱ⁻¹R_i v
     fn to_previous(&self, v: &Vector<S>) -> Vector<S> {
         self.link.to_previous(self.convention, self.at, v)
     }

@@ -4,13 +4,10 @@ use core::cmp::Ordering;
 
 use num_bigint::{BigInt, BigUint, Sign};
 
-/// The limbs of a significand.
 pub(super) const LIMBS: usize = 4;
 
-/// A significand.
 pub(super) type Limbs = [u64; LIMBS];
 
-/// The bits of a limb.
 const BITS: u32 = u64::BITS;
 
 /// The limbs of a product, or of a significand with as many bits again below it.
@@ -34,8 +31,7 @@ pub(super) fn product(a: &Limbs, b: &Limbs) -> (Limbs, bool) {
 }
 
 /// Returns the top of a + b·2⁻ᵍ, the highest bit of both being one, and whether there is a bit
-/// more. The gap is at most as many bits as a significand has: nothing is lost before
-/// the sum is cut.
+/// more. The gap is at most a significand's bits, so nothing is lost before the cut.
 pub(super) fn sum(a: &Limbs, b: &Limbs, gap: u32) -> (Limbs, bool) {
     let (mut all, below) = (wide(a), lowered(b, gap));
     let mut carry = false;
@@ -77,14 +73,12 @@ pub(super) fn difference(a: &Limbs, b: &Limbs, gap: u32) -> (Limbs, u32, Orderin
     (top(&all, shift), shift, order)
 }
 
-/// Returns a significand with as many zeros below it.
 fn wide(a: &Limbs) -> Double {
     let mut all = [0; 2 * LIMBS];
     all[LIMBS..].copy_from_slice(a);
     all
 }
 
-/// Returns a significand lowered by at most as many bits as it has.
 fn lowered(a: &Limbs, by: u32) -> Double {
     let (whole, part) = ((by / BITS) as usize, by % BITS);
     let mut all = [0; 2 * LIMBS];
@@ -98,7 +92,6 @@ fn lowered(a: &Limbs, by: u32) -> Double {
     all
 }
 
-/// Returns the highest limbs of what is shifted up.
 fn top(all: &Double, shift: u32) -> Limbs {
     let (whole, part) = ((shift / BITS) as usize, shift % BITS);
     let limb = |place: usize| (place.checked_sub(whole)).map_or(0, |place| all[place]);
@@ -111,8 +104,7 @@ fn top(all: &Double, shift: u32) -> Limbs {
     })
 }
 
-/// |x| cut to a significand, and the power of two that it is multiplied by; nothing of
-/// zero.
+/// |x| cut to a significand, and the power of two that it is multiplied by; nothing of zero.
 pub(super) fn cut(x: &BigInt) -> Option<(Limbs, i64)> {
     let bits = x.bits();
     let all = LIMBS as u64 * u64::from(BITS);
@@ -129,7 +121,6 @@ pub(super) fn cut(x: &BigInt) -> Option<(Limbs, i64)> {
     Some((limbs, bits as i64 - all as i64))
 }
 
-/// Returns the whole number.
 pub(super) fn whole(limbs: &Limbs, negative: bool) -> BigInt {
     let mut bytes = [0; LIMBS * size_of::<u64>()];
     for (part, limb) in bytes.chunks_mut(size_of::<u64>()).zip(limbs) {

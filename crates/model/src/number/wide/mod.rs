@@ -20,7 +20,6 @@ use super::{Angle, Exact, Rational, Rounded};
 use crate::scalar::{Divide, Scalar, SinCosPair};
 use limbs::{LIMBS, Limbs};
 
-/// The bits of a significand.
 const BITS: u64 = 256;
 
 /// A number of 256 bits.
@@ -79,7 +78,6 @@ impl Wide {
         Some(Wide::sincos_to(&angle, BITS as usize + 16 + more))
     }
 
-    /// Returns sine and cosine of an angle from `bits` bits behind the point.
     fn sincos_to(angle: &Angle, bits: usize) -> SinCosPair<Wide> {
         let (sin, cos) = sin_cos(angle, bits);
         SinCosPair {
@@ -347,8 +345,7 @@ mod tests {
         assert_eq!(Wide::from_f64(f64::NAN), None);
     }
 
-    /// Every operation, on zeros, on numbers near each other and far apart, with few bits
-    /// and with many, is within 2⁻²⁵⁵ of what the rationals say; a quotient by zero is zero.
+    /// Numbers near each other and far apart, with few bits and with many, are within 2⁻²⁵⁵.
     #[test]
     fn operations_are_those_of_rationals() {
         let mut points = Points::new(1);
@@ -357,7 +354,6 @@ mod tests {
         let mut number = || {
             let mut whole = BigInt::from(draw() % 5) - BigInt::from(2);
             for _ in 0..draw() % 12 {
-                // Runs of ones and zeros among them: carries and borrows go far.
                 let run = [0, u32::MAX, draw() as u32][(draw() % 3) as usize];
                 whole = (whole << 32u32) + BigInt::from(run);
             }

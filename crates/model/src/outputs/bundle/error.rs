@@ -28,7 +28,6 @@ impl BundleError {
         }
     }
 
-    /// Returns the error about a word that names no output.
     pub(in crate::outputs) fn of_unknown(word: &str) -> BundleError {
         let error = match word {
             "" => {

@@ -1,10 +1,9 @@
 //! Several outputs as one function, by a name that the user gives it:
 //! `servo = inverse_dynamics + jacobian`.
 //!
-//! A bundle says of itself what a file of this folder says of its function, so
-//! whoever asks what a function returns, reads or is called need not know which
-//! of the two it is. [`Function::ManipulatorEquation`] is one that is always
-//! there.
+//! A bundle says of itself what a file of this folder says of its function, so whoever asks what a
+//! function returns, reads or is called need not know which of the two it is.
+//! [`Function::ManipulatorEquation`] is one that is always there.
 
 mod error;
 
@@ -19,13 +18,10 @@ use crate::robot::{ENDINGS, WORDS, is_snake};
 
 pub use error::BundleError;
 
-/// The sign between the parts of a bundle.
 const PLUS: char = '+';
 
-/// The sign between its name and them.
 const IS: char = '=';
 
-/// The longest name of a bundle.
 const MAX_BYTES: usize = 64;
 
 /// Names that modules use otherwise; with each the struct of the name is taken too.
@@ -61,7 +57,6 @@ impl Function {
     ) -> Result<Function, BundleError> {
         check_name(name)?;
         let parts: Vec<Function> = parts.into_iter().flat_map(Function::parts).collect();
-        // What comes along with others is no output.
         let is_none = |part: &&Function| {
             !matches!(part, Function::At(_)) && Function::from_name(part.name()) != Some(**part)
         };
@@ -180,19 +175,16 @@ impl Function {
         ordered
     }
 
-    /// Returns whether one module cannot have both: a name or a struct would be
-    /// there twice.
+    /// True if one module cannot have both: a name or a struct would be there twice.
     pub fn is_namesake(self, other: Function) -> bool {
         let same_structure = self.structure().is_some() && self.structure() == other.structure();
         self.name() == other.name() || same_structure
     }
 }
 
-/// Returns true if a bundle may have this name.
 pub(super) fn check_name(name: &str) -> Result<(), BundleError> {
     let bars = name.ends_with('_') || name.contains("__");
     if !is_snake(name) || bars || name.len() > MAX_BYTES {
-        // Whatever was written, a message has a line's length.
         let name: String = name.chars().take(MAX_BYTES).collect();
         let help = "small letters, digits and single `_` between them, such as `servo_2`";
         let message = format!("`{name}` is no name of a function");
@@ -215,13 +207,11 @@ pub(super) fn check_name(name: &str) -> Result<(), BundleError> {
     Err(BundleError::new(message, "call the bundle otherwise"))
 }
 
-/// Returns the text of a bundle.
 fn joined(name: &str, parts: &[Function]) -> String {
     let parts: Vec<String> = parts.iter().map(|part| part.text()).collect();
     format!("{name}{IS}{}", parts.join("+"))
 }
 
-/// Returns the struct of a function: `servo_state` returns a `ServoState`.
 fn camel(name: &str) -> String {
     let words = name.split('_').map(|word| {
         let (first, rest) = word.split_at(word.len().min(1));
@@ -230,7 +220,6 @@ fn camel(name: &str) -> String {
     words.collect()
 }
 
-/// Returns a line for its documentation.
 fn summary(parts: &[Function]) -> String {
     let names: Vec<String> = parts.iter().map(|part| format!("`{part}`")).collect();
     let over = match parts.iter().find(|part| part.columns() != Columns::None) {
@@ -255,9 +244,6 @@ pub(super) fn kept(text: String) -> &'static str {
 mod tests {
     use super::*;
 
-    /// What the registry bundles it could as well have left to a user:
-    /// but for its name and its line of documentation, nothing is special about
-    /// it.
     #[test]
     fn the_registrys_bundles_are_like_any_other() {
         let is_bundle = |function: &Function| !function.definition().parts.is_empty();
@@ -285,13 +271,10 @@ mod tests {
         assert_eq!(found.structure(), Some("StateOf2"));
         let fields: Vec<&str> = found.quantities().iter().map(|q| q.field()).collect();
         assert_eq!(fields, ["jacobian", "dtau_dq", "dtau_dqd", "d", "c"]);
-        // Arguments are in the order of signatures, whatever the parts'.
         let names: Vec<&str> = found.arguments().iter().map(|a| a.name()).collect();
         assert_eq!(names, ["q", "qd", "qdd"]);
-        // A bundle of a bundle.
         let more = Function::bundle("more", [found, Function::Coriolis]).unwrap();
         assert!(more.text().ends_with("+gravity+coriolis"));
-        // A text is kept once, however often it is read.
         let again = Function::parse(text).unwrap();
         assert!(core::ptr::eq(found.definition(), again.definition()));
         assert_ne!(Function::parse("x=inertia+gravity"), Ok(found));
@@ -364,7 +347,6 @@ see=jacobian@camera+jacobian@camera
         assert!(!Function::Gravity.is_namesake(Function::Inertia));
         assert!(!a.is_namesake(Function::Gravity));
         let wanted = [a, Function::Gravity, other, Function::InverseDynamics, a];
-        // What comes along with others is no part either.
         assert!(Function::bundle("a", [Function::Load, Function::Gravity]).is_err());
         let [first, second] = [Function::InverseDynamics, Function::Gravity];
         assert_eq!(Function::in_order(&wanted), [first, second, a, other]);

@@ -1,6 +1,5 @@
-//! The box: a range for every joint, none of them empty, and somewhere where
-//! the joint can be. One that goes beyond the limits is only odd: a bound over
-//! more than is needed is a bound.
+//! The box: a range for every joint, none of them empty, and somewhere where the joint can be. One
+//! that goes beyond the limits is only odd: a bound over more than is needed is a bound.
 
 use alloc::format;
 use alloc::vec::Vec;
@@ -10,7 +9,6 @@ use num_traits::Signed;
 use super::Check;
 use crate::robot::{Limit, Position, RobotWarning, shown};
 
-/// The help for a box beyond the limits.
 const BEYOND: &str = "bounds hold over the whole range; taken as it stands";
 
 impl Check<'_> {
@@ -48,7 +46,6 @@ impl Check<'_> {
             let help = "write [lowest, highest]; a joint that does not move is locked";
             return self.error(place, message, help);
         }
-        // Of a locked joint the position is compared, with both.
         let Some([lowest, highest]) = &joint.limits.position else {
             return;
         };
@@ -69,7 +66,7 @@ impl Check<'_> {
         }
     }
 
-    /// Checks the ranges of velocities or accelerations. Zero is a range too: at rest.
+    /// Zero is a range too: at rest.
     fn rates(&mut self, rate: Limit) {
         let values = self.scene.bounds.rate(rate);
         for (index, value) in values.into_iter().flatten().enumerate() {

@@ -42,7 +42,6 @@ impl Check<'_> {
         self.needs(tolerance.relative_to);
     }
 
-    /// Returns the key of a value: of an entry where there are several.
     fn of_value(&self, index: usize) -> String {
         match &self.scene.tolerance {
             Some(tolerance) if tolerance.value.len() > 1 => {
@@ -52,24 +51,20 @@ impl Check<'_> {
         }
     }
 
-    /// Returns whether the scene asks for a function that reads this, or leaves
-    /// its outputs to the request.
+    /// True also if the scene leaves its outputs to the request.
     fn reads(&self, argument: Argument) -> bool {
         let outputs = &self.scene.outputs;
         outputs.is_empty() || outputs.iter().any(|f| f.arguments().contains(&argument))
     }
 
-    /// Returns whether the scene asks by name for a function with such a scale.
     fn is_scaled(&self, by: ErrorScale) -> bool {
         let scaled = |f: &Function| f.quantities().iter().any(|q| q.facts().scale == by);
         self.scene.outputs.iter().any(scaled)
     }
 
-    /// Reports limits that a bound needs and that are missing, and those of the scale T:
-    /// limits above zero, of every joint with a result.
+    /// Limits of the scale T must be above zero, for every joint with a result.
     fn needs(&mut self, scale: Scale) {
         let scene = self.scene;
-        // With the box as its limits.
         let robot = scene.apply(self.robot);
         let rows = scene.rows(robot.joints.len());
         let velocity = !scene.velocity_zero && self.reads(Argument::Velocity);
