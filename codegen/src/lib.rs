@@ -29,6 +29,7 @@ mod plan;
 mod program;
 mod random;
 mod robot_file;
+mod scalar;
 mod search;
 mod seeds;
 mod setup;

@@ -42,6 +42,7 @@ pub use crate::program::{
     machine::Machine,
 };
 pub use crate::random::Random;
+pub use crate::scalar::true_value::TrueValue;
 pub use crate::search::{Limits, Pass, Schedule, cost, price, search as search_graphs};
 pub use crate::seeds::{Source, skeleton, skeleton_for, trace, trace_chain};
 pub use crate::setup::{
@@ -58,7 +59,7 @@ pub use crate::verify::{
     measure::{Emitted, Granted, LEAST_PART, Runtime},
     parameters::prove_base,
     rounding::Rounding,
-    truth::{Reference, TrueValue},
+    truth::Reference,
 };
 pub use crate::watch::{Observer, Part, Progress};
 pub use crate::words::{Word, parse};

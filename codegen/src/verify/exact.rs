@@ -28,6 +28,7 @@ use super::points::{POINTS, Point, Residue, integers, points, written};
 use crate::dag::Leaves;
 use crate::function::{Argument, Function};
 use crate::program::{Input, Program};
+use crate::scalar::{Erased, restored};
 use crate::setup::Setup;
 use dalembert_model::number::Exact;
 
@@ -125,15 +126,15 @@ pub fn prove(setup: &Setup, program: &Program) -> Result<Proof, Disproof> {
     compare(
         &["program", &written(setup), &format!("{program:?}")],
         |point| {
-            let posed = task.posed(point);
+            let posed = task.posed(&Erased(point));
             let all = posed.all(formulation);
             let residuals = function.residual(formulation, &posed.arm, &posed.motion, &all);
-            match integers(&residuals) {
+            match integers(&restored(residuals)) {
                 None => Ok(None),
                 Some(own) if own.iter().any(|residual| residual.divides()) => {
                     Err(Disproof::Equation)
                 }
-                Some(_) => Ok(Some(posed.select(all))),
+                Some(_) => Ok(Some(restored(posed.select(all)))),
             }
         },
         |point| run(Some(setup), program, point),
@@ -141,8 +142,8 @@ pub fn prove(setup: &Setup, program: &Program) -> Result<Proof, Disproof> {
     )?;
     let degrees = Degrees::default();
     let own = run(Some(setup), program, &degrees).ok_or(Disproof::Shape)?;
-    let others = task.textbook(formulation, &degrees);
-    degrees.bound(&own, &others, program.joints)?;
+    let others = task.textbook(formulation, &Erased(&degrees));
+    degrees.bound(&own, &restored(others), program.joints)?;
     Ok(Proof {
         reference_formulation: (function != Function::Load).then_some(formulation),
     })

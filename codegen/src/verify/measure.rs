@@ -14,6 +14,8 @@ use crate::function::{Function, Quantity, Sizes};
 use crate::program::kernel::Kernel;
 use crate::program::machine::Machine;
 use crate::program::{Code, Input, Literal, Pair, ScalarType};
+use crate::scalar::AnyScalar::Double;
+use crate::scalar::{AnyValue, Case};
 use crate::setup::{Posed, Setup};
 use crate::states::JointState;
 
@@ -54,9 +56,9 @@ impl Granted {
 #[derive(Debug)]
 pub struct Runtime {
     /// Lengths that no torque depends on are folded away while exact.
-    arm: Arm<Sparse<f64>>,
+    arm: Arm<AnyValue>,
     /// With them.
-    whole: Arm<Sparse<f64>>,
+    whole: Arm<AnyValue>,
     setup: Setup,
 }
 
@@ -101,8 +103,8 @@ impl Runtime {
         Granted(factors.collect())
     }
 
-    fn posed(&self, function: Function, state: &JointState) -> Posed<'_, Sparse<f64>> {
-        let input = |input: Input| Sparse::Value(self.setup.input_at(input, state));
+    fn posed(&self, function: Function, state: &JointState) -> Posed<'_, AnyValue> {
+        let input = |input: Input| Sparse::Value(Double(self.setup.input_at(input, state)));
         let mut quantities = function.quantities().iter();
         let arm = match quantities.any(|quantity| quantity.facts().depends_on_base) {
             true => &self.whole,
@@ -119,13 +121,13 @@ impl Runtime {
     }
 }
 
-fn constant(exact: &Exact) -> Sparse<f64> {
-    Sparse::constant(exact, f64::nearest(exact))
+fn constant(exact: &Exact) -> AnyValue {
+    Sparse::constant(exact, Double(f64::nearest(exact)))
 }
 
 /// Returns values as floats; a quotient by a structural zero is no number.
-fn floats(values: &[Sparse<f64>]) -> Vec<f64> {
-    let values = values.iter().map(Sparse::value);
+fn floats(values: &[AnyValue]) -> Vec<f64> {
+    let values = values.iter().map(|x| x.value().and_then(f64::of));
     values.map(|value| value.unwrap_or(f64::NAN)).collect()
 }
 

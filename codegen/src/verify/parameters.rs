@@ -20,6 +20,7 @@ use super::exact::{Disproof, compare, reference_formulation};
 use super::points::{Residue, written};
 use crate::dag::Leaves;
 use crate::function::{Columns, Quantity};
+use crate::scalar::{Erase, Erased, restored};
 use crate::setup::Task;
 use crate::setup::base::{BaseParameters, Parameter};
 
@@ -83,7 +84,11 @@ struct Statement<'a> {
 
 impl Statement<'_> {
     /// Returns Y_full − Y B over the rows, row by row.
-    fn differences<L: Leaves>(&self, leaves: &L) -> Vec<L::Value> {
+    fn differences<L: Leaves>(&self, leaves: &L) -> Vec<L::Value>
+    where
+        L::Value: Erase,
+    {
+        let leaves = &Erased(leaves);
         let setup = self.task.setup;
         let by = reference_formulation(setup);
         let posed = self.task.posed(leaves);
@@ -102,6 +107,6 @@ impl Statement<'_> {
             }
             found.extend(differences);
         }
-        found
+        restored(found)
     }
 }

@@ -4,12 +4,13 @@ use dalembert_model::equations::Formulation;
 use dalembert_model::equations::regressor::Column;
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::Scalar;
-use dalembert_model::scalar::field::{Field, Modulo, SecondField};
+use dalembert_model::scalar::field::{Field, Modulo, ProofField};
 use dalembert_model::scalar::sparse::Sparse;
 
 use crate::dag::Points;
 use crate::function::{Columns, Function, Quantity};
 use crate::program::Input;
+use crate::scalar::Case;
 use crate::setup::Setup;
 
 const SEED: u64 = 0x6261_7365;
@@ -18,11 +19,14 @@ pub(super) fn values<const P: u64>(
     setup: &Setup,
     quantity: Quantity,
     columns: &[Column<Exact>],
-) -> Option<Vec<Vec<Modulo<P>>>> {
+) -> Option<Vec<Vec<Modulo<P>>>>
+where
+    Modulo<P>: Case,
+{
     let points = Points::new(SEED);
     // Constant angles are the same in every state.
     let constant = |value: &Exact| match points.constant_at(value, 0) {
-        Some(residue) => Sparse::constant(value, residue),
+        Some(residue) => Sparse::constant(value, Modulo::<P>::any(residue)),
         None => Sparse::Lost,
     };
     let is_over = |function: &Function| function.columns() == Columns::Base(quantity);
@@ -32,11 +36,11 @@ pub(super) fn values<const P: u64>(
     let mut found: Vec<Vec<Modulo<P>>> = vec![Vec::new(); columns.len()];
     let states = columns.len() / setup.rows().len().max(1) + 4;
     for state in 0..states {
-        let input = |input: Input| Sparse::Value(points.input_at(input, state));
+        let input = |input: Input| Sparse::Value(Modulo::<P>::any(points.input_at(input, state)));
         let posed = task.posed_over(arm.clone(), &(constant, input), Vec::new());
         for row in posed.regressor(Formulation::NewtonEulerLink, quantity, &columns) {
             for (column, entry) in found.iter_mut().zip(row) {
-                column.push(entry.value()?);
+                column.push(entry.value().and_then(Modulo::of)?);
             }
         }
     }
@@ -53,7 +57,7 @@ pub(super) struct Reduced<T> {
 impl Reduced<Exact> {
     pub(super) fn confirmed(
         first: Reduced<Field>,
-        second: Reduced<SecondField>,
+        second: Reduced<ProofField>,
     ) -> Option<Reduced<Exact>> {
         if first.pivots != second.pivots {
             return None;
@@ -129,13 +133,13 @@ fn subtract<const P: u64>(a: &mut [Modulo<P>], factor: &Modulo<P>, b: &[Modulo<P
 /// A fraction n/d with 2·|n|·d < p is a step of Euclid's algorithm on its residue (Wang 1981).
 /// Nearly every residue has such a step, so that one alone shows nothing: the step is taken that
 /// the second prime confirms, of less than a hundred, by chance once in 10¹⁶ times.
-fn fraction(x: Field, y: SecondField) -> Option<Rational> {
+fn fraction(x: Field, y: ProofField) -> Option<Rational> {
     let [mut before, mut rest] = [i128::from(Field::P), i128::from(x.value())];
     let [mut last, mut factor] = [0i128, 1i128];
     loop {
         if 2 * rest * factor.abs() < i128::from(Field::P) {
             let found = Rational::new(rest.into(), factor.into());
-            if SecondField::from_rational(&found) == Some(y) {
+            if ProofField::from_rational(&found) == Some(y) {
                 return Some(found);
             }
         }
@@ -164,7 +168,7 @@ mod tests {
         ] {
             let wanted = Rational::new(n.into(), d.into());
             let x = Field::from_rational(&wanted).unwrap();
-            let y = SecondField::from_rational(&wanted).unwrap();
+            let y = ProofField::from_rational(&wanted).unwrap();
             assert_eq!(fraction(x, y), Some(wanted));
         }
     }
@@ -181,7 +185,7 @@ mod tests {
         for round in 0..1000 {
             let wanted = pi.clone() * Rational::from_integer((points.bits() | round).into());
             let x = Field::from_rational(&wanted).unwrap();
-            let y = SecondField::from_rational(&wanted).unwrap();
+            let y = ProofField::from_rational(&wanted).unwrap();
             assert_eq!(fraction(x, y), None);
             let short = (1..1 << 15).find_map(|d: i64| {
                 let n = x.mul(&Field::from_i64(d));

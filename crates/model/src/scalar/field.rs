@@ -1,8 +1,8 @@
 //! Integers modulo a prime p just below 2⁶¹.
 //!
 //! Two formulas that agree at a random point of the field are the same rational function but for a
-//! chance of at most degree/p. There are three primes, so that what was found by one is checked by
-//! another: a false constant that the first cannot tell from the true one the second can.
+//! chance of at most degree/p. There are two primes, so that what was found by one is checked by the
+//! other: a false constant that the first cannot tell from the true one the second can.
 
 use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
@@ -16,11 +16,9 @@ pub struct Modulo<const PRIME: u64>(u64);
 /// The field of searches: integers modulo 2⁶¹ − 1.
 pub type Field = Modulo<{ (1 << 61) - 1 }>;
 
-/// The field of proofs: integers modulo 2⁶¹ − 45.
+/// The field of proofs, and of the second look at fractions that the field of searches finds:
+/// integers modulo 2⁶¹ − 45.
 pub type ProofField = Modulo<{ (1 << 61) - 45 }>;
-
-/// The field that confirms fractions found in the field of searches: integers modulo 2⁶¹ − 229.
-pub type SecondField = Modulo<{ (1 << 61) - 229 }>;
 
 impl<const PRIME: u64> Modulo<PRIME> {
     /// The prime.
@@ -203,7 +201,6 @@ mod tests {
     fn are_fields() {
         is_a_field::<{ Field::P }>();
         is_a_field::<{ ProofField::P }>();
-        is_a_field::<{ SecondField::P }>();
     }
 
     fn is_a_field<const PRIME: u64>() {
