@@ -261,10 +261,20 @@ def test_parameters_are_those_of_the_urdf():
     outputs = ["inverse_dynamics", "full_regressor"]
     arm = dalembert.load(path, tip="iiwa_link_ee", outputs=outputs)
     root = ElementTree.parse(path).getroot()
-    expected, damping = [], []
+    drake = "{http://drake.mit.edu}"
+    gears = {}
+    for transmission in root.findall("transmission"):
+        actuator = transmission.find("actuator")
+        inertia = actuator.find(drake + "rotor_inertia") if actuator is not None else None
+        if inertia is not None:
+            ratio = float(actuator.find(drake + "gear_ratio").get("value"))
+            joint = transmission.find("joint").get("name")
+            gears[joint] = float(inertia.get("value")) * ratio**2
+    expected, damping, armature = [], [], []
     for number, (name, _) in enumerate(arm.joints, 1):
         joint = root.find(f"joint[@name='{name}']")
         damping.append(float(joint.find("dynamics").get("damping")))
+        armature.append(gears[name])
         link = root.find(f"link[@name='{joint.find('child').get('link')}']/inertial")
         c = np.array(link.find("origin").get("xyz").split(), float)
         mass = float(link.find("mass").get("value"))
@@ -277,7 +287,7 @@ def test_parameters_are_those_of_the_urdf():
     assert list(arm.parameters)[:11] == "m1 mx1 my1 mz1 Ixx1 Iyy1 Izz1 Ixy1 Iyz1 Ixz1 m2".split()
     assert_allclose(list(arm.parameters.values()), expected, rtol=1e-12, atol=1e-15)
     q, qd, qdd = np.random.default_rng(4).uniform(-2, 2, (3, 7))
-    tau = arm.inverse_dynamics(q, qd, qdd) - damping * qd
+    tau = arm.inverse_dynamics(q, qd, qdd) - damping * qd - armature * qdd
     assert_allclose(arm.full_regressor(q, qd, qdd) @ expected, tau, atol=1e-11)
 
 
