@@ -42,7 +42,7 @@ case "${1-}" in
 --check)
     for table in "$here"/*.csv; do
         robot=$(basename "$table" .csv)
-        case "${2-1}" in 1 | "$robot") ;; *) continue ;; esac
+        [ "${2-$robot}" = "$robot" ] || continue
         tradeoff "$made/$robot.toml" --tolerances 5e-2 --samples 0 -o "$made/check" >"$made/check.txt"
         counts "$table" >"$made/known.txt"
         counts "$made/check/tradeoff.csv" | awk -v robot="$robot" '

@@ -18,8 +18,8 @@ use crate::seeds::start::Problem;
 use crate::setup::Setup;
 use crate::watch::Part;
 
-/// What a look at every regrouping and the closer one at a few take: samples, and how much of the
-/// allowances their errors may use. The fewer the samples, the more they miss.
+/// The samples, and the share of the allowances that errors may use: of a look at every regrouping,
+/// and of a closer one at a few. The fewer the samples, the more they miss.
 const LOOKS: [(usize, f64); 2] = [(16, 0.45), (40, 0.7)];
 
 const CLOSER: usize = 12;

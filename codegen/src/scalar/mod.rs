@@ -47,13 +47,16 @@ pub(crate) trait Case: Divide {
 }
 
 macro_rules! case {
-    ($scalar:ty, $case:ident, $number:expr, $wrap:expr, $unwrap:expr) => {
+    ($scalar:ty, $case:ident, $of_number:expr) => {
+        case!($scalar, $case, $of_number, |x| x, |x| x);
+    };
+    ($scalar:ty, $case:ident, $of_number:expr, $wrap:expr, $unwrap:expr) => {
         impl Case for $scalar {
             fn any(self) -> AnyScalar {
                 AnyScalar::$case($wrap(self))
             }
             fn of_number(number: &Rational) -> Self {
-                $number(number)
+                $of_number(number)
             }
             fn of(value: AnyScalar) -> Option<Self> {
                 match value {
@@ -66,28 +69,16 @@ macro_rules! case {
     };
 }
 
+fn true_number(number: &Rational) -> TrueValue {
+    TrueValue::constant(&Exact::from(number.clone()))
+}
+
 // Denominators of such numbers are powers of two, which no prime here divides.
-case!(
-    Field,
-    Search,
-    |x| Field::from_rational(x).unwrap_or_default(),
-    |x| x,
-    |x| x
-);
-case!(
-    ProofField,
-    Proof,
-    |x| ProofField::from_rational(x).unwrap_or_default(),
-    |x| x,
-    |x| x
-);
-case!(
-    f64,
-    Double,
-    |x: &Rational| x.to_f64().unwrap_or(f64::NAN),
-    |x| x,
-    |x| x
-);
+case!(Field, Search, |x| Field::from_rational(x)
+    .unwrap_or_default());
+case!(ProofField, Proof, |x| ProofField::from_rational(x)
+    .unwrap_or_default());
+case!(f64, Double, |x: &Rational| x.to_f64().unwrap_or(f64::NAN));
 case!(
     Degree,
     Degree,
@@ -95,13 +86,7 @@ case!(
     Rc::new,
     Rc::unwrap_or_clone
 );
-case!(
-    TrueValue,
-    True,
-    |x: &Rational| TrueValue::constant(&Exact::from(x.clone())),
-    Rc::new,
-    Rc::unwrap_or_clone
-);
+case!(TrueValue, True, true_number, Rc::new, Rc::unwrap_or_clone);
 
 impl AnyScalar {
     /// Returns a number as a value of the scalar of `self`.

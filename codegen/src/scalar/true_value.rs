@@ -21,13 +21,13 @@ impl TrueValue {
     /// Returns the distance to another true value; zero where the errors of both may explain it.
     pub(crate) fn difference(&self, other: &TrueValue) -> f64 {
         let off = other.value.sub(&self.value).magnitude();
-        (off - self.lost * LOST - other.lost * LOST).max(0.0)
+        (off - self.doubt() - other.doubt()).max(0.0)
     }
 
     /// A lower bound of |x − truth|: |x − value| less the reference's own error; infinite for NaN.
     pub fn error(&self, x: f64) -> f64 {
         match Wide::from_f64(x) {
-            Some(x) => (x.sub(&self.value).magnitude() - self.lost * LOST).max(0.0),
+            Some(x) => (x.sub(&self.value).magnitude() - self.doubt()).max(0.0),
             None => f64::INFINITY,
         }
     }
@@ -47,16 +47,14 @@ impl TrueValue {
         self.value.magnitude()
     }
 
-    /// Returns the same; zero of what cannot be told from zero.
+    /// Returns |value|, rounded up; zero if the value cannot be told from zero.
     pub fn size(&self) -> f64 {
         match self.magnitude() {
             size if size <= self.doubt() => 0.0,
             size => size,
         }
     }
-}
 
-impl TrueValue {
     pub(crate) fn exact(value: Wide) -> TrueValue {
         let size = value.magnitude();
         TrueValue {
@@ -148,7 +146,7 @@ impl Divide for TrueValue {
     fn div(&self, other: &Self) -> Self {
         let value = self.value.div(&other.value);
         let divisor = other.size.next_down();
-        let carried = match other.lost * LOST < 0.4 * divisor {
+        let carried = match other.doubt() < 0.4 * divisor {
             true => 2.0 * (self.lost + times(value.magnitude(), other.lost)) / divisor,
             false => f64::INFINITY,
         };

@@ -3,7 +3,7 @@
 //! A greedy search ranks edits of the *emitted* program by error for each operation saved,
 //! constants corrected for what is left out; parts of what it chose are taken back at random and
 //! chosen anew. Errors are measured at sampled positions, there as the certificate measures them.
-//! What the search finds counts only if [`bound`](crate::bound::magnitude) certifies it. The edited
+//! A result of the search counts only if [`bound`](crate::bound::magnitude) certifies it. The edited
 //! program is then simplified, which may save more, and edited again. In which regrouping the exact
 //! program is matters more than how small it is there (`approximate/regrouping.rs`).
 //!

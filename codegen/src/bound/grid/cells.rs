@@ -28,7 +28,7 @@ pub(super) struct Cells<'a> {
     whole: Option<f64>,
     ranges: Vec<Interval>,
     pub points: usize,
-    /// Of the first angle's range, the part that was shown before the cell that was looked at last.
+    /// The part of the first angle's range that was shown before the cell that was looked at last.
     pub reached: f64,
     angles: Vec<f64>,
     above: Vec<f64>,

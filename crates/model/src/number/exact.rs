@@ -192,7 +192,7 @@ impl Exact {
         }
     }
 
-    /// Returns whether the leading coefficient is negative: the sign that canonical forms pull out
+    /// True if the leading coefficient is negative: the sign that canonical forms pull out
     /// (for a polynomial not necessarily that of the value).
     pub fn leads_negative(&self) -> bool {
         match &self.0 {

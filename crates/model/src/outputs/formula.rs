@@ -38,8 +38,8 @@ pub(super) trait Formula {
         }
     }
 
-    /// Returns what vanishes if these entries over all joints are the quantity's, by an equation
-    /// that it solves; nothing where [`Formula::written`] says what it is.
+    /// Returns residuals that vanish if these entries over all joints are the quantity's, by an
+    /// equation that it solves; none where [`Formula::written`] defines it.
     fn residual<S: Divide>(_: &Written<'_, S>, _: &[S]) -> Vec<S> {
         Vec::new()
     }

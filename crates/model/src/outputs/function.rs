@@ -60,7 +60,7 @@ impl Definition {
 
 /// A function that a user puts together: of the results of several others, or at a frame.
 ///
-/// What it says of itself is kept for as long as the process runs: so a function is as small a
+/// Its definition is kept for as long as the process runs: so a function is as small a
 /// value as a case of an enumeration, and a process names few. Two are equal if they say the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Made(pub(super) &'static Definition);

@@ -158,7 +158,7 @@ fn placed_in(back: &Columns<Wide>, own: Option<&Placement>, size: &Rational) -> 
     frame::placement(&pose, size)
 }
 
-/// Returns what lengths are small against: the arm stretched out, or a metre if it has no length.
+/// The length that others are small against: the arm stretched out, or a metre if it has none.
 fn size(robot: &Robot, placed: &[Placed]) -> Rational {
     let ends = [&robot.base, &robot.tool, &robot.payload_frame];
     let ends = ends.into_iter().flatten();

@@ -271,7 +271,7 @@ impl<S: Scalar> Flow<S> {
         )
     }
 
-    /// Returns what [`Flow::of_turn`] gives along the joint, as a form in the turn.
+    /// Returns the result of [`Flow::of_turn`] along the joint, as a form in the turn.
     pub(super) fn swing(&self, link: &ChainLink<S>) -> Vector<S> {
         self.half_swing(link).each_ref().map(twice)
     }

@@ -1,4 +1,4 @@
-//! What is fixed to the links of a chain beside their bodies: the columns of a regressor.
+//! The columns of a regressor: they are fixed to the links of a chain beside their bodies.
 
 use alloc::vec::Vec;
 
