@@ -133,7 +133,7 @@ impl Candidates {
                 break;
             }
             let kernel = form.kernel(Some(&self.fits[fit]), self.need, self.scalar);
-            let Some(errors) = prove(&kernel, self.scalar, self.range) else {
+            let Some(errors) = prove(&kernel, self.scalar, self.range, least) else {
                 continue;
             };
             if errors.worst() < least {

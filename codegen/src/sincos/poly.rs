@@ -16,6 +16,14 @@ pub(crate) struct Poly {
     exponent: u64,
 }
 
+/// The least bits behind the point of what was cut.
+const BITS: u64 = 120;
+
+/// Of the powers of what is up to `reach`, for each unit of the degree.
+fn digits(reach: f64) -> u64 {
+    libm::ceil(libm::log2(reach.max(1.0))) as u64 + 1
+}
+
 impl Poly {
     pub(crate) fn integers(coefficients: Vec<BigInt>) -> Poly {
         Poly::new(coefficients, 0)
@@ -44,9 +52,10 @@ impl Poly {
         numerators.unwrap_or(0) + self.exponent
     }
 
+    /// Not in lowest terms, which take longer than all that is done with them.
     pub(crate) fn coefficient(&self, k: usize) -> Rational {
         let numerator = self.coefficients.get(k).cloned().unwrap_or_default();
-        Rational::new(numerator, BigInt::one() << self.exponent)
+        Rational::new_raw(numerator, BigInt::one() << self.exponent)
     }
 
     #[must_use]
@@ -96,9 +105,7 @@ impl Poly {
     /// to `reach`.
     #[must_use]
     pub(crate) fn divided(&self, divisor: &BigInt, reach: f64) -> (Poly, f64) {
-        const BITS: u64 = 100;
-        let digit = libm::ceil(libm::log2(reach.max(1.0))) as u64 + 1;
-        let exponent = BITS + digit * self.degree() as u64;
+        let exponent = BITS + digits(reach) * self.degree() as u64;
         let divisor = divisor << self.exponent;
         let cut = |c: &BigInt| (c << exponent) / &divisor;
         let coefficients: Vec<BigInt> = self.coefficients.iter().map(cut).collect();
@@ -112,12 +119,14 @@ impl Poly {
         (poly, error)
     }
 
-    /// Returns p((centre + radius·y)/2^`bits`) as a polynomial in y.
+    /// Returns p((centre + radius·y)/2^`bits`) as a polynomial in y, of a p that is
+    /// [divided](Poly::divided), and the most by which it is off for |y| ≤ 1: then x is in the reach
+    /// for which p was divided.
     #[must_use]
-    pub(crate) fn on(&self, centre: i64, radius: i64, bits: u64) -> Poly {
+    pub(crate) fn on(&self, centre: i64, radius: i64, bits: u64) -> (Poly, f64) {
         let mut sum: Vec<BigInt> = Vec::with_capacity(self.coefficients.len());
-        for (step, c) in self.coefficients.iter().rev().enumerate() {
-            // sum·(centre + radius·y) + c, all times 2^(bits·step).
+        for c in self.coefficients.iter().rev() {
+            // sum·(centre + radius·y)/2^bits + c, in the units of c.
             sum.push(BigInt::zero());
             for k in (0..sum.len()).rev() {
                 let below = k.checked_sub(1).map(|k| &sum[k] * radius);
@@ -125,13 +134,23 @@ impl Poly {
                 if let Some(below) = below {
                     sum[k] += below;
                 }
+                sum[k] >>= bits;
             }
-            sum[0] += c << (bits * step as u64);
+            sum[0] += c;
         }
-        Poly {
+        // Each step cuts less than a unit off each coefficient, and each of those that are left
+        // multiplies by the reach at most: as above, with all coefficients for each step. At the
+        // end as much again is cut.
+        let terms = sum.len() as f64;
+        let spare = self.exponent.saturating_sub(BITS);
+        for c in &mut sum {
+            *c >>= spare;
+        }
+        let poly = Poly {
             coefficients: sum,
-            exponent: self.exponent + bits * self.degree() as u64,
-        }
+            exponent: self.exponent - spare,
+        };
+        (poly, 2.0 * terms * terms * libm::exp2(-(BITS as f64)))
     }
 
     /// Returns the a_k of Σ a_k·T_k(x), by Horner's scheme with x·T_0 = T_1 and 2x·T_k = T_(k+1) +
@@ -179,7 +198,7 @@ impl Poly {
         if sum.is_zero() {
             return 0.0;
         }
-        f64::nearest_rational(&Rational::new(sum, divisor << self.exponent)).next_up()
+        f64::nearest_rational(&Rational::new_raw(sum, divisor << self.exponent)).next_up()
     }
 
     fn at(&self, exponent: u64) -> Vec<BigInt> {
@@ -231,12 +250,15 @@ mod tests {
             assert_eq!(at(&p.sub(&q), x), &a - &b);
             assert_eq!(at(&p.mul(&q), x), &a * &b);
             assert_eq!(at(&p.compose(&of(&[2.0, -1.0])), x), at(&p, 2 - x));
-            assert_eq!(at(&p.on(2, -1, 0), x), at(&p, 2 - x));
-            assert_eq!(at(&p.on(16, 8, 3), x), at(&p, 2 + x));
         }
         let (cut, error) = p.divided(&BigInt::from(3), 3.0);
         let off = at(&cut, 3) - at(&p, 3) / Rational::from_integer(3.into());
         assert!(f64::nearest_rational(&off).abs() <= error && error < 1e-28);
+        for (y, x) in [(-1, 1), (0, 2), (1, 3)] {
+            let (moved, error) = cut.on(16, 8, 3);
+            let off = at(&moved, y) - at(&cut, x);
+            assert!(f64::nearest_rational(&off).abs() <= error && error < 1e-28);
+        }
         assert_eq!(Poly::constant(f64::NAN), None);
     }
 

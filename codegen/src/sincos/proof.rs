@@ -58,22 +58,31 @@ const PIECE: f64 = 0.5;
 
 const CELLS: usize = 48;
 
-pub(crate) fn prove(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Option<Errors> {
+/// None also where rounding alone costs `most` or more, which a small part of a proof shows.
+pub(crate) fn prove(
+    kernel: &Kernel,
+    scalar: ScalarType,
+    range: Interval,
+    most: f64,
+) -> Option<Errors> {
     if kernel.operations() > MAX_OPERATIONS {
         return None;
     }
     if let Some((constants, left)) = reduction::split(kernel, scalar) {
         let rest = reduction::rest(constants, scalar, range)?;
-        let errors = polynomial(&left, scalar, rest.range)?;
+        let errors = polynomial(&left, scalar, rest.range, most)?;
         let (sin, cos) = (rest.error, rest.error);
         return Some(errors.and(Errors { sin, cos }, left.need));
     }
-    polynomial(kernel, scalar, range)
+    polynomial(kernel, scalar, range, most)
 }
 
-fn polynomial(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Option<Errors> {
-    let approximations = approximations(kernel, range)?;
-    let errors = approximations.and(rounding(kernel, scalar, range), kernel.need);
+fn polynomial(kernel: &Kernel, scalar: ScalarType, range: Interval, most: f64) -> Option<Errors> {
+    let rounding = rounding(kernel, scalar, range);
+    if rounding.worst() >= most {
+        return None;
+    }
+    let errors = approximations(kernel, range)?.and(rounding, kernel.need);
     errors.worst().is_finite().then_some(errors)
 }
 
@@ -130,9 +139,10 @@ fn expand(kernel: &Kernel) -> Option<Vec<Poly>> {
 
 /// |p − wave| over a range, from above: over the whole, or the worst of pieces, whichever is less.
 fn approximation(poly: &Poly, wave: Wave, range: Interval) -> Option<f64> {
-    let taylor = Taylor::up_to(range.magnitude() + 1.0)?;
+    let reach = range.magnitude() + 1.0;
+    let taylor = Taylor::up_to(reach)?;
     let difference = taylor.waves[wave as usize].sub(&poly.scaled(&taylor.factorial));
-    let (difference, cut) = difference.divided(&taylor.factorial, range.magnitude() + 1.0);
+    let (difference, cut) = difference.divided(&taylor.factorial, reach);
     let over = |pieces: usize| {
         let width = range.width() / pieces as f64;
         // Centre and radius have few bits; the radius has room for rounding
@@ -144,8 +154,8 @@ fn approximation(poly: &Poly, wave: Wave, range: Interval) -> Option<f64> {
         for piece in 0..pieces {
             let middle = range.low() + (piece as f64 + 0.5) * width;
             let centre = libm::round(middle * grid) as i64;
-            let form = difference.on(centre, radius, bits.unsigned_abs().into());
-            most = most.max(form.chebyshev().sum_from(0, &BigInt::one()));
+            let (form, cut) = difference.on(centre, radius, bits.unsigned_abs().into());
+            most = most.max(form.chebyshev().sum_from(0, &BigInt::one()) + cut);
         }
         most
     };

@@ -108,11 +108,14 @@ impl Fit {
     ) -> Vec<f64> {
         let cut = self.waves[wave as usize].in_powers(degree);
         let radius = Rational::from_float(self.radius).unwrap_or_else(Rational::one);
-        let mut scale = factor / Rational::from_integer(self.factorial.clone());
+        let mut above = factor.numer().clone();
+        let mut below = factor.denom() * &self.factorial;
         (0..=degree)
             .map(|k| {
-                let c = cut.coefficient(k) * &scale;
-                scale /= &radius;
+                let c = cut.coefficient(k);
+                let c = Rational::new_raw(c.numer() * &above, c.denom() * &below);
+                above *= radius.denom();
+                below *= radius.numer();
                 scalar.round_rational(&c)
             })
             .collect()

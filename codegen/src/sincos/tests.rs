@@ -105,7 +105,7 @@ fn a_changed_literal_shows() {
             };
             *value = scalar.nearest(*value * 1.01);
             let wrong = seen(&kernel, scalar, over);
-            match prove(&kernel, scalar, over) {
+            match prove(&kernel, scalar, over, f64::INFINITY) {
                 None => {}
                 Some(found) => {
                     assert!(
@@ -171,9 +171,15 @@ fn nothing_unbounded_is_proved() {
         node = kernel.mul(node, node);
     }
     let kernel = alone(kernel, node);
-    assert_eq!(prove(&kernel, ScalarType::F64, range(0.0, 1.0)), None);
+    assert_eq!(
+        prove(&kernel, ScalarType::F64, range(0.0, 1.0), f64::INFINITY),
+        None
+    );
     let mut wild = KernelWriter::default();
     let infinite = wild.literal(f64::INFINITY);
     let wild = alone(wild, infinite);
-    assert_eq!(prove(&wild, ScalarType::F64, range(0.0, 1.0)), None);
+    assert_eq!(
+        prove(&wild, ScalarType::F64, range(0.0, 1.0), f64::INFINITY),
+        None
+    );
 }
