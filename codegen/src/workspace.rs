@@ -23,6 +23,7 @@ pub use crate::function::{Argument, Columns, Quantity, RuntimeParameter, Sizes};
 pub use crate::generate::{
     MAX_OUTPUTS, ToleranceError,
     claim::{claim, claim_of},
+    contradiction::exact as run_exactly,
     generate_anew,
     keep::keep,
     search::{Found, replay, search},

@@ -3,15 +3,16 @@
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
-use dalembert_codegen::Program;
 use dalembert_codegen::workspace::{
-    Argument, Dag, Disproof, Input, Operand, Operation, Points, Step, Steps, prove,
+    Argument, Dag, Disproof, Id, Input, Node, Operand, Operation, Points, Reference, Setup, Step,
+    Steps, TrueValue, prove, run_exactly,
 };
+use dalembert_codegen::{Function, Program};
 use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::Field;
 
-use crate::support::{Case, in_scene, rows};
+use crate::support::{self, Case, in_scene, rows};
 
 fn cases(robots: &str, outputs: &str) -> Vec<(Case, Program)> {
     let mut cases = Vec::new();
@@ -202,6 +203,57 @@ fn another_arm_or_scene() {
             assert_ne!(other, source, "{from}");
             let found = proof(&Case::read(&other, &asked), program);
             assert!(found.is_err(), "{file} {change}");
+        }
+    }
+}
+
+/// What was proved is run, too: at a random state a digit far beyond a double's shows.
+#[test]
+fn a_wrong_digit_shows_at_a_state() {
+    let case = Case::in_scene("planar2r", "", "inverse_dynamics");
+    let reference = Reference::new(&Setup::whole(case.robot()));
+    let mut function = case.generated().functions.remove(0);
+    assert_eq!(run_exactly(&reference, &function), Ok(()));
+    let tiny = Exact::from(Rational::new(
+        1.into(),
+        num_bigint::BigInt::from(10).pow(40),
+    ));
+    let mut planted = 0;
+    for index in 0..function.program.dag.nodes.len() {
+        let program = function.program.clone();
+        let Node::Constant(constant) = &mut function.program.dag.nodes[index] else {
+            continue;
+        };
+        *constant = constant.add(&tiny);
+        let error = run_exactly(&reference, &function).unwrap_err().to_string();
+        assert!(error.contains("it passed its proof"), "{index}: {error}");
+        function.program = program;
+        planted += 1;
+    }
+    assert!(planted >= 5, "{planted} constants");
+    let mut other = function.clone();
+    other.program.dag.outputs[0].node = Id::MAX;
+    assert!(run_exactly(&reference, &other).is_err());
+    function.program.dag.outputs.pop();
+    assert!(run_exactly(&reference, &function).is_err());
+}
+
+/// An error of emitted code could hide where the reference knew less.
+#[test]
+fn every_result_is_known_far_beyond_a_double() {
+    for name in ["planar3r", "stanford", "ur10", "panda"] {
+        let setup = Setup::whole(&support::robot(name));
+        let reference = Reference::new(&setup);
+        for function in Function::ALL {
+            for state in setup.states(3, 5) {
+                let truth = reference.run(function, &state);
+                let largest = truth.iter().map(TrueValue::magnitude).fold(0.0, f64::max);
+                let lost = truth.iter().map(TrueValue::doubt).fold(0.0, f64::max);
+                assert!(
+                    lost <= 1e-45 * largest,
+                    "{name} {function}: {lost:e} of {largest:e}"
+                );
+            }
         }
     }
 }

@@ -1,14 +1,14 @@
 //! What a plan keeps is proved and printed as it was; a program of another request is not taken for
 //! it.
 
-use dalembert_codegen::workspace::{Entry, keep, plan_file};
+use dalembert_codegen::workspace::{Entry, Node, keep, plan_file, price};
 use dalembert_codegen::{Generated, Plan};
 
 use crate::support::{self, Case, rows};
 
 #[track_caller]
 fn kept(case: &Case) -> String {
-    let first = case.generated();
+    let first = case.searched();
     let text = keep(case.robot(), &case.request, &first, None).plan.write();
     let read = Plan::parse(&text).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(read.write(), text);
@@ -178,10 +178,10 @@ fn renewed_programs_are_no_dearer() {
     let plan = beside("stanford");
     let mut case = Case::new("stanford", "", "outputs: inertia; scalar: f64");
     let operations = |generated: Generated| generated.functions[0].counts().operations();
-    let (searched, kept) = (operations(case.generated()), operations(case.by(&plan)));
+    let (searched, kept) = (operations(case.searched()), operations(case.by(&plan)));
     assert!(kept < searched, "{kept} {searched}: nothing to renew");
     case.request.renewed = Some(plan.clone());
-    let renewed = case.generated();
+    let renewed = case.searched();
     let again = keep(case.robot(), &case.request, &renewed, Some(plan.clone())).plan;
     let is_cheaper = operations(renewed) < kept;
     assert!(is_cheaper || again == plan, "no byte changes for nothing");
@@ -192,6 +192,41 @@ fn renewed_programs_are_no_dearer() {
     let input = "0".repeat(16);
     for other in [wrong, Plan { input, ..plan }] {
         case.request.renewed = Some(other);
-        assert_eq!(operations(case.generated()), searched);
+        assert_eq!(operations(case.searched()), searched);
     }
+}
+
+#[test]
+fn an_early_end_takes_nothing_better_away() {
+    let case = Case::in_scene("planar2r", "", "gravity");
+    let good = case.generated();
+    let mut dear = good.clone();
+    let dag = &mut dear.functions[0].program.dag;
+    let (_, operation, operands) = dag.operations().next().unwrap();
+    dag.nodes.push(Node::Apply(operation, operands));
+    let prices = |kept, found: &_| {
+        let kept = keep(case.robot(), &case.request, found, kept);
+        let entries = kept.plan.entries.iter();
+        let prices: Vec<u64> = entries.map(|own| price(&own.program.counts())).collect();
+        assert_eq!(prices.len(), 2, "one a scalar");
+        assert_eq!(prices[0], prices[1]);
+        (kept.plan, prices[0], kept.own.len())
+    };
+    let (of_good, low, _) = prices(None, &good);
+    let (of_dear, high, _) = prices(None, &dear);
+    assert!(low < high);
+    assert_eq!(prices(Some(of_good.clone()), &dear).1, high);
+    for generated in [&mut dear, &mut good.clone()] {
+        generated.ended = true;
+        let (_, price, own) = prices(Some(of_good.clone()), generated);
+        assert_eq!((price, own), (low, 2));
+    }
+    let ended = Generated {
+        ended: true,
+        ..good
+    };
+    assert_eq!(prices(Some(of_dear), &ended).1, low);
+    let mut other = of_good;
+    other.input = String::new();
+    assert_eq!(prices(Some(other), &dear).1, high);
 }

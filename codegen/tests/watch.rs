@@ -33,7 +33,7 @@ fn watched(
     let seen = Mutex::default();
     let clerk = Arc::new(Clerk { until, seen });
     (case.request.effort, case.request.watch) = (effort, Watch::new(clerk.clone()));
-    let generated = case.generated();
+    let generated = case.searched();
     let seen = clerk.seen.lock().unwrap().clone();
     (generated, seen)
 }
@@ -46,7 +46,7 @@ fn two() -> Case {
 #[test]
 fn watching_changes_nothing() {
     let (generated, seen) = watched(two(), Effort::Quick, None);
-    assert!(generated.text() == two().generated().text());
+    assert!(generated.text() == two().searched().text());
     for function in [Function::InverseDynamics, Function::Gravity] {
         let parts = seen.iter().filter(|progress| progress.function == function);
         let mut parts: Vec<Part> = parts.map(|progress| progress.part).collect();

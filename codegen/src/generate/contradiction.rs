@@ -39,7 +39,11 @@ pub(super) fn check(
     Ok(())
 }
 
-fn exact(reference: &Reference, generated: &GeneratedFunction) -> Result<(), GenerateError> {
+/// Runs a function without a tolerance at random states.
+///
+/// # Errors
+/// A result that differs from the robot's own recursion.
+pub fn exact(reference: &Reference, generated: &GeneratedFunction) -> Result<(), GenerateError> {
     // Limits may reach beyond f32, and the reference is of finite numbers.
     let states = reference.setup().states(STATES, SEED);
     for state in states.iter().map(JointState::in_finite_single) {
@@ -101,50 +105,4 @@ fn wrong(
          the robot's own recursion, and {why}"
     );
     GenerateError::Defect(generated.function, scalar, why)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::dag::{Id, Node};
-    use crate::function::Function;
-    use crate::generate::generate;
-    use crate::task::Request;
-    use dalembert_model::number::{Exact, Rational};
-    use dalembert_model::read;
-    use dalembert_model::scalar::Scalar;
-
-    #[test]
-    fn a_wrong_digit_is_found() {
-        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
-        let text = std::fs::read_to_string(folder.join("planar2r.toml")).unwrap();
-        let robot = read::parse(&text).unwrap().robot;
-        let request = Request::new(&[Function::InverseDynamics]);
-        let generated = generate(&robot, &request).unwrap();
-        let reference = Reference::new(&Setup::whole(&robot));
-        let mut function = generated.functions[0].clone();
-        assert_eq!(exact(&reference, &function), Ok(()));
-        let tiny = Exact::from(Rational::new(
-            1.into(),
-            num_bigint::BigInt::from(10).pow(40),
-        ));
-        let mut planted = 0;
-        for index in 0..function.program.dag.nodes.len() {
-            let program = function.program.clone();
-            let Node::Constant(constant) = &mut function.program.dag.nodes[index] else {
-                continue;
-            };
-            *constant = constant.add(&tiny);
-            let error = exact(&reference, &function).unwrap_err().to_string();
-            assert!(error.contains("it passed its proof"), "{index}: {error}");
-            function.program = program;
-            planted += 1;
-        }
-        assert!(planted >= 5, "{planted} constants");
-        let mut other = function.clone();
-        other.program.dag.outputs[0].node = Id::MAX;
-        assert!(exact(&reference, &other).is_err());
-        function.program.dag.outputs.pop();
-        assert!(exact(&reference, &function).is_err());
-    }
 }

@@ -12,7 +12,7 @@
 
 mod again;
 pub(crate) mod claim;
-mod contradiction;
+pub(crate) mod contradiction;
 pub(crate) mod error;
 pub(crate) mod keep;
 pub(crate) mod language;

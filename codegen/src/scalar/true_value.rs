@@ -38,7 +38,7 @@ impl TrueValue {
     }
 
     /// Returns the bound of the error.
-    pub(crate) fn doubt(&self) -> f64 {
+    pub fn doubt(&self) -> f64 {
         self.lost * LOST
     }
 

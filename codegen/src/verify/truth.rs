@@ -117,32 +117,3 @@ impl Leaves for AtState<'_> {
         TrueValue::constant(constant)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use dalembert_model::read;
-
-    /// An error of emitted code could hide where the reference knew less.
-    #[test]
-    fn every_result_is_known_far_beyond_a_double() {
-        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
-        for name in ["planar3r", "stanford", "ur10", "panda"] {
-            let text = std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap();
-            let robot = read::parse(&text).unwrap().robot;
-            let setup = Setup::whole(&robot);
-            let reference = Reference::new(&setup);
-            for function in Function::ALL {
-                for state in setup.states(3, 5) {
-                    let truth = reference.run(function, &state);
-                    let largest = truth.iter().map(TrueValue::magnitude).fold(0.0, f64::max);
-                    let lost = truth.iter().map(|x| x.doubt()).fold(0.0, f64::max);
-                    assert!(
-                        lost <= 1e-45 * largest,
-                        "{name} {function}: {lost:e} of {largest:e}"
-                    );
-                }
-            }
-        }
-    }
-}

@@ -7,8 +7,9 @@
 pub mod compiled;
 pub mod draw;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
+use std::sync::{LazyLock, Mutex};
 
 use dalembert_codegen::workspace::{
     Emitted, Granted, JointState, LEAST_PART, Runtime, keep, parse,
@@ -272,7 +273,28 @@ impl Case {
         &self.reading.robot
     }
 
+    /// The programs of a request are searched for once for all tests, in whatever language it is.
     pub fn generated(&self) -> Generated {
+        static FOUND: LazyLock<Mutex<BTreeMap<String, Plan>>> = LazyLock::new(Mutex::default);
+        let robot = self.robot();
+        let searched = Request {
+            language: Language::default(),
+            batch: false,
+            module: None,
+            ..self.request.clone()
+        };
+        let key = format!("{robot:?} {searched:?}");
+        let known = FOUND.lock().unwrap().get(&key).cloned();
+        if let Some(plan) = known {
+            return self.by(&plan);
+        }
+        let generated = self.searched();
+        let plan = keep(robot, &self.request, &generated, None).plan;
+        FOUND.lock().unwrap().insert(key, plan);
+        generated
+    }
+
+    pub fn searched(&self) -> Generated {
         generate(self.robot(), &self.request).unwrap_or_else(|error| panic!("{error}"))
     }
 

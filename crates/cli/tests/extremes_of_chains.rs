@@ -31,12 +31,17 @@ fn held(category: &str) -> Held {
     }
 }
 
-/// Short arms have D, h and c, too, which come from the same recursion. Only arms up to the longest
-/// are searched; others use the recursion unchanged.
+/// Arms up to the longest have D, h and c, too, in f32 those of four joints at most; longer ones have
+/// torques by the recursion of links alone.
 fn emitted(robot: &Robot, scalar: ScalarType, longest: usize) -> Vec<Emitted> {
     let n = robot.joints.len();
     let mut functions = vec![Function::InverseDynamics];
-    let is_short = n <= if scalar == ScalarType::F64 { 7 } else { 4 };
+    let is_short = n
+        <= if scalar == ScalarType::F64 {
+            longest
+        } else {
+            longest.min(4)
+        };
     functions.extend(is_short.then_some(Function::ManipulatorEquation));
     let request = Request {
         scalars: vec![scalar],

@@ -71,26 +71,31 @@ fn every_argument_has_a_value_at_the_extremes() {
     use Function::{ForwardDynamics, Gravity, InverseDynamics};
     let robot = support::robot("planar2r");
     let [payload, gravity] = [RuntimeParameter::Payload, RuntimeParameter::Gravity];
-    for parameters in [vec![gravity], vec![payload], vec![payload, gravity]] {
-        for functions in [vec![Gravity], vec![ForwardDynamics, InverseDynamics]] {
-            let request = Request {
-                parameters: parameters.clone(),
-                ..Request::new(&functions)
-            };
-            for (function, rows) in [
-                (InverseDynamics, torques(&robot, &request, 3).unwrap()),
-                (ForwardDynamics, divided(&robot, &request, 3).unwrap()),
-            ] {
-                let what = format!("{parameters:?} {functions:?} {function}");
-                assert_eq!(!rows.is_empty(), functions.contains(&function), "{what}");
-                for row in &rows {
-                    assert!(row.verdict != Verdict::Failed, "{what}: {row:?}");
-                    let worst = row.worst.as_ref();
-                    assert!(
-                        worst.is_ok_and(|worst| worst.function == function),
-                        "{what}"
-                    );
-                }
+    for (parameters, functions) in [
+        (vec![gravity], vec![Gravity]),
+        (vec![payload], vec![InverseDynamics]),
+        (
+            vec![payload, gravity],
+            vec![ForwardDynamics, InverseDynamics],
+        ),
+    ] {
+        let request = Request {
+            parameters: parameters.clone(),
+            ..Request::new(&functions)
+        };
+        for (function, rows) in [
+            (InverseDynamics, torques(&robot, &request, 3).unwrap()),
+            (ForwardDynamics, divided(&robot, &request, 3).unwrap()),
+        ] {
+            let what = format!("{parameters:?} {functions:?} {function}");
+            assert_eq!(!rows.is_empty(), functions.contains(&function), "{what}");
+            for row in &rows {
+                assert!(row.verdict != Verdict::Failed, "{what}: {row:?}");
+                let worst = row.worst.as_ref();
+                assert!(
+                    worst.is_ok_and(|worst| worst.function == function),
+                    "{what}"
+                );
             }
         }
     }
