@@ -43,7 +43,7 @@ def test_golden_values(name):
         assert_allclose(found / scale, expected / scale, **close)
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", ["planar2r", "planar3r", "stanford"])
 def test_values_of_other_outputs(name):
     """Every other output that an independent library has."""
     arm = dalembert.load(robot(name), outputs=list(dalembert.outputs()))
@@ -359,13 +359,13 @@ def held():
     return resident, info.uordblks + info.hblkhd, sys.getallocatedblocks()
 
 def load():
-    arm = dalembert.load(sys.argv[1], outputs=sys.argv[2:], parameters=["payload"])
+    arm = dalembert.load(sys.argv[2], outputs=sys.argv[3:], parameters=["payload"])
     assert arm.is_from_cache
 
-for _ in range(300):
+for _ in range(100):
     load()
 before = held()
-for _ in range(3000):
+for _ in range(int(sys.argv[1])):
     load()
 print(*(after - before for before, after in zip(before, held())))
 """
@@ -373,17 +373,21 @@ print(*(after - before for before, after in zip(before, held())))
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="what is held is Linux's to tell")
 def test_loads_do_not_add_up(tmp_path):
-    """A kept arm, with a bundle and a frame in the request and in the plan beside the file."""
+    """A kept arm, with a bundle and a frame in the request and in the plan beside the file.
+
+    LOADS=30000 tries more of them.
+    """
+    count = int(os.environ.get("LOADS", "500"))
     outputs = ["gravity", "inertia", "jacobian@hand:local", "both=gravity+inertia"]
     options = {"outputs": outputs, "parameters": ["payload"]}
     dalembert.load(robot("planar2r"), **options).save(tmp_path / "arm.toml")
     dalembert.load(tmp_path / "arm.toml", **options)
-    call = [sys.executable, "-c", LOADS, str(tmp_path / "arm.toml"), *outputs]
+    call = [sys.executable, "-c", LOADS, str(count), str(tmp_path / "arm.toml"), *outputs]
     done = subprocess.run(call, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     resident, allocated, blocks = map(int, done.stdout.split())
-    print(f"3000 loads: {resident} bytes resident, {allocated} allocated, {blocks} blocks of Python")
-    assert allocated < 100 * 3000, "the allocator's bytes in use"
+    print(f"{count} loads: {resident} bytes resident, {allocated} allocated, {blocks} blocks")
+    assert allocated < 100 * count, "the allocator's bytes in use"
     assert blocks < 300, "Python's blocks in use"
     assert resident < 2 << 20
 
