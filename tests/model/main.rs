@@ -1,4 +1,6 @@
-//! One program of all test files: they share what they link, and both cores.
+//! The equations over every scalar, and the readers of robot files: one program, so that both cores
+//! run it. It is not among the model's tests, since there it would be optimised, which takes three
+//! times as long as the tests run.
 
 mod equations_axes;
 mod equations_counts;

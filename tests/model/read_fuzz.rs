@@ -2,8 +2,8 @@
 //! any order, and robot files with pieces moved, doubled, cut out and overwritten.
 
 use crate::support::{data, replaced, written};
-use dalembert_model::number::Angle;
 use dalembert_model::number::parse::parse_decimal;
+use dalembert_model::number::{Angle, Rounded};
 use dalembert_model::read::parse_bytes;
 use dalembert_model::scalar::field::Points;
 
@@ -100,7 +100,7 @@ fn mutated(seeds: &[String], most: usize, random: &mut Points) -> Vec<u8> {
 
 #[test]
 fn mutated_robots() {
-    let folder = format!("{}/../../generated/robots", env!("CARGO_MANIFEST_DIR"));
+    let folder = format!("{}/generated/robots", env!("CARGO_MANIFEST_DIR"));
     let files = std::fs::read_dir(folder).expect("robot files");
     let read = |path| std::fs::read_to_string(path).expect("a file");
     let mut seeds: Vec<String> = files.map(|entry| read(entry.unwrap().path())).collect();
@@ -166,8 +166,8 @@ fn numbers_and_angles() {
         let value = parse_decimal(&text);
         if let (Ok(value), false) = (&value, text.contains('_')) {
             let double: f64 = text.parse().expect("std reads it too");
-            let own = num_traits::ToPrimitive::to_f64(value);
-            assert_eq!(own, Some(double), "{text}");
+            let own = f64::nearest_rational(value);
+            assert_eq!(own, double, "{text}");
         }
         if let Ok(angle @ Angle::PiTimes(_)) = Angle::parse(&text) {
             let again = Angle::parse(&angle.to_string()).unwrap_or_default();

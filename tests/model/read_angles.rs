@@ -4,10 +4,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::support::ratio;
 use dalembert_model::number::parse::{NumberError, parse_decimal, write_decimal};
-use dalembert_model::number::{Angle, Rational, Snapped};
+use dalembert_model::number::{Angle, Rational, Rounded, Snapped};
 use dalembert_model::read::{Severity, parse};
 use dalembert_model::scalar::field::Points;
-use num_traits::ToPrimitive;
 
 #[test]
 fn forms() {
@@ -135,7 +134,7 @@ fn in_a_file() {
 
 #[test]
 fn decimals() {
-    let power = |n: u32| Rational::from_integer(num_bigint::BigInt::from(10).pow(n));
+    let power = |n: u32| Rational::from_integer(10.into()).pow(n as i32);
     for (text, value) in [
         ("0.4318", ratio(4318, 10_000)),
         ("-1_000.5", ratio(-2001, 2)),
@@ -177,7 +176,7 @@ fn decimals_round_trip() {
         let text = write_decimal(&value).expect("a decimal");
         if (1e-299..1e299).contains(&double) {
             assert_eq!(parse_decimal(&text), Ok(value.clone()), "{text}");
-            assert_eq!(value.to_f64(), Some(double));
+            assert_eq!(f64::nearest_rational(&value), double);
             assert_eq!(text.parse(), Ok(double));
         }
     }

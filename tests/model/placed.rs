@@ -3,9 +3,8 @@
 
 use crate::placed_support::{Arm, Drawn, compare, file};
 use crate::support::{data, generated, has, only, reading, replaced, rows, said, written};
-use dalembert_model::number::Angle;
+use dalembert_model::number::{Angle, Rounded};
 use dalembert_model::robot::Robot;
-use num_traits::{Signed, ToPrimitive};
 
 #[test]
 fn the_same_arm_is_the_same_robot() {
@@ -82,7 +81,7 @@ fn nearly_parallel_axes_stay_near() {
     let largest = |robot: &Robot| {
         let lengths = robot.joints.iter().flat_map(|joint| [&joint.a, &joint.d]);
         lengths
-            .map(|x| x.abs().to_f64().unwrap())
+            .map(|x| f64::nearest_rational(x).abs())
             .fold(0.0, f64::max)
     };
     for radians in "1e-2 1e-3 1e-4 1e-8 1e-16 1e-30 -1e-3 -1e-12".split(' ') {
@@ -91,7 +90,7 @@ fn nearly_parallel_axes_stay_near() {
             assert!(!robot.joints[0].beta.is_zero() || about == 0);
             let length = largest(&robot);
             assert!(length < 0.6, "{radians}: {length} m");
-            let apart = robot.joints[0].a.to_f64().unwrap();
+            let apart = f64::nearest_rational(&robot.joints[0].a);
             assert!((apart - 0.4).abs() < 0.002, "{apart}");
         }
     }
