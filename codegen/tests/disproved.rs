@@ -207,7 +207,7 @@ fn another_arm_or_scene() {
     }
 }
 
-/// What was proved is run, too: at a random state a digit far beyond a double's shows.
+/// A proved program is run, too: at a random state a digit far beyond a double's shows.
 #[test]
 fn a_wrong_digit_shows_at_a_state() {
     let case = Case::in_scene("planar2r", "", "inverse_dynamics");

@@ -16,10 +16,10 @@ pub(crate) struct Poly {
     exponent: u64,
 }
 
-/// The least bits behind the point of what was cut.
+/// The bits that are kept behind the point, at least.
 const BITS: u64 = 120;
 
-/// Of the powers of what is up to `reach`, for each unit of the degree.
+/// Returns the bits that each unit of the degree adds to a power of a number up to `reach`.
 fn digits(reach: f64) -> u64 {
     libm::ceil(libm::log2(reach.max(1.0))) as u64 + 1
 }
@@ -52,7 +52,7 @@ impl Poly {
         numerators.unwrap_or(0) + self.exponent
     }
 
-    /// Not in lowest terms, which take longer than all that is done with them.
+    /// The fraction is not in lowest terms: they take longer than all that is done with it.
     pub(crate) fn coefficient(&self, k: usize) -> Rational {
         let numerator = self.coefficients.get(k).cloned().unwrap_or_default();
         Rational::new_raw(numerator, BigInt::one() << self.exponent)

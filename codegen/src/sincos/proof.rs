@@ -58,7 +58,7 @@ const PIECE: f64 = 0.5;
 
 const CELLS: usize = 48;
 
-/// None also where rounding alone costs `most` or more, which a small part of a proof shows.
+/// Returns none also where rounding alone costs `most` or more: a small part of the proof shows it.
 pub(crate) fn prove(
     kernel: &Kernel,
     scalar: ScalarType,
