@@ -20,6 +20,7 @@ pub enum Folding {
     Semantic,
 }
 
+#[derive(Debug)]
 pub(crate) struct Builder {
     dag: Dag,
     prints: Vec<Fingerprint>,

@@ -10,7 +10,7 @@ use super::{Builder, Edge, Input, Operation};
 
 /// The builder travels with the nodes, so there is no global state; two nodes in one expression
 /// must come from the same builder.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub(crate) enum Symbol {
     Constant(Exact),
     /// A quotient of constants whose divisor is not zero, and no rational

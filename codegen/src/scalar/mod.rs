@@ -1,8 +1,8 @@
 //! Scalars that textbook formulas are evaluated in, as one type.
 //!
 //! The equations are generic over the scalar, and large: for each scalar that takes all of them, a
-//! user waits for seconds of compiling. So residues, doubles, degrees and true values are cases of
-//! [`AnyScalar`], and the equations are compiled for it alone.
+//! user waits for seconds of compiling. So symbols, residues, doubles, degrees and true values are
+//! cases of [`AnyScalar`], and the equations are compiled for it alone.
 
 pub(crate) mod degree;
 pub(crate) mod true_value;
@@ -17,6 +17,7 @@ use dalembert_model::scalar::{Divide, Scalar};
 use num_traits::{One, ToPrimitive, Zero};
 
 use crate::dag::Leaves;
+use crate::dag::symbol::Symbol;
 use degree::Degree;
 use true_value::TrueValue;
 
@@ -31,6 +32,7 @@ pub(crate) enum AnyScalar {
     Double(f64),
     Degree(Rc<Degree>),
     True(Rc<TrueValue>),
+    Symbol(Rc<Symbol>),
 }
 
 use AnyScalar::{Double, Number, Proof, Search, True};
@@ -73,6 +75,10 @@ fn true_number(number: &Rational) -> TrueValue {
     TrueValue::constant(&Exact::from(number.clone()))
 }
 
+fn symbol(number: &Rational) -> Symbol {
+    Symbol::Constant(Exact::from(number.clone()))
+}
+
 // Denominators of such numbers are powers of two, which no prime here divides.
 case!(Field, Search, |x| Field::from_rational(x)
     .unwrap_or_default());
@@ -87,6 +93,7 @@ case!(
     Rc::unwrap_or_clone
 );
 case!(TrueValue, True, true_number, Rc::new, Rc::unwrap_or_clone);
+case!(Symbol, Symbol, symbol, Rc::new, Rc::unwrap_or_clone);
 
 impl AnyScalar {
     /// Returns a number as a value of the scalar of `self`.
@@ -98,6 +105,7 @@ impl AnyScalar {
             Double(_) => f64::of_number(number).any(),
             AnyScalar::Degree(_) => Degree::of_number(number).any(),
             True(_) => TrueValue::of_number(number).any(),
+            AnyScalar::Symbol(_) => Symbol::of_number(number).any(),
         }
     }
 }
@@ -114,6 +122,7 @@ macro_rules! binary {
                 (Double(a), Double(b)) => Double(a.$operation(b)),
                 (AnyScalar::Degree(a), AnyScalar::Degree(b)) => a.$operation(b).any(),
                 (True(a), True(b)) => a.$operation(b).any(),
+                (AnyScalar::Symbol(a), AnyScalar::Symbol(b)) => a.$operation(b).any(),
                 (a, b) => unreachable!("{a:?} and {b:?} are of two scalars"),
             }
         }
@@ -130,6 +139,7 @@ macro_rules! unary {
                 Double(x) => Double(Scalar::$operation(x)),
                 AnyScalar::Degree(x) => x.$operation().any(),
                 True(x) => x.$operation().any(),
+                AnyScalar::Symbol(x) => x.$operation().any(),
             }
         }
     };
@@ -148,6 +158,19 @@ impl Scalar for AnyScalar {
     unary!(neg, ops::Neg::neg);
     unary!(half, |x: &Rational| x / Rational::from_integer(2.into()));
 
+    fn is_zero(&self) -> bool {
+        match self {
+            AnyScalar::Symbol(x) => x.is_zero(),
+            _ => false,
+        }
+    }
+    fn is_one(&self) -> bool {
+        match self {
+            AnyScalar::Symbol(x) => x.is_one(),
+            _ => false,
+        }
+    }
+
     /// As the doubles of the generic runtime do, those here round once.
     fn mul_add(&self, factor: &Self, addend: &Self) -> Self {
         match (self, factor, addend) {
@@ -165,7 +188,7 @@ impl Divide for AnyScalar {
             Number(x) => !x.is_zero(),
             Search(x) => x.divides(),
             Proof(x) => x.divides(),
-            Double(_) | AnyScalar::Degree(_) | True(_) => true,
+            Double(_) | AnyScalar::Degree(_) | True(_) | AnyScalar::Symbol(_) => true,
         }
     }
 }
@@ -204,6 +227,21 @@ impl Erase for TrueValue {
     fn restore(value: AnyValue) -> Self {
         let value = value.value().and_then(TrueValue::of);
         value.unwrap_or_else(TrueValue::unknown)
+    }
+}
+
+impl Erase for Symbol {
+    fn erase(self) -> AnyValue {
+        match self {
+            x if x.is_zero() => Sparse::Zero,
+            x if x.is_one() => Sparse::One,
+            x => Sparse::Value(x.any()),
+        }
+    }
+
+    fn restore(value: AnyValue) -> Self {
+        let value = value.value().and_then(Symbol::of);
+        value.unwrap_or_else(Symbol::zero)
     }
 }
 

@@ -16,9 +16,10 @@ use super::load::symbols;
 use super::trace::reader;
 use super::{Form, Seed, Source, Tuned};
 use crate::dag::symbol::Symbol;
-use crate::dag::{Builder, Dag, Folding};
+use crate::dag::{Builder, Dag, Folding, Leaves};
 use crate::function::{Argument, Quantity};
 use crate::program::{Counts, Input};
+use crate::scalar::{Erase, Erased, restored};
 use crate::setup::{Setup, Task};
 
 /// Traces a function by the chain formulas; also the operations as executed.
@@ -40,7 +41,8 @@ pub fn trace_chain(
         gravity = Some(taken);
     }
     let arguments = function.arguments();
-    let whole = setup.motion(reader(&arguments, &builder), Symbol::constant);
+    let leaves = (Symbol::constant, reader(&arguments, &builder));
+    let whole = setup.motion(&leaves.1, leaves.0);
     let rows = &setup.chained_rows();
     let following = &setup.following(Symbol::constant);
     let motion = &whole.of_joints(rows);
@@ -48,7 +50,7 @@ pub fn trace_chain(
     let (chain, at) = &chain.posed(&motion.q);
     let composite = Composite::new(chain, at);
     let of_frame = |quantity: &Quantity| quantity.is_regrouped() && quantity.is_of_frame();
-    let arm = (function.quantities().iter().any(of_frame)).then(|| moving(setup, None, &whole));
+    let arm = (function.quantities().iter().any(of_frame)).then(|| moving(setup, None, &leaves).0);
     let position = arm.as_ref().map_or_else(Vec::new, |arm| arm.at(&whole.q));
     let regrouped = Regrouped {
         chain,
@@ -70,9 +72,10 @@ pub fn trace_chain(
         let (rows, values) = match quantity.regrouped(&regrouped) {
             Some(values) => (rows.clone(), values),
             None => {
-                let arm = moving(setup, gravity.as_ref(), &whole);
-                let values = quantity.written(&textbook(&arm, &arm.at(&whole.q), &whole));
-                ((0..whole.q.len()).collect(), values)
+                let gravity = gravity.clone().map(|taken| taken.map(Symbol::erase));
+                let (any, motion) = moving(setup, gravity.as_ref(), &Erased(&leaves));
+                let values = quantity.written(&textbook(&any, &any.at(&motion.q), &motion));
+                ((0..whole.q.len()).collect(), restored(values))
             }
         };
         let selected = setup.select(quantity, sizes, &rows, following, values);
@@ -84,20 +87,26 @@ pub fn trace_chain(
     (builder.finish(outputs), traced)
 }
 
-fn moving(setup: &Setup, gravity: Option<&Vector<Symbol>>, motion: &Motion<Symbol>) -> Arm<Symbol> {
-    let arm = setup.arm(Symbol::constant);
+fn moving<L: Leaves>(
+    setup: &Setup,
+    gravity: Option<&Vector<L::Value>>,
+    leaves: &L,
+) -> (Arm<L::Value>, Motion<L::Value>) {
+    let constant = |constant: &Exact| leaves.constant(constant);
+    let motion = setup.motion(|input| leaves.input(input), constant);
+    let arm = setup.arm(constant);
     let arm = match gravity {
         Some(gravity) => arm.with_gravity(gravity),
         None => arm,
     };
-    arm.at_speeds(&motion.per_speed)
+    (arm.at_speeds(&motion.per_speed), motion)
 }
 
-fn textbook<'a>(
-    arm: &'a Arm<Symbol>,
-    at: &'a [DhVariables<Symbol>],
-    motion: &'a Motion<Symbol>,
-) -> Written<'a, Symbol> {
+fn textbook<'a, S>(
+    arm: &'a Arm<S>,
+    at: &'a [DhVariables<S>],
+    motion: &'a Motion<S>,
+) -> Written<'a, S> {
     Written {
         formulation: Formulation::NewtonEulerLink,
         arm,

@@ -11,6 +11,7 @@ use crate::dag::symbol::Symbol;
 use crate::dag::{Builder, Folding, Node};
 use crate::function::Argument;
 use crate::program::Input;
+use crate::scalar::{Erased, restored};
 use crate::setup::Task;
 
 /// Other inputs are zero: a search pairs all that a graph has, and they would be in its way.
@@ -42,7 +43,7 @@ pub fn trace(task: Task<'_>, formulation: Formulation) -> Seed {
     let mut arguments = setup.arguments(function);
     arguments.push(Argument::Payload);
     let leaves = (Symbol::constant, reader(&arguments, &builder));
-    let outputs = task.textbook(formulation, &leaves);
+    let outputs: Vec<Symbol> = restored(task.textbook(formulation, &Erased(&leaves)));
     let mut builder = builder.replace(Builder::new(Folding::Syntactic));
     let outputs = outputs.iter().map(|output| output.edge(&mut builder));
     let outputs = outputs.collect();

@@ -185,13 +185,19 @@ impl<S: Scalar> Link<S> {
 impl<S> Arm<S> {
     /// Returns every parameter of the arm through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Arm<T> {
+        self.with_each(&mut f)
+    }
+
+    fn with_each<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Arm<T> {
         Arm {
             convention: self.convention,
-            gravity: self.gravity.each_ref().map(&mut f),
-            base: self.base.as_ref().map(|pose| pose.map(&mut f)),
-            tool: self.tool.as_ref().map(|pose| pose.map(&mut f)),
-            links: self.links.iter().map(|link| link.map(&mut f)).collect(),
-            following: (self.following.iter()).map(|own| own.map(&mut f)).collect(),
+            gravity: self.gravity.each_ref().map(&mut *f),
+            base: self.base.as_ref().map(|pose| pose.map(&mut *f)),
+            tool: self.tool.as_ref().map(|pose| pose.map(&mut *f)),
+            links: self.links.iter().map(|link| link.map(&mut *f)).collect(),
+            following: (self.following.iter())
+                .map(|own| own.map(&mut *f))
+                .collect(),
             frames: self.frames.map(f),
         }
     }

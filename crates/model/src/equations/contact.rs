@@ -9,7 +9,7 @@ use alloc::vec::Vec;
 use super::factor::Factor;
 use super::frames::Axes;
 use super::matrix::{
-    Columns, Vector, columns_of, cross, difference, product, products, sum, symmetric,
+    Columns, Vector, columns_of, cross, difference, product, products, sum, symmetric, three,
 };
 use super::operational::damped;
 use super::screws::Wrench;
@@ -77,7 +77,7 @@ pub fn squared<S: Scalar>(j: &[Vec<S>]) -> Vec<Vec<S>> {
 
 fn along_links<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: &[S]) -> Vec<S> {
     let (arm, at) = arm.to_hand(at);
-    let part = |from: usize| -> Vector<S> { core::array::from_fn(|i| wrench[from + i].clone()) };
+    let part = |from: usize| -> Vector<S> { three(|i| wrench[from + i].clone()) };
     let wrench = Wrench {
         force: part(0),
         moment: part(3),

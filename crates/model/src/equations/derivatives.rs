@@ -19,7 +19,7 @@ impl Formulation {
         qdd: &[S],
     ) -> Vec<Vec<S>> {
         let [qd, qdd] = [qd, qdd].map(|rates| constants(rates));
-        columns(at.len(), |joint| {
+        columns(at.len(), &|joint| {
             let (arm, at) = moving(arm, at, &unit(at.len(), joint));
             self.inverse_dynamics(&arm, &at, &qd, &qdd)
         })
@@ -45,7 +45,7 @@ impl Formulation {
                 d: still(&at.d),
             });
             let at: Vec<_> = at.collect();
-            columns(at.len(), |joint| {
+            columns(at.len(), &|joint| {
                 let mut qd = constants(qd);
                 qd[joint].rate = S::one();
                 self.velocity_terms(&still_arm, &at, &qd)
@@ -70,7 +70,7 @@ pub(super) fn with_rates<S: Scalar>(values: &[S], rates: &[S]) -> Vec<Dual<S>> {
     pairs.map(|(value, rate)| Dual { value, rate }).collect()
 }
 
-pub(super) fn columns<S: Scalar>(n: usize, column: impl Fn(usize) -> Vec<Dual<S>>) -> Vec<Vec<S>> {
+pub(super) fn columns<S: Scalar>(n: usize, column: &dyn Fn(usize) -> Vec<Dual<S>>) -> Vec<Vec<S>> {
     let rates = |k: usize| column(k).into_iter().map(|x| x.rate).collect();
     columns_of(&(0..n).map(rates).collect::<Vec<Vec<S>>>())
 }

@@ -31,7 +31,7 @@ pub struct Following<S> {
 
 impl<S> Following<S> {
     /// Returns those of a robot, multipliers sent through `scalar`.
-    pub fn of(robot: &Robot, scalar: &mut impl FnMut(&Exact) -> S) -> Vec<Following<S>> {
+    pub fn of(robot: &Robot, scalar: &mut dyn FnMut(&Exact) -> S) -> Vec<Following<S>> {
         let followers = robot.followers.iter();
         let following = followers.map(|follower| Following {
             row: follower.row,

@@ -117,16 +117,16 @@ impl Formulation {
             Self::LagrangeEuler => LagrangeEuler::new(arm, at).christoffel(),
             Self::Dalembert => {
                 let terms = Dalembert::new(arm, at);
-                polarised(at.len(), |qd| terms.velocity_terms(qd))
+                polarised(at.len(), &|qd| terms.velocity_terms(qd))
             }
-            _ => polarised(at.len(), |qd| self.velocity_terms(arm, at, qd)),
+            _ => polarised(at.len(), &|qd| self.velocity_terms(arm, at, qd)),
         }
     }
 }
 
 /// Returns `h[i][k][m]` = h_ikm of any h(q̇) by polarisation: h_ikk = h_i(e_k) and
 /// h_ikm = (h_i(e_k + e_m) − h_i(e_k) − h_i(e_m)) / 2.
-fn polarised<S: Scalar>(n: usize, velocity_terms: impl Fn(&[S]) -> Vec<S>) -> Vec<Vec<Vec<S>>> {
+fn polarised<S: Scalar>(n: usize, velocity_terms: &dyn Fn(&[S]) -> Vec<S>) -> Vec<Vec<Vec<S>>> {
     let squares: Vec<Vec<S>> = (0..n).map(|k| velocity_terms(&unit(n, k))).collect();
     let pair = |k: usize, m: usize| {
         let mut both = unit(n, k);

@@ -142,8 +142,8 @@ impl Formulation {
         };
         let rest: Vec<S> = zeros(n);
         [
-            columns(n, |k| run(&unit(n, k), &rest)),
-            columns(n, |k| run(&rest, &unit(n, k))),
+            columns(n, &|k| run(&unit(n, k), &rest)),
+            columns(n, &|k| run(&rest, &unit(n, k))),
         ]
     }
 }

@@ -12,7 +12,7 @@ use crate::scalar::Scalar;
 impl<S> Arm<S> {
     /// Returns the arm of a robot, each exact parameter sent through `scalar`:
     /// rounding for floats, a constant for symbols, a residue for fields.
-    pub fn from_robot(robot: &Robot, scalar: &mut impl FnMut(&Exact) -> S) -> Arm<S> {
+    pub fn from_robot(robot: &Robot, scalar: &mut dyn FnMut(&Exact) -> S) -> Arm<S> {
         let base = robot.base.as_ref().map(exact_pose);
         let tool = robot.tool.as_ref().map(exact_pose);
         // The robot has gravity in base axes, the equations in those of frame 0.

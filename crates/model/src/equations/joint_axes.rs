@@ -11,7 +11,7 @@
 use alloc::vec::Vec;
 
 use super::kinematics::{at_lever, hand_of};
-use super::matrix::{Columns, Vector, cross, difference, scaled, sum, zero_vector};
+use super::matrix::{Columns, Vector, cross, difference, scaled, sum, three, zero_vector};
 use super::{Arm, DhVariables, SinCosPair};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
@@ -103,7 +103,7 @@ pub(super) fn columns_across<S: Scalar>(
     let mut frames = frames(arm, &at[..0]);
     for i in 1..=at.len() {
         let before = i.saturating_sub(2);
-        let mut axes: [Vector<S>; 3] = core::array::from_fn(|_| zero_vector());
+        let mut axes: [Vector<S>; 3] = three(|_| zero_vector());
         axes[seen.0] = frames[before].rotate(&carried(seen.1.clone(), i, before));
         axes[from_base.0] = frames[0].rotate(&carried(from_base.1.clone(), i, 0));
         axes[0] = cross(&axes[1], &axes[2]);

@@ -15,6 +15,11 @@ pub use crate::scalar::structural::{halved, minus, negative, over, plus, times, 
 /// A vector of three components.
 pub type Vector<S> = [S; 3];
 
+/// As `core::array::from_fn`, whose machinery takes ten times as long to compile.
+pub(crate) fn three<T>(mut component: impl FnMut(usize) -> T) -> [T; 3] {
+    [component(0), component(1), component(2)]
+}
+
 /// Returns the zero vector.
 pub fn zero_vector<S: Scalar>() -> Vector<S> {
     [S::zero(), S::zero(), S::zero()]
@@ -27,12 +32,12 @@ pub fn unit_z<S: Scalar>() -> Vector<S> {
 
 /// Returns the matrix 1.
 pub fn identity<S: Scalar>() -> [Vector<S>; 3] {
-    core::array::from_fn(|i| core::array::from_fn(|k| if i == k { S::one() } else { S::zero() }))
+    three(|i| three(|k| if i == k { S::one() } else { S::zero() }))
 }
 
 /// Returns Mᵀ
 pub fn transposed<S: Clone>(matrix: &[Vector<S>; 3]) -> [Vector<S>; 3] {
-    core::array::from_fn(|i| core::array::from_fn(|k| matrix[k][i].clone()))
+    three(|i| three(|k| matrix[k][i].clone()))
 }
 
 /// Returns `n` zeros.
@@ -72,6 +77,11 @@ pub fn total<S: Scalar>(terms: impl Iterator<Item = S>) -> S {
 /// Returns a full n×n matrix from its lower half: each entry (i, k), k ≤ i, is made
 /// once and cloned to (k, i).
 pub fn symmetric<S: Clone>(n: usize, entry: impl Fn(usize, usize) -> S) -> Vec<Vec<S>> {
+    of_lower_half(n, &entry)
+}
+
+// Compiled once for each scalar, not for each entry's formula.
+fn of_lower_half<S: Clone>(n: usize, entry: &dyn Fn(usize, usize) -> S) -> Vec<Vec<S>> {
     let row = |i: usize| (0..=i).map(|k| entry(i, k)).collect();
     let lower: Vec<Vec<S>> = (0..n).map(row).collect();
     let row = |i: usize| (0..n).map(|k| lower[i.max(k)][i.min(k)].clone()).collect();
@@ -80,22 +90,22 @@ pub fn symmetric<S: Clone>(n: usize, entry: impl Fn(usize, usize) -> S) -> Vec<V
 
 /// Returns a + b
 pub fn sum<S: Scalar>(a: &Vector<S>, b: &Vector<S>) -> Vector<S> {
-    core::array::from_fn(|i| plus(&a[i], &b[i]))
+    three(|i| plus(&a[i], &b[i]))
 }
 
 /// Returns a − b
 pub fn difference<S: Scalar>(a: &Vector<S>, b: &Vector<S>) -> Vector<S> {
-    core::array::from_fn(|i| minus(&a[i], &b[i]))
+    three(|i| minus(&a[i], &b[i]))
 }
 
 /// Returns −a
 pub fn opposite<S: Scalar>(a: &Vector<S>) -> Vector<S> {
-    core::array::from_fn(|i| negative(&a[i]))
+    three(|i| negative(&a[i]))
 }
 
 /// Returns s a
 pub fn scaled<S: Scalar>(s: &S, a: &Vector<S>) -> Vector<S> {
-    core::array::from_fn(|i| times(s, &a[i]))
+    three(|i| times(s, &a[i]))
 }
 
 /// Returns a · b
@@ -130,7 +140,8 @@ pub fn centripetal<S: Scalar>(omega: &Vector<S>, a: &Vector<S>) -> Vector<S> {
 
 /// Returns I a for a symmetric tensor.
 pub fn tensor_times<S: Scalar>(tensor: &Inertia<S>, a: &Vector<S>) -> Vector<S> {
-    tensor.rows().each_ref().map(|row| dot(row, a))
+    let rows = tensor.rows();
+    three(|i| dot(&rows[i], a))
 }
 
 /// The two axes that a turn about x moves, the first towards the second.
@@ -198,9 +209,11 @@ pub struct Columns<S> {
 impl<S> Columns<S> {
     /// Returns every entry through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Columns<T> {
+        let mut of = |[x, y, z]: &Vector<S>| [f(x), f(y), f(z)];
+        let [x, y, z] = &self.axes;
         Columns {
-            axes: self.axes.each_ref().map(|axis| axis.each_ref().map(&mut f)),
-            origin: self.origin.each_ref().map(&mut f),
+            axes: [of(x), of(y), of(z)],
+            origin: of(&self.origin),
         }
     }
 }
@@ -271,7 +284,7 @@ impl<S: Scalar> Columns<S> {
     /// Returns · the pose of a frame that is fixed in the last one.
     pub fn then(&self, next: &Self) -> Self {
         Columns {
-            axes: next.axes.each_ref().map(|axis| self.rotate(axis)),
+            axes: three(|i| self.rotate(&next.axes[i])),
             origin: self.apply(&next.origin, &S::one()),
         }
     }
@@ -292,7 +305,7 @@ impl<S: Scalar> Columns<S> {
 
     /// Returns the rotation's inverse applied: components along the three columns.
     pub fn rotate_back(&self, a: &Vector<S>) -> Vector<S> {
-        core::array::from_fn(|i| dot(&self.axes[i], a))
+        three(|i| dot(&self.axes[i], a))
     }
 
     /// Returns the matrix times (a, s)ᵀ: s = 1 takes a point of the last frame along.
@@ -302,9 +315,10 @@ impl<S: Scalar> Columns<S> {
 
     /// Returns R T Rᵀ: a symmetric tensor of the last frame, in the axes of this one.
     pub fn turn_tensor(&self, tensor: &Inertia<S>) -> Inertia<S> {
-        let half = tensor.rows().each_ref().map(|column| self.rotate(column));
+        let rows = tensor.rows();
+        let half = transposed(&three(|i| self.rotate(&rows[i])));
         // (R T) Rᵀ, row by row: T is symmetric, so its rows were its columns.
-        let turned = transposed(&half).map(|row| self.rotate(&row));
+        let turned = three(|i| self.rotate(&half[i]));
         Inertia::symmetric(|i, k| turned[i][k].clone())
     }
 
@@ -315,7 +329,7 @@ impl<S: Scalar> Columns<S> {
     {
         let nothing = Columns::turned([zero_vector(), zero_vector(), zero_vector()]);
         terms.fold(nothing, |all, (s, own)| Columns {
-            axes: core::array::from_fn(|i| sum(&all.axes[i], &scaled(&s, &own.axes[i]))),
+            axes: three(|i| sum(&all.axes[i], &scaled(&s, &own.axes[i]))),
             origin: sum(&all.origin, &scaled(&s, &own.origin)),
         })
     }

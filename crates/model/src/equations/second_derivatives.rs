@@ -158,7 +158,7 @@ impl Formulation {
         if !self.has_closed_form() {
             return by_composites(arm, at, [&zeros(n), &zeros(n), multiplier]).driven;
         }
-        columns(n, |k| {
+        columns(n, &|k| {
             let (arm, at) = moving(arm, at, &unit(n, k));
             self.momentum(&arm, &at, &constants(multiplier))
         })

@@ -93,10 +93,16 @@ impl<S: Scalar> Scalar for Sparse<S> {
         }
     }
     fn is_zero(&self) -> bool {
-        matches!(self, Zero)
+        match self {
+            Value(value) => value.is_zero(),
+            _ => matches!(self, Zero),
+        }
     }
     fn is_one(&self) -> bool {
-        matches!(self, One)
+        match self {
+            Value(value) => value.is_one(),
+            _ => matches!(self, One),
+        }
     }
     fn mul_add(&self, factor: &Self, addend: &Self) -> Self {
         match (self, factor, addend) {

@@ -2,7 +2,7 @@
 
 use crate::equations::Link;
 use crate::equations::matrix::{
-    Vector, cross, difference, dot, identity, opposite, plus, scaled, sum, tensor_times,
+    Vector, cross, difference, dot, identity, opposite, plus, scaled, sum, tensor_times, three,
     transposed, zero_vector,
 };
 use crate::equations::screws::{Twist, Wrench};
@@ -76,7 +76,7 @@ impl<S: Divide> Articulated<S> {
     pub(super) fn without(&self, push: &Wrench<S>, inverse: &S) -> Self {
         let (force, moment) = (scaled(inverse, &push.force), scaled(inverse, &push.moment));
         let less = |block: &Block<S>, left: &Vector<S>, right: &Vector<S>| -> Block<S> {
-            core::array::from_fn(|i| difference(&block[i], &scaled(&left[i], right)))
+            three(|i| difference(&block[i], &scaled(&left[i], right)))
         };
         Articulated {
             turn: less(&self.turn, &moment, &push.moment),
@@ -99,7 +99,7 @@ impl<S: Divide> Articulated<S> {
         let first = columns_crossed(lever, &transposed(&mixed));
         let second = rows_crossed(&mixed_there, lever);
         Articulated {
-            turn: core::array::from_fn(|i| difference(&sum(&turn[i], &first[i]), &second[i])),
+            turn: three(|i| difference(&sum(&turn[i], &first[i]), &second[i])),
             mixed: mixed_there,
             shift,
         }
@@ -114,7 +114,7 @@ pub(super) fn power<S: Divide>(wrench: &Wrench<S>, motion: &Twist<S>) -> S {
 }
 
 fn block_sum<S: Divide>(a: &Block<S>, b: &Block<S>) -> Block<S> {
-    core::array::from_fn(|i| sum(&a[i], &b[i]))
+    three(|i| sum(&a[i], &b[i]))
 }
 
 fn columns_crossed<S: Divide>(p: &Vector<S>, block: &Block<S>) -> Block<S> {

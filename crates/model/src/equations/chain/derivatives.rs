@@ -6,8 +6,8 @@ use super::composite::{Acting, Composite, CompositeOrder};
 use super::recursion::{AccelerationForm, MomentForm, Motion};
 use super::{Body, ChainLink, Displacement, Rotation};
 use crate::equations::matrix::{
-    Vector, across_z, cross, dot, minus, negative, plus, scaled, sum, tensor_times, times, twice,
-    zero_vector,
+    Vector, across_z, cross, dot, minus, negative, plus, scaled, sum, tensor_times, three, times,
+    twice, zero_vector,
 };
 use crate::equations::screws::{Twist, Wrench};
 use crate::robot::JointKind;
@@ -192,8 +192,8 @@ impl<S: Scalar> Flow<S> {
         let columns = body.second.rows().map(|column| cross(omega, &column));
         Flow {
             momentum: sum(&scaled(&body.mass, origin), &cross(omega, &body.first)),
-            moment: core::array::from_fn(|row| {
-                core::array::from_fn(|column| {
+            moment: three(|row| {
+                three(|column| {
                     plus(
                         &times(&origin[row], &body.first[column]),
                         &columns[column][row],
@@ -206,7 +206,7 @@ impl<S: Scalar> Flow<S> {
     pub(super) fn with(&self, other: &Flow<S>) -> Self {
         Flow {
             momentum: sum(&self.momentum, &other.momentum),
-            moment: core::array::from_fn(|row| sum(&self.moment[row], &other.moment[row])),
+            moment: three(|row| sum(&self.moment[row], &other.moment[row])),
         }
     }
 
@@ -220,8 +220,8 @@ impl<S: Scalar> Flow<S> {
         let columns = [0, 1, 2].map(column);
         let lever = link.lever(at);
         Flow {
-            moment: core::array::from_fn(|row| {
-                core::array::from_fn(|c| plus(&columns[c][row], &times(&momentum[row], &lever[c])))
+            moment: three(|row| {
+                three(|c| plus(&columns[c][row], &times(&momentum[row], &lever[c])))
             }),
             momentum,
         }
@@ -265,10 +265,7 @@ impl<S: Scalar> Flow<S> {
             let other = plus(&times(&m[j][i], &turn[j]), &times(&m[k][i], &turn[k]));
             minus(&main, &other)
         };
-        sum(
-            &cross(&self.momentum, &twist.shift),
-            &core::array::from_fn(component),
-        )
+        sum(&cross(&self.momentum, &twist.shift), &three(component))
     }
 
     /// Returns the result of [`Flow::of_turn`] along the joint, as a form in the turn.

@@ -159,21 +159,25 @@ impl<S: Scalar> Chain<S> {
 impl<S> Chain<S> {
     /// Returns every parameter through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Chain<T> {
-        let gravity = self.gravity.each_ref().map(&mut f);
+        self.with_each(&mut f)
+    }
+
+    fn with_each<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Chain<T> {
+        let gravity = self.gravity.each_ref().map(&mut *f);
         let links = self.links.iter().map(|link| ChainLink {
             kind: link.kind,
             rotation: link
                 .rotation
                 .each_ref()
-                .map(|row| row.each_ref().map(&mut f)),
-            offset: link.offset.each_ref().map(&mut f),
-            axis: link.axis.each_ref().map(&mut f),
-            theta: link.theta.map(&mut f),
-            body: link.body.map(&mut f),
-            probes: Probe::each(&link.probes, |body| body.map(&mut f)),
-            free: link.free.each_ref().map(&mut f),
+                .map(|row| row.each_ref().map(&mut *f)),
+            offset: link.offset.each_ref().map(&mut *f),
+            axis: link.axis.each_ref().map(&mut *f),
+            theta: link.theta.map(&mut *f),
+            body: link.body.map(&mut *f),
+            probes: Probe::each(&link.probes, |body| body.map(&mut *f)),
+            free: link.free.each_ref().map(&mut *f),
             armature: f(&link.armature),
-            friction: link.friction.map(&mut f),
+            friction: link.friction.map(&mut *f),
             spins_freely: link.spins_freely,
             axes: link.axes,
         });

@@ -20,7 +20,7 @@ use super::{Chain, ChainLink, Displacement, Form, apply, apply_transposed};
 use crate::equations::factor::{Factor, placed};
 use crate::equations::forward::free;
 use crate::equations::matrix::{
-    Vector, cross, minus, negative, plus, sum, sums, symmetric, times, zero_vector, zeros,
+    Vector, cross, minus, negative, plus, sum, sums, symmetric, three, times, zero_vector, zeros,
 };
 use crate::equations::screws::Wrench;
 use crate::robot::{Inertia, JointKind};
@@ -148,7 +148,7 @@ impl<S: Divide> Composite<'_, S> {
         let entry = |i: usize, k: usize| beyond.left(k, i).clone();
         let mut hinged = Hinged {
             inertia: Inertia::symmetric(entry),
-            moment: core::array::from_fn(|axis| negative(&about[axis])),
+            moment: three(|axis| negative(&about[axis])),
         };
         hinged = hinged.carried(&chain.links[first], &self.at[first]);
 

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::{Motion, with_drive};
 use crate::equations::matrix::{
     Vector, centripetal, cross, cross_z, dot, minus, negative, plus, scaled, sum, tensor_times,
-    times, twice,
+    three, times, twice,
 };
 use crate::equations::screws::Wrench;
 use crate::equations::{Arm, DhVariables, Link};
@@ -42,7 +42,7 @@ impl<S: Scalar> Motion<S> {
 /// (I_zz − I_yy) yz + I_yz (y + z)(y − z) + x (I_xz y − I_xy z), and so on.
 fn gyroscopic<S: Scalar>(tensor: &Inertia<S>, omega: &Vector<S>) -> Vector<S> {
     let rows = tensor.rows();
-    core::array::from_fn(|x| {
+    three(|x| {
         let [y, z] = [(x + 1) % 3, (x + 2) % 3];
         let [a, b, c] = [&omega[x], &omega[y], &omega[z]];
         let diagonal = times(&minus(&rows[z][z], &rows[y][y]), &times(b, c));
