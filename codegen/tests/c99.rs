@@ -8,7 +8,7 @@ use std::process::Command;
 use dalembert_codegen::RobotFile;
 
 use crate::support::compiled::{folder, run, same_bits, there};
-use crate::support::{Case, every_output, path, rows};
+use crate::support::{Case, daily_and_campaign, every_output, path, rows};
 
 fn compare(name: &str, outputs: &str, states: usize) {
     let file = RobotFile::read(&path(&format!("../generated/robots/{name}.toml"))).unwrap();
@@ -65,22 +65,21 @@ fn changes(language: &str, batch: &str) -> Vec<(String, Case)> {
     rows(CHANGES).into_iter().map(case).collect()
 }
 
-#[test]
-fn whatever_is_printed_has_the_bits_of_the_program() {
-    for (batch, standard) in [("off", "c99"), ("on", "gnu99")] {
-        let flags = format!("-std={standard} -O3 -march=native");
-        for (what, case) in changes("c", batch) {
-            same_bits(&what, &case, 100, &[&flags]);
-        }
+daily_and_campaign! {
+    whatever_is_printed_has_the_bits_of_the_program: ("on", "gnu99"), ("off", "c99");
+    functions_and_kernels_have_the_bits_of_the_program: ("on"), ("off");
+}
+
+fn whatever_is_printed_has_the_bits_of_the_program(batch: &str, standard: &str) {
+    let flags = format!("-std={standard} -O3 -march=native");
+    for (what, case) in changes("c", batch) {
+        same_bits(&what, &case, 100, &[&flags]);
     }
 }
 
-#[test]
-fn functions_and_kernels_have_the_bits_of_the_program() {
-    for batch in ["off", "on"] {
-        for (what, case) in changes("cuda", batch) {
-            same_bits(&what, &case, 100, &["-O1"]);
-        }
+fn functions_and_kernels_have_the_bits_of_the_program(batch: &str) {
+    for (what, case) in changes("cuda", batch) {
+        same_bits(&what, &case, 100, &["-O1"]);
     }
 }
 

@@ -117,7 +117,7 @@ fn formulas() {
 }
 
 support::daily_and_campaign! {
-    code_at_frames: (true, 39), (false, 189);
+    code_at_frames: (true, 21), (false, 207);
     code_of_whole_robots: (&ROBOTS[..3]), (&ROBOTS[3..]);
     code_of_followers: (one_in::<8>, 3), (all_but_one_in::<8>, 20);
 }
@@ -126,7 +126,7 @@ fn code_at_frames(is_daily: bool, count: usize) {
     let mut compared = 0;
     for (number, name) in ROBOTS.into_iter().enumerate() {
         let is_compared = |place: usize| {
-            let is_small = number < 3 && one_in::<3>(place / 2);
+            let is_small = number < 3 && one_in::<6>(place / 2);
             place % 2 == number % 2 && is_small == is_daily
         };
         let states = at_frames(name);

@@ -32,14 +32,14 @@ wafer    | LINKED, jacobian; scalar: f64 | lock = { shoulder = 0.5 } | 20
 planar3r | SECOND | lock = { 2 = 0.4 } | 60
 planar3r | forward_dynamics, inertia_inverse, forward_dynamics_derivatives, forward_dynamics_second_derivatives | joints = [3, 1]; lock = { 2 = 0.5 }; velocity = "zero" | 100
 planar2r | BUNDLES; batch: on | | 100
-planar3r | reach = gravity + jacobian, coriolis | lock = { 2 = "pi/2" }; velocity = "zero" | 50
-coulomb  | inverse_dynamics; formulation: lagrange_euler | | 20
 coulomb  | inverse_dynamics; parameters: payload, gravity | | 40
 planar2r | inertia, gravity; parameters: payload, gravity; sincos: polynomial | | 20
 base_and_tool   | inverse_dynamics, forward_kinematics, link_poses, jacobian, jacobian_rate, reaction_wrenches, potential_energy | | 50
-nearly_parallel | inverse_dynamics, coriolis, forward_kinematics, jacobian_rate | | 50
 "#,
     r#"
+planar3r | reach = gravity + jacobian, coriolis | lock = { 2 = "pi/2" }; velocity = "zero" | 50
+coulomb  | inverse_dynamics; formulation: lagrange_euler | | 20
+nearly_parallel | inverse_dynamics, coriolis, forward_kinematics, jacobian_rate | | 50
 frames/planar3r | FRAMES; parameters: payload, gravity | | 60
 frames/planar3r | FRAMES | lock = { 2 = 0.4 } | 60
 wafer    | LINKED, jacobian; scalar: f64 | joints = ["shoulder"] | 20

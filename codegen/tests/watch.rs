@@ -77,7 +77,7 @@ fn an_early_end_keeps_the_best_so_far() {
 }
 
 daily_and_campaign! {
-    a_tolerance_is_watched: (Some((Part::Omissions, 20))), (None);
+    a_tolerance_is_watched: (Some((Part::Omissions, 8))), (None);
 }
 
 /// The fewer operations are left, the more often they are edited again: the whole takes a minute.
@@ -101,7 +101,7 @@ fn a_tolerance_is_watched(late: Option<(Part, usize)>) {
     let bounds = seen.iter().filter(|p| p.part == Part::Bounds).count();
     assert!(bounds >= 4, "of the exact program and of the variant");
     let (ended, seen) = watched(case(), Effort::Thorough, Some((Part::Omissions, 1)));
-    assert!(rounds(&seen) < all.min(20));
+    assert!(rounds(&seen) < all.min(8));
     let admitted = ended.functions[0].admitted.as_ref().unwrap();
     let bounds = &admitted.certificates[0].bounds;
     assert!(!bounds.is_empty() && bounds.iter().all(|bound| bound.total() <= 0.3));

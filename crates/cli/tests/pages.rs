@@ -207,12 +207,14 @@ macro_rules! pages {
 #[cfg(unix)]
 pages!(
     bad_input, certify, explain, files, forged, generate, import, new, outputs, renew, scenes,
-    show, tradeoff, verify
+    show, verify
 );
 #[cfg(unix)]
 pages!(
     #[ignore = "minutes: the step `campaigns` of .ci/run"]
-    outputs_of_large_arms
+    outputs_of_large_arms,
+    #[ignore = "minutes: the step `campaigns` of .ci/run"]
+    tradeoff,
 );
 #[cfg(target_os = "linux")]
 pages!(terminal);
