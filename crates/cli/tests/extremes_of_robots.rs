@@ -66,22 +66,26 @@ fn the_search_finds_where_two_rods_are_nearest_to_singular() {
     all_good(&divided(&robot, &Request::new(&Function::ALL), STATES).unwrap());
 }
 
-#[test]
-fn every_argument_has_a_value_at_the_extremes() {
-    use Function::{ForwardDynamics, Gravity, InverseDynamics};
+support::daily_and_campaign! {
+    every_argument_has_a_value_at_the_extremes: (&[
+        (&[PAYLOAD, GRAVITY], &[Function::ForwardDynamics, Function::InverseDynamics]),
+    ]), (&[
+        (&[GRAVITY], &[Function::Gravity]),
+        (&[PAYLOAD], &[Function::InverseDynamics]),
+    ]);
+}
+
+const PAYLOAD: RuntimeParameter = RuntimeParameter::Payload;
+const GRAVITY: RuntimeParameter = RuntimeParameter::Gravity;
+
+/// Tries lists of arguments, each with functions that take some of them.
+fn every_argument_has_a_value_at_the_extremes(cases: &[(&[RuntimeParameter], &[Function])]) {
+    use Function::{ForwardDynamics, InverseDynamics};
     let robot = support::robot("planar2r");
-    let [payload, gravity] = [RuntimeParameter::Payload, RuntimeParameter::Gravity];
-    for (parameters, functions) in [
-        (vec![gravity], vec![Gravity]),
-        (vec![payload], vec![InverseDynamics]),
-        (
-            vec![payload, gravity],
-            vec![ForwardDynamics, InverseDynamics],
-        ),
-    ] {
+    for (parameters, functions) in cases {
         let request = Request {
-            parameters: parameters.clone(),
-            ..Request::new(&functions)
+            parameters: parameters.to_vec(),
+            ..Request::new(functions)
         };
         for (function, rows) in [
             (InverseDynamics, torques(&robot, &request, 3).unwrap()),
