@@ -65,6 +65,7 @@ pub use crate::verify::{
 pub use crate::watch::{Observer, Part, Progress};
 pub use crate::words::{Word, parse};
 pub use dalembert_checker::read::Text;
+pub use dalembert_stamp::{Comment, is_as_written, sealed};
 
 pub mod scale {
     pub use crate::bound::scale::{actuator, range};

@@ -65,9 +65,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 pub use dalembert_stamp::Asked;
-#[cfg(feature = "search")]
-use dalembert_stamp::relative;
 use dalembert_stamp::{Comment, Stale, Stamp, hash};
+#[cfg(feature = "search")]
+use dalembert_stamp::{is_as_written, relative};
 
 /// A robot file, and the options that were asked for.
 #[derive(Clone, Debug)]
@@ -156,7 +156,8 @@ impl Generator {
     /// unchanged, from the same robot file and with what is asked.
     ///
     /// # Errors
-    /// [`BuildError`]; a file that was there stays as it was.
+    /// [`BuildError`], also for a file that was edited, or that dalembert did not write; a file that
+    /// was there stays as it was.
     pub fn write_to(&self, path: impl AsRef<Path>) -> Result<(), BuildError> {
         let path = path.as_ref();
         let source = self.source(path)?;
@@ -208,8 +209,16 @@ impl Generator {
     #[cfg(feature = "search")]
     fn renew(&self, path: &Path, _: &Path, _: Stale) -> Result<(), BuildError> {
         let generated = self.generated(path)?;
-        for (suffix, text) in generated.stamped {
-            let file = beside(path, suffix);
+        let files = generated.stamped.into_iter();
+        let files: Vec<_> = files
+            .map(|(suffix, text)| (beside(path, suffix), text))
+            .collect();
+        let kept = files.iter().filter_map(|(file, _)| kept(file));
+        let kept: Vec<String> = kept.collect();
+        if !kept.is_empty() {
+            return Err(BuildError(kept));
+        }
+        for (file, text) in files {
             write::whole(&file, &text).map_err(|error| cannot_write(&file, &error))?;
         }
         Ok(())
@@ -251,6 +260,22 @@ impl Generator {
         let stamped = suffixes.iter().copied().zip(files).collect();
         Ok(Texts { texts, stamped })
     }
+}
+
+/// Returns why a file must not be replaced.
+#[cfg(feature = "search")]
+fn kept(file: &Path) -> Option<String> {
+    let bytes = fs::read(file).unwrap_or_default();
+    let why = match is_as_written(&String::from_utf8_lossy(&bytes)) {
+        _ if bytes.is_empty() => return None,
+        Some(true) => return None,
+        Some(false) => "was edited since dalembert wrote it",
+        None => "was not written by dalembert",
+    };
+    let file = file.display();
+    Some(format!(
+        "`{file}` {why}\n  = help: delete it, or write to another file"
+    ))
 }
 
 #[cfg_attr(not(feature = "search"), allow(dead_code))]

@@ -77,7 +77,16 @@ fn writes_again_only_if_something_changed() {
     let text = fs::read_to_string(&path).unwrap();
     assert!(text.contains("dalembert_sines::sincosf(&["), "{text}");
 
-    fs::write(&path, first.replace("pub const N", "const N")).unwrap();
+    for (text, why) in [
+        (first.replace("pub const N", "const N"), "was edited since"),
+        ("fn mine() {}\n".to_owned(), "was not written by"),
+    ] {
+        fs::write(&path, &text).unwrap();
+        let error = refused(&generator(&folder), &path);
+        assert!(error.contains(why), "{error}");
+        assert_eq!(fs::read_to_string(&path).unwrap(), text);
+    }
+    fs::remove_file(&path).unwrap();
     generator(&folder).write_to(&path).unwrap();
     assert_eq!(fs::read_to_string(&path).unwrap(), first);
 

@@ -6,8 +6,10 @@
 //! ```
 
 use std::error::Error;
+use std::path::Path;
 
 use dalembert_fit::random::{Random, within};
+use dalembert_fit::robot_file::{replaceable, save};
 use dalembert_fit::simulate::{Recording, record};
 use dalembert_fit::{
     Accumulator, Effort, Model, consistent, cross_validation, excite, fit, identified,
@@ -24,6 +26,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         (Some("-o"), Some(output)) => Some(output),
         _ => return Err(usage.into()),
     };
+    if let Some(output) = &output {
+        replaceable(Path::new(output)).map_err(|why| format!("{output}: {why}"))?;
+    }
     let bytes = std::fs::read(&path).map_err(|why| format!("{path}: {why}"))?;
     let reading = parse_bytes(&bytes).map_err(|why| why.to_string())?;
     let model = Model::new(&reading.robot)?;
@@ -87,19 +92,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         "\nconsistent bodies: {:.2} standard errors from the free parameters altogether",
         bodies.distance
     );
-    let text = write(&identified(&model, &bodies)?);
+    let robot = identified(&model, &bodies)?;
     match output {
         Some(output) => {
-            // Whole or not at all: it gets its name when all of it is written.
-            let part = format!("{output}.{}.part", std::process::id());
-            let written =
-                std::fs::write(&part, text).and_then(|()| std::fs::rename(&part, &output));
-            if let Err(why) = written {
-                let _ = std::fs::remove_file(&part);
-                return Err(format!("{output}: {why}").into());
-            }
+            save(Path::new(&output), &robot).map_err(|why| format!("{output}: {why}"))?;
         }
-        None => print!("\n{text}"),
+        None => print!("\n{}", write(&robot)),
     }
     Ok(())
 }

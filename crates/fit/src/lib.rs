@@ -12,7 +12,7 @@
 //! - [`reference`](mod@reference): the motion that excitation is measured against
 //! - [`unexcited`]: what data do not tell; [`fit`](mod@fit): parameters with standard errors
 //! - [`consistent`](mod@consistent): the nearest bodies that exist
-//! - [`robot_file`]: the robot that has them
+//! - [`robot_file`]: the robot that has them, and its file
 //! - [`cross_validation`](mod@cross_validation): residuals on logs that a fit
 //!   has not seen, and logs that disagree
 //! - [`suspect`](mod@suspect): mistakes in a log that its residuals give away

@@ -1,9 +1,15 @@
 //! The robot that has the bodies and drives that were identified.
 
+use std::fs;
+use std::io::{Error as IoError, ErrorKind, Result as IoResult};
+use std::path::Path;
+use std::process;
+
+use dalembert_codegen::workspace::{Comment, is_as_written, sealed};
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::placed::Body;
-use dalembert_model::robot::{Inertia, Robot};
+use dalembert_model::robot::{Inertia, Robot, write};
 use num_traits::Zero;
 
 use crate::consistent::Bodies;
@@ -32,6 +38,43 @@ pub fn identified(model: &Model, bodies: &Bodies) -> Result<Robot, Error> {
         }
     }
     Ok(robot)
+}
+
+/// Refuses the name of a file that [`save`] would not replace.
+///
+/// # Errors
+/// A file that is not empty and that [`save`] did not write, or that was edited since.
+pub fn replaceable(path: &Path) -> IoResult<()> {
+    if !path.is_file() {
+        return Ok(());
+    }
+    let bytes = fs::read(path)?;
+    let why = match is_as_written(&String::from_utf8_lossy(&bytes)) {
+        _ if bytes.is_empty() => return Ok(()),
+        Some(true) => return Ok(()),
+        Some(false) => "the file was edited since it was written",
+        None => "the file exists, and no identification wrote it",
+    };
+    let why = format!("{why}: delete it, or give another name");
+    Err(IoError::new(ErrorKind::AlreadyExists, why))
+}
+
+/// Writes a robot file, whole or not at all, below a line with the hash of the rest, which tells
+/// files that were edited.
+///
+/// # Errors
+/// Those of [`replaceable`]: the file stays as it was. Those of the system.
+pub fn save(path: &Path, robot: &Robot) -> IoResult<()> {
+    replaceable(path)?;
+    let mut part = path.as_os_str().to_owned();
+    part.push(format!(".{}.part", process::id()));
+    let text = sealed(Comment::Toml, "identified by dalembert", &write(robot));
+    let written = fs::write(&part, text).and_then(|()| fs::rename(&part, path));
+    if written.is_err() {
+        // The first error is the one to report.
+        let _ = fs::remove_file(&part);
+    }
+    written
 }
 
 /// Returns mass, centre of mass and the tensor about it, of the ten moments about the origin.

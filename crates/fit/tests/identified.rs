@@ -1,11 +1,39 @@
 //! From logs to a robot file, and logs that the fit has not seen.
 
+use std::fs;
+use std::path::Path;
+
 use dalembert_fit::random::Random;
+use dalembert_fit::robot_file::save;
 use dalembert_fit::{Error, consistent, cross_validation, disagreeing, fit, identified};
 use dalembert_model::read::parse;
 use dalembert_model::robot::write;
 
 use crate::support::{ARMS, accumulated, arm, noise, states};
+
+#[test]
+fn a_file_that_was_edited_stays() {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("saved.toml");
+    let _ = fs::remove_file(&path);
+    let robot = arm("puma560").0.robot().clone();
+    // A file that is there is replaced as long as nobody edited it.
+    for _ in 0..2 {
+        save(&path, &robot).unwrap();
+    }
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(parse(&text).is_ok(), "{text}");
+    for (own, why) in [
+        (text.clone() + "# mine\n", "edited"),
+        (write(&robot), "no identification"),
+    ] {
+        fs::write(&path, &own).unwrap();
+        let error = save(&path, &robot).unwrap_err().to_string();
+        assert!(error.contains(why), "{error}");
+        assert_eq!(fs::read_to_string(&path).unwrap(), own);
+    }
+    fs::write(&path, "").unwrap();
+    save(&path, &robot).unwrap();
+}
 
 #[test]
 fn the_new_robot_file_has_the_parameters() {

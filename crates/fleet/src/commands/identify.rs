@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use dalembert_fit::robot_file::{replaceable, save};
 use dalembert_fit::{
     Accumulator, Bodies, Fit, Model, consistent, cross_validation, fit, identified,
 };
-use dalembert_model::robot::write;
+use dalembert_model::robot::Robot;
 
 use super::Report;
 use super::table::{number, table};
@@ -14,7 +15,7 @@ use crate::dynamics::{Dynamics, no_model};
 use crate::error::Error;
 use crate::job::{Job, LogArgs};
 use crate::logs::Log;
-use crate::output::{self, Unfinished};
+use crate::output::Unfinished;
 use crate::progress::Going;
 
 #[derive(Args, Debug)]
@@ -34,6 +35,7 @@ const WORSE: f64 = 1.01;
 pub(super) async fn run(args: &IdentifyArgs, going: &Going) -> Result<Report, Error> {
     if let Some(output) = &args.output {
         Unfinished::beside(output)?;
+        replaceable(output).map_err(|why| Error::new(why).at(output.display()))?;
     }
     let mut job = Job::new(&args.logs, true, going).await?;
     let progress = job.progress.clone();
@@ -49,7 +51,8 @@ pub(super) async fn run(args: &IdentifyArgs, going: &Going) -> Result<Report, Er
     });
     let (text, robot) = going.unless_ended(solved).await?;
     let written = match (&args.output, robot) {
-        (Some(name), Some(robot)) => robot.and_then(|robot| output::write(name, &robot)),
+        (Some(name), Some(robot)) => robot
+            .and_then(|robot| save(name, &robot).map_err(|why| Error::new(why).at(name.display()))),
         _ => Ok(()),
     };
     Ok(Report {
@@ -63,7 +66,7 @@ fn solve(
     found: &[Vec<u8>],
     logs: &[Log],
     is_written: bool,
-) -> Result<(String, Option<Result<String, Error>>), Error> {
+) -> Result<(String, Option<Result<Robot, Error>>), Error> {
     let files = found.iter();
     let files = files.map(|bytes| Accumulator::from_bytes(model, bytes));
     let files = files.collect::<Result<Vec<_>, _>>()?;
@@ -123,10 +126,10 @@ fn solve(
     };
     let head = ["residuals, rms", "joint", "before", "after", last];
     text += &format!("\n{}{what}\n", table(head, rows));
-    let robot = bodies.map(|bodies| -> Result<String, Error> {
+    let robot = bodies.map(|bodies| -> Result<Robot, Error> {
         let bodies = bodies?;
         text += &judged(model, &all, &fit, &bodies)?;
-        Ok(write(&identified(model, &bodies)?))
+        Ok(identified(model, &bodies)?)
     });
     Ok((text, robot))
 }

@@ -42,6 +42,15 @@ fn identification_closes_the_loop() {
     }
     let generated = dalembert_jit::Arm::load(&new, &Default::default());
     assert!(generated.is_ok(), "the new file is not read");
+    // Whoever edits the file keeps the edits.
+    let edited = std::fs::read_to_string(&new).unwrap() + "# mine\n";
+    std::fs::write(&new, &edited).unwrap();
+    let said = fails(&over("identify", &seen, &old, &["-o", text(&new)]));
+    assert!(
+        said.contains("new.toml: the file was edited since"),
+        "{said}"
+    );
+    assert_eq!(std::fs::read_to_string(&new).unwrap(), edited);
 }
 
 /// No file can have this arm: a rotor's inertia is negative, and its sensors have offsets.
