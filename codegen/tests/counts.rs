@@ -61,6 +61,8 @@ const OTHERS: [&str; 2] = [
 planar2r | | forward_dynamics, inverse_dynamics_derivatives, inertia_inverse | 25 27 10
 planar3r | | forward_dynamics, inverse_dynamics_derivatives, inertia_inverse | 77 71 39
 stanford | | forward_dynamics, inertia_inverse | 360 234
+gantry   | | inverse_dynamics_derivatives | 699
+ur10     | | dalembert_terms | 769
 stanford | | forward_kinematics | 52
 puma560  | | forward_kinematics | 72
 ur10     | | forward_kinematics | 68

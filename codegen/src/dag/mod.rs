@@ -9,6 +9,7 @@
 //! - [`symbol`]: the scalar that traces the equations into a builder
 //! - [`schedule`](Dag::scheduled): the order in which code is printed
 //! - [`writer`]: code in a given order
+//! - `vain`: steps that no result depends on
 //! - [`fusion`]: sums with the products that they take
 //!
 //! A [`Dag`] is a list of nodes, operands before users, and what it returns. Leaves are nodes as
@@ -28,6 +29,7 @@ mod schedule;
 pub(crate) mod symbol;
 #[cfg(test)]
 pub(crate) mod tests;
+mod vain;
 pub(crate) mod writer;
 
 use std::collections::BTreeSet;
@@ -194,6 +196,11 @@ impl<C, I> Dag<C, I> {
         adjoints.clear();
         adjoints.resize(top as usize, S::zero());
         adjoints.push(S::one());
+        self.pass_back(values, adjoints);
+    }
+
+    /// Adds to each node's derivative those that come through its users.
+    pub(crate) fn pass_back<S: Divide>(&self, values: &[S], adjoints: &mut [S]) {
         for index in (0..adjoints.len()).rev() {
             let Node::Apply(operation, operands) = &self.nodes[index] else {
                 continue;

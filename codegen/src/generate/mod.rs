@@ -40,7 +40,7 @@ use crate::language::Language;
 use crate::language::c99::Names;
 use crate::language::read::{Signature, TextError};
 use crate::parallel;
-use crate::program::{Code, ScalarType};
+use crate::program::{Code, Program, ScalarType};
 use crate::search::Effort;
 use crate::seeds::depends_on_coulomb;
 use crate::setup::{ParametersKey, input_hash};
@@ -343,7 +343,7 @@ fn proved(job: &Job<'_>, function: Function) -> Result<GeneratedFunction, Genera
     }
     let entry = replay(job, job.request.plan.as_ref(), function)?;
     let planned = entry.is_some();
-    let (source, passes, program, refused) = match entry {
+    let (source, mut passes, program, refused) = match entry {
         Some(entry) => {
             // Widths are the robot's: a plan has none.
             let program = entry.program.with_speeds(setup.speeds());
@@ -351,6 +351,10 @@ fn proved(job: &Job<'_>, function: Function) -> Result<GeneratedFunction, Genera
         }
         None => found(job, function)?,
     };
+    let program = without_vain_steps(program);
+    if let Some(last) = passes.last_mut() {
+        last.counts = program.counts();
+    }
     let finished = match job.tolerance() {
         // Errors are bounded, and parts left out of it, first.
         Some(_) => program.clone(),
@@ -383,6 +387,15 @@ fn proved(job: &Job<'_>, function: Function) -> Result<GeneratedFunction, Genera
         refused,
         admitted: None,
     })
+}
+
+/// The checker refuses steps in vain, and plans of earlier versions have some.
+fn without_vain_steps(program: Program) -> Program {
+    let graph = program.dag.without_vain_steps();
+    match graph == program.dag {
+        true => program,
+        false => program.with_graph(&graph),
+    }
 }
 
 fn read_back(

@@ -1,0 +1,91 @@
+//! Steps in vain: steps that no result depends on.
+//!
+//! Regrouping shares sums whose common part cancels later. Every result's derivative by such a part
+//! is zero, so zero may take its place: fewer operations, and fewer digits are lost.
+
+use std::array::from_fn;
+
+use dalembert_model::number::Exact;
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::field::Field;
+
+use super::{Builder, Dag, Fingerprint, Folding, Lanes, Node, Points, signed};
+use crate::random::Random;
+
+const SEED: u64 = 0x7a1e;
+
+impl Dag {
+    /// Returns the same results without steps in vain, and with equal steps merged, both told by
+    /// fingerprints; the graph itself if it has neither.
+    #[must_use]
+    pub(crate) fn without_vain_steps(&self) -> Dag {
+        let results = self.result_prints();
+        let is_same = |dag: &Dag| dag.result_prints() == results;
+        let mut best = self.clone();
+        loop {
+            let vain = best.vain_steps();
+            let mut next = best.with_zeros(&vain);
+            if !is_same(&next) {
+                // Two of them may matter together, though none does alone.
+                let mut alone = vain.iter().map(|step| best.with_zeros(&[*step]));
+                next = alone.find(is_same).unwrap_or_else(|| best.with_zeros(&[]));
+            }
+            if next.counts().operations() >= best.counts().operations() || !is_same(&next) {
+                return best;
+            }
+            best = next;
+        }
+    }
+
+    fn prints(&self) -> Vec<Fingerprint> {
+        let points = Points::SEARCH;
+        let constant = |constant: &Exact| points.constant(constant).unwrap_or_else(Scalar::zero);
+        self.values(&(constant, |input| points.input(input)))
+    }
+
+    fn result_prints(&self) -> Vec<Fingerprint> {
+        let prints = self.prints();
+        let outputs = self.outputs.iter();
+        let outputs = outputs.map(|edge| signed(&prints[edge.index()], edge.negative));
+        outputs.collect()
+    }
+
+    /// Lists the operations by which a random combination of all results has no derivative.
+    fn vain_steps(&self) -> Vec<usize> {
+        let values = self.prints();
+        let mut random = Random::new(SEED);
+        let mut adjoints = vec![Fingerprint::zero(); values.len()];
+        for edge in &self.outputs {
+            let weight = Lanes(from_fn(|_| Field::new(random.bits())));
+            let adjoint = &mut adjoints[edge.index()];
+            *adjoint = adjoint.add(&weight);
+        }
+        self.pass_back(&values, &mut adjoints);
+        let live = self.live();
+        let vain = live.filter(|(index, node)| {
+            node.operands().is_some() && adjoints[*index] == Fingerprint::zero()
+        });
+        vain.map(|(index, _)| index).collect()
+    }
+
+    fn with_zeros(&self, steps: &[usize]) -> Dag {
+        let mut builder = Builder::new(Folding::Semantic);
+        // Leaves first: a step that equals one is replaced by it.
+        for (_, node) in self.live() {
+            match node {
+                Node::Constant(constant) => builder.constant(constant),
+                Node::Input(input) => builder.input(*input),
+                Node::Apply(..) => continue,
+            };
+        }
+        let mut dag = self.clone();
+        if !steps.is_empty() {
+            let zero = Node::Constant(Exact::zero());
+            steps
+                .iter()
+                .for_each(|step| dag.nodes[*step] = zero.clone());
+        }
+        let outputs = builder.results(&dag);
+        builder.finish(outputs).rebuild(Folding::Syntactic)
+    }
+}
