@@ -4,6 +4,7 @@ mod accuracy_limit;
 mod arguments;
 mod c99;
 mod certified;
+mod certified_hidden;
 mod certified_texts;
 mod certify_campaign;
 mod certify_certificate;

@@ -190,6 +190,29 @@ fn batches_are_vectors() {
     }
 }
 
+/// x87 computes in 80 bits, where the header's sines are off by two.
+#[cfg(target_arch = "x86_64")]
+#[test]
+fn processors_with_other_digits_are_refused() {
+    let asked = "outputs: inverse_dynamics; sincos: together; language: c";
+    let text = Case::new("planar2r", "", asked).generated().text();
+    let folder = with_main("x87", &text, "");
+    for compiler in there(&["gcc"]) {
+        for (flags, is_taken) in [("-O2", true), ("-O2 -mfpmath=387", false)] {
+            let flags = format!("{flags} -fsyntax-only arm.c");
+            let mut command = Command::new(compiler);
+            let output = command.args(flags.split(' ')).current_dir(&folder).output();
+            let output = output.unwrap();
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.success(), is_taken, "{said}");
+            assert!(
+                is_taken || said.contains("not rounded to their type"),
+                "{said}"
+            );
+        }
+    }
+}
+
 #[test]
 fn misra_is_kept_but_for_what_the_guide_says() {
     for cppcheck in there(&["cppcheck"]) {

@@ -229,9 +229,9 @@ const CLAIMS: &str = r#"
 NONE := nothing is claimed of `gravity`
 /claim | 2 | version 2 is not known
 /more | 1 | unknown field `more`
-/constants | ["1e999999999"] | is no constant
-/constants | ["nan"] | is no constant
-/constants | ["1*sin(1)^65"] | is no constant
+/constants | ["1e999999999"] | is not a constant
+/constants | ["nan"] | is not a constant
+/constants | ["1*sin(1)^65"] | is not a constant
 /constants | [] | is not of a program
 /functions | [] | NONE
 /functions/0/function | "inertia" | NONE
@@ -270,7 +270,7 @@ fn claims_that_are_not_written_by_a_generator() {
         refused(&place, serde_json::from_str(&value).unwrap(), &words);
     }
     let long = "1".repeat(1_000_000);
-    refused("/constants", json!([long]), "is no constant");
+    refused("/constants", json!([long]), "is not a constant");
     let angles: Vec<String> = (1..=2000).map(|k| format!("1*sin(1/{k})")).collect();
     refused("/constants", json!(angles), "more than 1024 angles");
     let terms = json!(vec!["1+".repeat(16_000) + "1"; 9]);
@@ -366,11 +366,14 @@ fn programs_that_lose_what_they_compute() {
     let own = planar2r("forward_dynamics; scalar: f64", 1);
     for more in [&cancelled[..], &overflown] {
         let why = through(&own, more).refusal().expect("shown");
-        assert!(why.contains("are far from those"), "{why}");
+        assert!(
+            why.contains("may hide a number") || why.contains("has no bound"),
+            "{why}"
+        );
     }
     let own = planar2r("gravity; scalar: f64; sincos: polynomial", 1);
     let why = through(&own, &cancelled).refusal().expect("shown");
-    assert!(why.contains("rounding costs"), "{why}");
+    assert!(why.contains("has a bound of"), "{why}");
     let own = Certified::of(
         SLIDE,
         None,
@@ -393,7 +396,7 @@ fn programs_that_lose_what_they_compute() {
             "load[0]-#1 t1+#0 qdd[0]*t2\",\"returns\":\"t3",
         ],
     ];
-    assert!(refusal(&own, &text, &claims).contains("rounding costs"));
+    assert!(refusal(&own, &text, &claims).contains("has a bound of"));
     let text =
         "payload[0] * 1.7e308;\n    let t2 = t1 / 1.7e308;\n    let t3 = t2 + 1.0;\n    Load([t3])";
     let text = [["payload[0] + 1.0;\n    Load([t1])", text]];
@@ -445,9 +448,9 @@ fn programs_that_go_wrong_somewhere() {
         ["t4-t5", "t4-t5 t6*#9 t7*#9 t8*#10 t9*#10"],
         ["-t6 -t4", "-t10 -t4"],
     ];
-    assert!(why(&[[result, far]], &claims).contains("rounding costs"));
+    assert!(why(&[[result, far]], &claims).contains("has a bound of"));
     let sines = ["libm::sincos(q[0])", "{ (0.0, 1.0) }"];
-    assert!(why(&[sines], &[]).contains("rounding costs"));
+    assert!(why(&[sines], &[]).contains("has a bound of"));
     let head = ["fn gravity(q:", "fn held(_qd:"];
     let claims = [["\"gravity\"", "\"held\""], ["[\"q\"]", "[\"qd\"]"]];
     assert!(why(&[head], &claims).contains("no result of it takes `qd`"));

@@ -3,8 +3,9 @@
 use dalembert_checker::claim::Claim;
 use dalembert_checker::identity::exact::Exact;
 use dalembert_checker::identity::table::Function;
-use dalembert_checker::identity::{Base, Statement, check, robot};
+use dalembert_checker::identity::{Base, Points, Statement, check, robot};
 use dalembert_checker::program::{Operand as Checked, Program as Straight};
+use dalembert_checker::work::Work;
 
 use crate::certified::Certified;
 use crate::support::{all_but_one_in, daily_and_campaign, every_output, one_in};
@@ -26,14 +27,17 @@ impl Shown {
             base: &self.base,
             load: None,
         };
-        check(statement, &[&self.source, &format!("{program:?}")])
+        check(
+            statement,
+            &mut Points::new(&[&self.source, &format!("{program:?}")]),
+        )
     }
 }
 
 fn all() -> Vec<Shown> {
     let file = Certified::planar2r(&format!("{}; scalar: f64", every_output()));
     let claim = Claim::read(&file.claim).unwrap();
-    let constants = claim.constants().unwrap();
+    let constants = claim.constants(&Work::default()).unwrap();
     let shown = claim.functions.iter().map(|own| Shown {
         source: file.robot.clone(),
         function: Function::named(&own.function, &own.arguments, &own.results).unwrap(),

@@ -14,12 +14,10 @@ use crate::language::{self, Language, columns};
 use crate::program::{Code, Library, ScalarType};
 use crate::task::{Job, Request};
 
-/// Where gcc may fuse products and sums by itself: in straight lines of alternating sums and
-/// differences (`tree-slp-vectorize`) it does whatever it is told of contraction.
-const FUSES: &str = "defined(__GNUC__) && !defined(__clang__) && \
-     (defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF))";
-/// gcc. It inlines only functions that have the options of those that call them, and makes no
-/// vectors without masks where it first computes (`tree-pre`) what follows of an angle that is far.
+/// gcc, which fuses products and sums by itself where the processor can: in straight lines of
+/// alternating sums and differences (`tree-slp-vectorize`) whatever it is told of contraction. It
+/// inlines only functions that have the options of those that call them, and makes no vectors
+/// without masks where it first computes (`tree-pre`) what follows of an angle that is far.
 const GCC: &str = "defined(__GNUC__) && !defined(__clang__)";
 
 const PRODUCTS: &str = "
@@ -97,14 +95,14 @@ pub(crate) fn write(
     });
     let includes = includes.concat();
     let has_loops = request.batch && request.language == Language::C;
-    let (when, options) = match has_loops {
-        true => (GCC, ", \"no-tree-pre\""),
-        false => (FUSES, ""),
-    };
+    let options = if has_loops { ", \"no-tree-pre\"" } else { "" };
     text += &format!(
         "#ifndef {guard}\n#define {guard}\n\n\
          #ifdef __FAST_MATH__\n\
          #error \"-ffast-math changes what is computed: compile without it\"\n\
+         #endif\n\
+         #if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0 && __FLT_EVAL_METHOD__ != 16\n\
+         #error \"operations are not rounded to their type: compile with -msse2 -mfpmath=sse\"\n\
          #endif\n\n{includes}\n\
          /* No array overlaps another one that is written. */\n\
          #ifdef __cplusplus\n#define {restrict}\n#else\n#define {restrict} restrict\n#endif\n\n\
@@ -112,7 +110,7 @@ pub(crate) fn write(
          #if defined(__clang__)\n\
          #define {unfused} _Pragma(\"STDC FP_CONTRACT OFF\")\n\
          #else\n#define {unfused}\n#endif\n\
-         #if {when}\n\
+         #if {GCC}\n\
          #pragma GCC push_options\n\
          #pragma GCC optimize (\"fp-contract=off\", \"no-tree-slp-vectorize\"{options})\n\
          #endif\n"
@@ -218,7 +216,7 @@ pub(crate) fn write(
     if request.language == Language::Cuda {
         text.push_str(NO_PRODUCTS);
     }
-    text += &format!("\n#if {when}\n#pragma GCC pop_options\n#endif\n\n#endif\n");
+    text += &format!("\n#if {GCC}\n#pragma GCC pop_options\n#endif\n\n#endif\n");
     text
 }
 

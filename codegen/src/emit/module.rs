@@ -241,7 +241,8 @@ pub(super) fn function_doc(
         let why = [
             "",
             "Divides by the pivots of D, which are positive wherever D is positive definite. Where a",
-            "joint moves no inertia a pivot is zero, and results are infinite or NaN.",
+            "joint moves no inertia a pivot is zero, and results are infinite or NaN. So rounding is measured",
+            "at states by `dalembert certify`, not shown: it has no bound over the box.",
         ];
         say(&mut lines, why);
     }

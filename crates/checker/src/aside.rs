@@ -85,7 +85,9 @@ impl<'k> Known<'k> {
         let Some((&BOX, behind)) = lines.split_first() else {
             return;
         };
-        let Some(ends) = ends(behind, is_single).filter(|ends| self.has(item.module, ends)) else {
+        let Some(ends) =
+            ends(behind, is_single).filter(|ends| self.has(item.module, ends, is_single))
+        else {
             return;
         };
         self.add(item.module, lines.join("\n"));
@@ -172,12 +174,12 @@ impl<'k> Known<'k> {
             text += &format!("\n{line}\ninside = 0;\n}}");
         }
         text += "\nreturn inside;\n}";
-        text == lines.join("\n") && self.has(module, &ends)
+        text == lines.join("\n") && self.has(module, &ends, is_single)
     }
 
-    /// Returns true if a box is within the robot file's, and open only where the functions of its
-    /// module hold everywhere.
-    fn has(&self, module: &str, ends: &Ends) -> bool {
+    /// Returns true if a box is the robot file's, and open only where the functions of its module
+    /// hold everywhere.
+    fn has(&self, module: &str, ends: &Ends, is_single: bool) -> bool {
         let count = self.setting.joints();
         // A box of no functions is another module's.
         let Some(held) = self.held.get(module) else {
@@ -194,8 +196,15 @@ impl<'k> Known<'k> {
                 None => !held.bounded[place],
                 Some([low, high]) => {
                     let [own_low, own_high] = self.ranges[place][joint];
-                    let slack = BOX_SLACK * (own_low.abs() + own_high.abs());
-                    own_low - slack <= low && high <= own_high + slack
+                    // Ends are floats inside the range.
+                    let digits = if is_single {
+                        f64::from(f32::EPSILON)
+                    } else {
+                        BOX_SLACK
+                    };
+                    let near = |own: f64, other: f64, size: f64| (own - other).abs() <= size;
+                    let slack = (digits + BOX_SLACK) * (own_low.abs() + own_high.abs());
+                    low <= high && near(low, own_low, slack) && near(high, own_high, slack)
                 }
             };
             given.is_none_or(|own| own.len() == count) && (0..count).all(is_known)

@@ -20,6 +20,9 @@ const BEFORE: &str = "#ifndef ARM_H
 #ifdef __FAST_MATH__
 #error \"-ffast-math changes what is computed: compile without it\"
 #endif
+#if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0 && __FLT_EVAL_METHOD__ != 16
+#error \"operations are not rounded to their type: compile with -msse2 -mfpmath=sse\"
+#endif
 #include <math.h>
 #include <stddef.h>
 #ifdef __cplusplus
@@ -49,8 +52,6 @@ const LOOPS: &str = "
 const LOOP: &str = "#if defined(__GNUC__)\n__attribute__((flatten))\n#endif";
 const BEHIND: &str = "#if WHEN\n#pragma GCC pop_options\n#endif\n#endif";
 const GCC: &str = "defined(__GNUC__) && !defined(__clang__)";
-const FUSES: &str = "defined(__GNUC__) && !defined(__clang__) && (defined(__FP_FAST_FMA) || \
-     defined(__FP_FAST_FMAF))";
 
 const LIBRARY: [&str; 5] = ["sin", "cos", "sqrt", "fma", "fabs"];
 
@@ -83,16 +84,21 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
     let is_c = (!guard.ends_with("_CUH")).then_some(());
     is_c.ok_or_else(|| Fault::Text(1, why.into()))?;
     let name = between(guard, "#ifndef ", "_H").unwrap_or("");
+    // Others belong to the compiler and its library, whose headers would be skipped.
+    let is_capital = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_';
+    let is_own = name.starts_with(|c: char| c.is_ascii_uppercase()) && name.chars().all(is_capital);
+    let why = format!("the guard `{guard:.60}` is not NAME_H in capital letters");
+    is_own.then_some(()).ok_or(Fault::Text(1, why))?;
     let [has_loops, has_math] = ["stddef", "math"].map(|name| {
         let include = format!("#include <{name}.h>");
         lines.iter().any(|(_, line)| *line == include)
     });
-    let (when, options, loops) = match has_loops {
-        true => (GCC, ", \"no-tree-pre\"", LOOPS),
-        false => (FUSES, "", ""),
+    let (options, loops) = match has_loops {
+        true => (", \"no-tree-pre\"", LOOPS),
+        false => ("", ""),
     };
     let known = |text: &str| {
-        let text = text.replace("WHEN", when).replace("OPTIONS", options);
+        let text = text.replace("WHEN", GCC).replace("OPTIONS", options);
         text.replace("ARM", name)
     };
     take(&mut lines, &known(&format!("{BEFORE}{loops}")))?;

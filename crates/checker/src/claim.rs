@@ -22,6 +22,8 @@ use crate::identity::Base;
 #[cfg(feature = "certify")]
 use crate::identity::exact::{Exact, Sines};
 use crate::program::{Operand, Program, Step, argument};
+#[cfg(feature = "certify")]
+use crate::work::Work;
 
 /// The version that is read.
 pub const VERSION: u32 = 1;
@@ -33,6 +35,13 @@ const MOST: usize = 1 << 17;
 const MOST_FUNCTIONS: usize = 1 << 12;
 #[cfg(feature = "certify")]
 const MOST_ANGLES: usize = 1 << 10;
+/// Nanoseconds for a digit and a factor of a constant, and for the sine of an angle.
+#[cfg(feature = "certify")]
+const DIGIT: u64 = 100;
+#[cfg(feature = "certify")]
+const FACTOR: u64 = 500;
+#[cfg(feature = "certify")]
+const ANGLE: u64 = 100_000;
 /// The most results of a function: of 64 joints all h_ikm are 2¹⁸.
 const MOST_RESULTS: usize = 1 << 19;
 /// The most quotients times operations, and times results and quotients: what divides has a degree
@@ -208,19 +217,28 @@ impl Claim {
     /// # Errors
     /// The first that is none.
     #[cfg(feature = "certify")]
-    pub fn constants(&self) -> Result<Vec<Exact>, Fault> {
+    pub fn constants(&self, work: &Work) -> Result<Vec<Exact>, Fault> {
         let terms = |text: &String| 1 + text.matches('+').count();
         if self.constants.iter().map(terms).sum::<usize>() > MOST {
             return Err(Fault::Claim(format!("constants of more than {MOST} terms")));
         }
+        let bytes = self.constants.iter().map(String::len).sum();
+        work.spend(bytes, DIGIT)?;
         let read = self.constants.iter().map(|text| {
-            let why = || Fault::Claim(format!("`{text:.40}` is no constant"));
+            let why = || {
+                Fault::Claim(format!(
+                    "`{text:.40}` is not a constant of at most 400 digits"
+                ))
+            };
             Exact::read(text).ok_or_else(why)
         });
         let all = read.collect::<Result<Vec<Exact>, Fault>>()?;
         let mut sines = Sines::new();
         for own in &all {
+            let before = sines.len();
             own.settle(&mut sines);
+            work.spend(own.factors(), FACTOR)?;
+            work.spend(sines.len() - before, ANGLE)?;
             if sines.len() > MOST_ANGLES {
                 let why = format!("sines of more than {MOST_ANGLES} angles");
                 return Err(Fault::Claim(why));

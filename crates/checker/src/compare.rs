@@ -1,18 +1,53 @@
 //! The text is the exact program: operation by operation, each literal the float nearest to its
 //! constant.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
+
 use crate::identity::exact::Exact;
 use crate::program::{Operand, Program};
 use crate::read::number;
+use crate::work::Work;
 
-pub fn compare(text: &Program<f64>, exact: &Program<Exact>, is_single: bool) -> Result<(), String> {
+/// Nanoseconds for the comparison of a constant with a literal, whatever their digits are.
+const COMPARED: u64 = 20_000;
+
+/// The literals that were compared with each constant: no pair is compared twice.
+#[derive(Debug, Default)]
+pub(crate) struct Literals {
+    known: RefCell<HashMap<(usize, u64, bool), bool>>,
+}
+
+impl Literals {
+    fn are_same(&self, value: &Exact, literal: f64, is_single: bool, work: &Work) -> bool {
+        let key = (value.address(), literal.to_bits(), is_single);
+        if let Some(known) = self.known.borrow().get(&key) {
+            return *known;
+        }
+        let is_same = work.spend(1, COMPARED).is_ok() && value.is_nearest(literal, is_single);
+        self.known.borrow_mut().insert(key, is_same);
+        is_same
+    }
+}
+
+pub(crate) fn compare(
+    text: &Program<f64>,
+    exact: &Program<Exact>,
+    is_single: bool,
+    (literals, work): (&Literals, &Work),
+) -> Result<(), String> {
     let counts = |steps: usize, results: usize| format!("{steps} operations and {results} results");
     let own = counts(text.steps.len(), text.outputs.len());
     let other = counts(exact.steps.len(), exact.outputs.len());
     if own != other {
         return Err(format!("{own}, not {other} as claimed"));
     }
-    let same = |(own, other): (&Operand<f64>, &Operand<Exact>)| is_same(own, other, is_single);
+    let same = |(own, other): (&Operand<f64>, &Operand<Exact>)| match (own, other) {
+        (Operand::Constant(own), Operand::Constant(other)) => {
+            literals.are_same(other, *own, is_single, work)
+        }
+        _ => is_same(own, other),
+    };
     let mut steps = text.steps.iter().zip(&exact.steps);
     let step =
         steps.position(|(own, other)| own.0 != other.0 || !own.1.iter().zip(&other.1).all(same));
@@ -31,9 +66,8 @@ pub(crate) fn is_literal(text: &str, value: &Exact, is_single: bool) -> bool {
     number(text, is_single).is_some_and(|own| value.is_nearest(own, is_single))
 }
 
-fn is_same(own: &Operand<f64>, other: &Operand<Exact>, is_single: bool) -> bool {
+fn is_same(own: &Operand<f64>, other: &Operand<Exact>) -> bool {
     match (own, other) {
-        (Operand::Constant(own), Operand::Constant(other)) => other.is_nearest(*own, is_single),
         (Operand::Entry(own, index), Operand::Entry(other, at)) => (own, index) == (other, at),
         (Operand::Sine(own, is_sine), Operand::Sine(other, is_other)) => {
             (own, is_sine) == (other, is_other)

@@ -1,15 +1,20 @@
-//! The cost of rounding in a function: over the box where that can be bounded, else at states that a
-//! hash draws.
+//! The cost of rounding in a function, result by result: a bound over the box where a result does
+//! not divide, else the largest bound at states.
 
+use crate::fault::Fault;
+use crate::hidden::{self, MOST_RATIO};
+use crate::identity::Points;
 use crate::identity::exact::Exact;
-use crate::identity::number::Draws;
 use crate::identity::setting::Setting;
-use crate::identity::table::length;
-use crate::program::{ARGUMENTS, Operand, Program, Step};
-use crate::read::{self, Function, Head, Source};
-use crate::rounding::{Ranges, Rounding, Value};
-use crate::sines::Scalar;
+use crate::identity::table::{self, Field, length};
+use crate::interval::UNIT;
+use crate::program::{ARGUMENTS, Operand, Program, Step, argument};
+use crate::read::{self, Head, Source};
+use crate::rounding::{Bounds, Ranges, Rounding};
+use crate::sample::{Near, Sampler, State};
+use crate::states::{Body, States};
 use crate::tolerance::Bounded;
+use crate::work::Work;
 
 /// The largest rates where the robot file has no limit, per second and per second squared.
 pub const RATE: f64 = 10.0;
@@ -17,120 +22,345 @@ pub const RATE: f64 = 10.0;
 const WRENCH: f64 = 100.0;
 const GRAVITY: f64 = 9.81;
 const DAMPING: [f64; 2] = [1e-3, 1e-1];
-/// The numbers of states where no bound over the box says anything, and where one does.
-pub(crate) const STATES: usize = 1000;
+/// The states at which a function that divides is measured, and at which the size of the results of
+/// others is.
+const STATES: usize = 1000;
 const LOOKED_AT: usize = 100;
+/// The largest cost that is shown where the user allows no more: in f64, seven digits of sixteen; in
+/// f32, and of polynomials for sines, all but two.
+const MOST_DOUBLE: f64 = (1u64 << 24) as f64 * UNIT;
+const MOST: f64 = 1.0 / 64.0;
+/// At more than half of the states, what divides is at most this part of its largest entry off.
+const SHARE: f64 = 1.0 / 8.0;
 /// An entry below this share of its result's largest counts as zero.
 const ZERO: f64 = 1e-12;
+/// The climbs to worse states, and the states of each.
+const CLIMBS: usize = 4;
+const CLIMBED: usize = 150;
 
-/// A function that is the robot's but for rounding, and for what a tolerance left out.
+/// The findings about a function that is the robot's but for rounding, and for what a tolerance
+/// left out.
 #[derive(Clone, Debug)]
 pub struct Shown {
-    /// The largest cost of rounding, relative to the largest value seen of the entry, of a matrix
-    /// of its row or its column; NaN where no bound is below that value.
-    pub rounding: f64,
-    /// The same in halves of an ulp of that value.
-    pub units: f64,
-    /// At how many of the states that were drawn that holds, others being near to where it divides by
-    /// zero; all that were drawn where none is bounded; zero for the whole box.
-    pub states: usize,
+    /// The cost of rounding, result by result; none under a tolerance.
+    pub costs: Vec<Cost>,
     /// `true` if it has polynomials for sines, whose error counts as rounding.
     pub has_polynomials: bool,
-    /// The findings about each result, if it is under a tolerance.
+    /// The findings about each entry, if it is under a tolerance.
     pub results: Vec<Bounded>,
 }
 
-pub(crate) fn load(own: &Program<Exact>, ranges: &Ranges, is_single: bool) -> Option<Vec<Value>> {
-    let operand = |own: &Operand<Exact>| {
-        Some(match own {
-            Operand::Constant(constant) => Operand::Constant(constant.double()?[0]),
-            Operand::Step(step) => Operand::Step(*step),
-            Operand::Entry(place, index) => Operand::Entry(*place, *index),
-            Operand::Sine(..) | Operand::Speed(_) => return None,
-        })
-    };
-    let step = |(operation, [a, b]): &Step<Exact>| Some((*operation, [operand(a)?, operand(b)?]));
-    let output = |(negative, own): &(bool, Operand<Exact>)| Some((*negative, operand(own)?));
-    let program = Program {
-        steps: own.steps.iter().map(step).collect::<Option<_>>()?,
-        outputs: own.outputs.iter().map(output).collect::<Option<_>>()?,
-    };
-    let read = Function {
-        program,
-        ..Function::default()
-    };
-    Some(Rounding::new(&read, is_single, ranges).bounds(ranges, None))
+/// The cost of rounding in one result of a function.
+#[derive(Clone, Debug)]
+pub struct Cost {
+    /// The result.
+    pub name: String,
+    /// `true` if it is a bound over the box: the result does not divide. Else it is the largest at
+    /// states.
+    pub is_bounded: bool,
+    /// The largest error relative to the largest value seen of the entry, of a matrix of its row or
+    /// its column; NaN where that is above one.
+    pub rounding: f64,
+    /// The same in halves of an ulp of that value.
+    pub units: f64,
+    /// `true` if errors are relative to the largest entry of the whole result.
+    pub is_of_whole: bool,
+    /// At how many states it was measured; zero for the whole box.
+    pub states: usize,
 }
 
-pub(crate) fn cost(
-    read: &Function,
-    head: &Head,
-    ranges: &Ranges,
-    load: &[Value],
-    texts: &[&str],
-) -> Shown {
-    let mut rounding = Rounding::new(read, head.is_single, ranges);
-    rounding.load = load.to_vec();
-    let mut draws = Draws::new(texts);
-    let over_box = rounding.bounds(ranges, None);
-    let count = over_box.len();
-    // Near to where something divides by zero, a state is not bounded.
-    let mut look = |states: usize, over_box: Option<&[Value]>| {
-        let (mut sizes, mut errors, mut bounded) = (vec![0.0; count], vec![0.0; count], 0);
-        for _ in 0..states {
-            let state = drawn(ranges, &mut draws, head.is_single);
-            let found = rounding.bounds(&state, None);
-            if over_box.is_none() && !found.iter().all(|own| own.error.is_finite()) {
-                continue;
-            }
-            bounded += 1;
-            for (k, own) in found.iter().enumerate() {
-                sizes[k] = worse(sizes[k], own.exact.least());
-                errors[k] = worse(errors[k], own.error);
-            }
+impl Shown {
+    /// Returns true if the cost of every result is bounded over the box.
+    pub fn is_bounded(&self) -> bool {
+        self.costs.iter().all(|own| own.is_bounded)
+    }
+
+    /// Returns the largest cost of the results that are bounded, or of those that are measured.
+    pub fn worst(&self, is_bounded: bool) -> Option<&Cost> {
+        let all = self.costs.iter().filter(|own| own.is_bounded == is_bounded);
+        all.max_by(|a, b| a.units.total_cmp(&b.units))
+    }
+}
+
+/// A function whose text is its claimed program, and that program the robot's.
+pub(crate) struct Subject<'s> {
+    pub setting: &'s Setting<'s>,
+    pub function: &'s table::Function,
+    pub program: &'s Program<Exact>,
+    pub load: Option<&'s Program<Exact>>,
+    pub read: &'s read::Function,
+    pub head: &'s Head<'s>,
+    pub ranges: &'s Ranges,
+    pub body: Body,
+    /// The texts that states are drawn from.
+    pub texts: &'s [&'s str],
+    /// The largest cost that the user accepts, if it is larger than what is shown otherwise.
+    pub worst: f64,
+    pub work: &'s Work,
+}
+
+impl Subject<'_> {
+    pub(crate) fn costs(&self, points: &mut Points) -> Result<Vec<Cost>, Fault> {
+        let Subject { read, head, .. } = *self;
+        let load = self.load.map(literals).unwrap_or_default();
+        let of_load = Rounding::new(&load, head.is_single, self.ranges);
+        let (mut rounding, mut ranges) = (
+            Rounding::new(read, head.is_single, self.ranges),
+            self.ranges.clone(),
+        );
+        if self.load.is_some() {
+            rounding.load = of_load.bounds(&ranges, None).results;
+            let exact = rounding.load.iter().map(|own| own.exact);
+            let exact = exact.map(|own| [own.low, own.high]).collect();
+            ranges[argument(LOAD).unwrap_or_default()] = exact;
         }
-        if let Some(over_box) = over_box {
-            errors = over_box.iter().map(|own| own.error).collect();
-        }
-        let sizes = measures(&sizes, head.fields.iter().map(|own| own.1.as_slice()));
-        let relative = |(error, size): (&f64, &f64)| match *error == 0.0 {
-            true => 0.0,
-            false => error / size,
+        let has_quotients = read.program.has_quotients();
+        let divides = |(_, own): &(bool, Operand<f64>)| match own {
+            Operand::Step(step) => has_quotients[*step],
+            _ => false,
         };
-        let cost = errors.iter().zip(&sizes).map(relative).fold(0.0, worse);
-        match bounded {
-            0 => (f64::NAN, states),
-            _ => (cost, bounded),
+        let divides: Vec<bool> = read.program.outputs.iter().map(divides).collect();
+        let is_measured = divides.contains(&true);
+        if let (true, Some(points)) = (is_measured, points.three()) {
+            let load = rounding.load.len();
+            hidden::check(self.program, self.setting, load, points, self.work)?;
         }
-    };
-    let is_finite = over_box.iter().all(|own| own.error.is_finite());
-    let (cost, _) = match is_finite {
-        true => look(LOOKED_AT, Some(&over_box)),
-        false => (f64::NAN, 0),
-    };
-    // A bound that says nothing of the box gives way to bounds at states.
-    let (cost, states) = match cost < most(read, head.is_single) {
-        true => (cost, 0),
-        false => look(STATES, None),
-    };
-    Shown {
-        rounding: cost,
-        units: cost / rounding.scalar.unit,
-        states,
-        has_polynomials: polynomials(read).next().is_some(),
-        results: Vec::new(),
+        let mut arguments = self.function.arguments.clone();
+        // What a load is made of.
+        arguments.extend(self.load.and_then(|_| argument("payload")));
+        let joints = self.setting.joints();
+        let mut seen = Seen {
+            sampler: Sampler::new(read, &rounding, joints),
+            load: Sampler::new(&load, &of_load, joints),
+            lengths: head
+                .fields
+                .iter()
+                .map(|own| own.1.iter().product())
+                .collect(),
+            work: self.work,
+            states: 0,
+            sizes: vec![0.0; divides.len()],
+            errors: vec![0.0; divides.len()],
+            steps: vec![0.0; read.program.steps.len()],
+            near: vec![0; head.fields.len()],
+            unbounded: vec![0; head.fields.len()],
+            values: Vec::new(),
+            loads: Vec::new(),
+        };
+        let texts = self.texts;
+        let mut states = States::new(self.ranges, &arguments, self.body, texts, head.is_single);
+        let mut worst: Vec<(f64, State)> = Vec::new();
+        for _ in 0..if is_measured { STATES } else { LOOKED_AT } {
+            let state = states.next();
+            let height = seen.look(&state, &divides)?;
+            worst.push((height, state));
+        }
+        let drawn = seen.states;
+        if is_measured {
+            let bounds = rounding.bounds(&ranges, None);
+            self.steps_are_seen(&bounds, &has_quotients, &seen.steps)?;
+            worst.sort_by(|a, b| b.0.total_cmp(&a.0));
+            for (_, state) in worst.into_iter().take(CLIMBS) {
+                let mut fault = Ok(());
+                states.climb(state, CLIMBED, |state| match seen.look(state, &divides) {
+                    Ok(height) => height,
+                    Err(why) => {
+                        fault = Err(why);
+                        f64::NEG_INFINITY
+                    }
+                });
+                fault?;
+            }
+        }
+        let bounded = divides.iter().filter(|own| !**own).count();
+        let over_box = match bounded {
+            0 => Vec::new(),
+            _ => {
+                self.work
+                    .spend(read.program.steps.len() * (bounded + 4), 20)?;
+                rounding.bounds(&ranges, None).results
+            }
+        };
+        let shapes = head.fields.iter().map(|own| own.1.as_slice());
+        let sizes = measures(&seen.sizes, shapes);
+        let (mut costs, mut first) = (Vec::new(), 0);
+        for (field, (name, _)) in head.fields.iter().enumerate() {
+            let entries = first..first + seen.lengths[field];
+            first = entries.end;
+            let is_bounded = !divides[entries.clone()].contains(&true);
+            let error = |k: usize| match is_bounded {
+                true => over_box[k].error,
+                false => seen.errors[k],
+            };
+            let relative = |(k, size): (usize, f64)| match error(k) {
+                0.0 => 0.0,
+                error => error / size,
+            };
+            let each = entries.clone().map(|k| (k, sizes[k]));
+            let mut rounding = each.map(relative).fold(0.0, worse);
+            let is_of_whole = is_bounded && !(rounding < self.most());
+            if is_of_whole {
+                let whole = seen.sizes[entries.clone()]
+                    .iter()
+                    .copied()
+                    .fold(0.0, f64::max);
+                rounding = entries.map(|k| (k, whole)).map(relative).fold(0.0, worse);
+            }
+            let unsure = |why: String| Fault::Claim(format!("`{}`: {why}", head.name));
+            if is_bounded && !(rounding < self.most()) {
+                let (most, of) = (self.most(), "of its largest value");
+                return Err(unsure(format!(
+                    "rounding of `{name}` has a bound of {rounding:.1e} {of}, over {most:.1e}"
+                )));
+            }
+            if !is_bounded && 2 * seen.near[field] <= drawn {
+                return Err(unsure(format!(
+                    "at half of the states `{name}` is off by more than an eighth of its value"
+                )));
+            }
+            let asks = self.function.fields.get(field).map(Field::divides);
+            if !is_bounded && asks != Some(true) {
+                return Err(unsure(format!(
+                    "`{name}` divides, and does not ask for that"
+                )));
+            }
+            let unbounded = seen.unbounded[field];
+            // In f64 what divides is never so near to where it divides by zero.
+            let is_far = unbounded > 0 || !(rounding < MOST.max(self.worst));
+            if !is_bounded && !head.is_single && is_far {
+                let (most, of) = (MOST.max(self.worst), "of its largest value");
+                let found = match unbounded {
+                    0 => format!("is {rounding:.1e} {of} at a state, over {most:.1e}"),
+                    _ => "has no bound at a state of the box".to_owned(),
+                };
+                return Err(unsure(format!("rounding of `{name}` {found}")));
+            }
+            costs.push(Cost {
+                name: (*name).to_owned(),
+                is_bounded,
+                // A bound as large as the values says nothing.
+                rounding: if rounding < 1.0 { rounding } else { f64::NAN },
+                units: rounding / seen.sampler.unit(),
+                is_of_whole,
+                states: if is_bounded {
+                    0
+                } else {
+                    seen.states - unbounded
+                },
+            });
+        }
+        Ok(costs)
+    }
+
+    fn most(&self) -> f64 {
+        let most = match self.head.is_single || polynomials(self.read).next().is_some() {
+            true => MOST,
+            false => MOST_DOUBLE,
+        };
+        most.max(self.worst)
+    }
+
+    /// Compares the steps that no quotient reaches over the box with those at states.
+    fn steps_are_seen(
+        &self,
+        bounds: &Bounds,
+        has_quotients: &[bool],
+        seen: &[f64],
+    ) -> Result<(), Fault> {
+        let all = bounds.steps.iter().zip(has_quotients).zip(seen).enumerate();
+        for (step, ((bound, has_quotient), seen)) in all {
+            let most = bound.exact.magnitude();
+            if !has_quotient && !self.head.is_single && !(most <= MOST_RATIO * seen) {
+                let why = format!("is at most {seen:.1e} at states, and {most:.1e} over the box");
+                return Err(hidden::refused(step, &why));
+            }
+        }
+        Ok(())
     }
 }
 
-/// For what does not divide: some seven digits, and all where polynomials are for sines.
-pub(crate) fn most(read: &Function, is_single: bool) -> f64 {
-    match polynomials(read).next() {
-        Some(_) => 1.0,
-        None => Scalar::new(is_single).unit * f64::from(1 << 24),
+/// The largest values and errors at the states so far.
+struct Seen<'s> {
+    sampler: Sampler<'s>,
+    load: Sampler<'s>,
+    /// The numbers of entries of each result.
+    lengths: Vec<usize>,
+    work: &'s Work,
+    states: usize,
+    sizes: Vec<f64>,
+    errors: Vec<f64>,
+    /// The largest magnitude of each step.
+    steps: Vec<f64>,
+    /// At how many states each result is near to the exact one.
+    near: Vec<usize>,
+    /// At how many states it has no bound.
+    unbounded: Vec<usize>,
+    values: Vec<Near>,
+    loads: Vec<Near>,
+}
+
+impl Seen<'_> {
+    /// Looks at a state; returns the largest error of what divides, relative to its result there.
+    fn look(&mut self, state: &State, divides: &[bool]) -> Result<f64, Fault> {
+        self.work.spend(1, self.sampler.work() + self.load.work())?;
+        self.states += 1;
+        self.load.run(state, &[], &mut self.loads);
+        let load: Vec<Near> = self.load.results(&self.loads).collect();
+        self.sampler.run(state, &load, &mut self.values);
+        for (most, own) in self.steps.iter_mut().zip(self.sampler.steps(&self.values)) {
+            *most = most.max(own.value.abs());
+        }
+        let (mut height, mut first) = (0.0f64, 0);
+        let results: Vec<Near> = self.sampler.results(&self.values).collect();
+        for (field, length) in self.lengths.iter().enumerate() {
+            let entries = first..first + length;
+            let error = results[entries.clone()]
+                .iter()
+                .map(|own| own.error)
+                .fold(0.0, worse);
+            let mut size = 0.0f64;
+            for k in entries {
+                let least = results[k].value.abs() - results[k].off;
+                self.sizes[k] = self.sizes[k].max(least);
+                size = size.max(least);
+                if error.is_finite() {
+                    self.errors[k] = self.errors[k].max(results[k].error);
+                }
+            }
+            self.unbounded[field] += usize::from(!error.is_finite());
+            self.near[field] += usize::from(error <= SHARE * size);
+            if divides[first..first + length].contains(&true) {
+                height = height.max(error / size);
+            }
+            first += length;
+        }
+        Ok(height)
     }
 }
 
-pub(crate) fn polynomials(read: &Function) -> impl Iterator<Item = usize> {
+const LOAD: &str = "load";
+
+fn literals(own: &Program<Exact>) -> read::Function {
+    let operand = |own: &Operand<Exact>| match own {
+        // An angle beyond the series' range is not a number.
+        Operand::Constant(own) => Operand::Constant(own.double().map_or(f64::NAN, |own| own[0])),
+        Operand::Step(step) => Operand::Step(*step),
+        Operand::Entry(place, index) => Operand::Entry(*place, *index),
+        Operand::Sine(joint, is_sine) => Operand::Sine(*joint, *is_sine),
+        Operand::Speed(joint) => Operand::Speed(*joint),
+    };
+    let step = |(operation, both): &Step<Exact>| (*operation, both.each_ref().map(operand));
+    let output = |(negative, own): &(bool, Operand<Exact>)| (*negative, operand(own));
+    read::Function {
+        program: Program {
+            steps: own.steps.iter().map(step).collect(),
+            outputs: own.outputs.iter().map(output).collect(),
+        },
+        ..read::Function::default()
+    }
+}
+
+pub(crate) fn polynomials(read: &read::Function) -> impl Iterator<Item = usize> {
     let is_polynomial = |own: &&read::Sines| matches!(own.source, Source::Polynomial(_));
     read.sines.iter().filter(is_polynomial).map(|own| own.joint)
 }
@@ -144,7 +374,7 @@ fn worse(before: f64, own: f64) -> f64 {
     }
 }
 
-pub(crate) fn ranges(setting: &Setting) -> Result<Ranges, String> {
+pub(crate) fn ranges(setting: &Setting, body: Body) -> Result<Ranges, String> {
     let sizes = [setting.joints(), setting.links()];
     let of = |&(name, axis): &(&str, char)| {
         let rate = if name == "tau" { WRENCH } else { RATE };
@@ -153,24 +383,13 @@ pub(crate) fn ranges(setting: &Setting) -> Result<Ranges, String> {
             "g" => [-GRAVITY, GRAVITY],
             "wrench" => [-WRENCH, WRENCH],
             "damping" => DAMPING,
+            "payload" => return Ok(body.ranges()),
             _ => [-1.0, 1.0],
         };
         Ok(own.unwrap_or_else(|| vec![[low, high]; length(axis, sizes)]))
     };
     ARGUMENTS.iter().map(of).collect()
 }
-
-pub(crate) fn drawn(ranges: &Ranges, draws: &mut Draws, is_single: bool) -> Ranges {
-    let lists = ranges.iter().map(|list| {
-        let points = list.iter().map(|[low, high]| {
-            let own = low + (high - low) * draws.share();
-            [if is_single { (own as f32).into() } else { own }; 2]
-        });
-        points.collect()
-    });
-    lists.collect()
-}
-
 /// Returns the size that each entry is measured by: its own largest value, of a matrix the smallest
 /// of the largest in its row and in its column; where that is zero, the result's.
 fn measures<'s>(seen: &[f64], shapes: impl Iterator<Item = &'s [usize]>) -> Vec<f64> {

@@ -35,6 +35,8 @@ mod fault;
 #[cfg(feature = "certify")]
 pub mod file;
 #[cfg(feature = "certify")]
+mod hidden;
+#[cfg(feature = "certify")]
 pub mod identity;
 #[cfg(feature = "certify")]
 pub mod interval;
@@ -42,8 +44,6 @@ pub mod interval;
 mod levels;
 #[cfg(feature = "certify")]
 mod maximum;
-#[cfg(feature = "certify")]
-mod near;
 pub mod payload;
 #[cfg(feature = "certify")]
 pub mod polynomial;
@@ -54,11 +54,17 @@ mod ring;
 #[cfg(feature = "certify")]
 mod rounding;
 #[cfg(feature = "certify")]
+mod sample;
+#[cfg(feature = "certify")]
 mod sines;
+#[cfg(feature = "certify")]
+mod states;
 #[cfg(feature = "certify")]
 mod together;
 #[cfg(feature = "certify")]
 mod tolerance;
+#[cfg(feature = "certify")]
+pub mod work;
 #[cfg(feature = "certify")]
 mod written;
 

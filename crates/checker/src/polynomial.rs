@@ -9,19 +9,10 @@
 
 use crate::fault::Fault;
 use crate::interval::UNIT;
+use crate::work::Work;
 
-const MOST_WORK: u64 = 400_000_000;
-
-/// Counts products of terms, so that the work for a function is bounded.
-#[derive(Debug, Default)]
-pub struct Work(u64);
-
-impl Work {
-    fn spend(&mut self, products: usize) -> Result<(), Fault> {
-        self.0 = self.0.saturating_add(products as u64);
-        (self.0 <= MOST_WORK).then_some(()).ok_or(Fault::Work)
-    }
-}
+/// Nanoseconds for a product of two terms.
+const PRODUCT: u64 = 20;
 
 /// The exponents of a monomial: `WIDTH` bits a joint.
 pub type Key = u128;
@@ -121,8 +112,8 @@ impl Polynomial {
         merged(terms, self.rest + other.rest)
     }
 
-    pub(crate) fn sum(&self, other: &Polynomial, work: &mut Work) -> Result<Polynomial, Fault> {
-        work.spend(self.terms.len() + other.terms.len())?;
+    pub(crate) fn sum(&self, other: &Polynomial, work: &Work) -> Result<Polynomial, Fault> {
+        work.spend(self.terms.len() + other.terms.len(), PRODUCT)?;
         self.plus(other).short()
     }
 
@@ -135,12 +126,12 @@ impl Polynomial {
     ///
     /// # Errors
     /// More than is written out, or more work than is done.
-    pub fn times(&self, other: &Polynomial, work: &mut Work) -> Result<Polynomial, Fault> {
+    pub fn times(&self, other: &Polynomial, work: &Work) -> Result<Polynomial, Fault> {
         let zero = Polynomial::default();
         if *self == zero || *other == zero {
             return Ok(zero);
         }
-        work.spend(self.terms.len() * other.terms.len())?;
+        work.spend(self.terms.len() * other.terms.len(), PRODUCT)?;
         let mut rest = 0.0;
         // So that NaN, of numbers that overflowed, stays in the rest.
         if self.rest + other.rest != 0.0 {

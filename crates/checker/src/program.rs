@@ -56,27 +56,50 @@ impl<C> Program<C> {
         steps.chain(outputs).any(is_such)
     }
 
+    /// Returns the values of its steps, given those of other operands; none if one of them has none.
+    pub fn values<V: Clone>(
+        &self,
+        leaf: impl Fn(&Operand<C>) -> Option<V>,
+        mut apply: impl FnMut(char, V, V) -> V,
+    ) -> Option<Vec<V>> {
+        let mut values: Vec<V> = Vec::with_capacity(self.steps.len());
+        for (operation, operands) in &self.steps {
+            let [a, b] = operands.each_ref().map(|own| read(own, &values, &leaf));
+            values.push(apply(*operation, a?, b?));
+        }
+        Some(values)
+    }
+
     /// Returns its results, given the values of operands other than steps; none if one of them has
     /// none.
     pub fn run<V: Clone>(
         &self,
         leaf: impl Fn(&Operand<C>) -> Option<V>,
-        mut apply: impl FnMut(char, V, V) -> V,
+        apply: impl FnMut(char, V, V) -> V,
         opposite: impl Fn(V) -> V,
     ) -> Option<Vec<V>> {
-        let mut values: Vec<V> = Vec::with_capacity(self.steps.len());
-        let read = |values: &[V], own: &Operand<C>| match own {
-            Operand::Step(step) => values.get(*step).cloned(),
-            own => leaf(own),
-        };
-        for (operation, [left, right]) in &self.steps {
-            let value = apply(*operation, read(&values, left)?, read(&values, right)?);
-            values.push(value);
-        }
+        let values = self.values(&leaf, apply)?;
         let output = |(negative, own): &(bool, Operand<C>)| {
-            let value = read(&values, own)?;
+            let value = read(own, &values, &leaf)?;
             Some(if *negative { opposite(value) } else { value })
         };
         self.outputs.iter().map(output).collect()
+    }
+
+    /// Tells of each step whether a quotient is in it.
+    pub(crate) fn has_quotients(&self) -> Vec<bool> {
+        let apply = |operation: char, a: bool, b: bool| operation == '/' || a || b;
+        self.values(|_| Some(false), apply).unwrap_or_default()
+    }
+}
+
+fn read<C, V: Clone>(
+    own: &Operand<C>,
+    values: &[V],
+    leaf: impl Fn(&Operand<C>) -> Option<V>,
+) -> Option<V> {
+    match own {
+        Operand::Step(step) => values.get(*step).cloned(),
+        own => leaf(own),
     }
 }

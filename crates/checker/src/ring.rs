@@ -10,9 +10,10 @@ use crate::fault::Fault;
 use crate::identity::arm::Arm;
 use crate::identity::exact::Point;
 use crate::identity::setting::Setting;
-use crate::polynomial::{Key, MAX_JOINTS, Polynomial, Variable, Work, exponent};
+use crate::polynomial::{Key, MAX_JOINTS, Polynomial, Variable, exponent};
 use crate::program::Operand;
 use crate::rounding::Ranges;
+use crate::work::Work;
 
 /// A range of at least so much counts as all angles.
 const WHOLE_TURN: f64 = std::f64::consts::TAU - 1e-9;
@@ -46,7 +47,7 @@ fn between([low, high]: [f64; 2], joint: usize) -> Polynomial {
 
 /// Returns sine and cosine of a joint: sin(φ ∓ ψ) and cos(φ ∓ ψ), ψ being the variable of the
 /// joint before, if the sign of that is given.
-fn pair(joint: usize, sign: Option<f64>, work: &mut Work) -> Result<[Polynomial; 2], Fault> {
+fn pair(joint: usize, sign: Option<f64>, work: &Work) -> Result<[Polynomial; 2], Fault> {
     let own = |joint| [Variable::Sin, Variable::Cos].map(|v| Polynomial::variable(v, joint, 1.0));
     let [sin, cos] = own(joint);
     let Some(sign) = sign else {
@@ -61,7 +62,7 @@ fn pair(joint: usize, sign: Option<f64>, work: &mut Work) -> Result<[Polynomial;
 }
 
 impl Ring {
-    pub fn new(setting: &Setting, ranges: &Ranges, work: &mut Work) -> Result<Ring, Fault> {
+    pub fn new(setting: &Setting, ranges: &Ranges, work: &Work) -> Result<Ring, Fault> {
         let of_robot = |why| Fault::Robot("joint".into(), why);
         let count = setting.joints();
         if count > MAX_JOINTS {

@@ -1,10 +1,11 @@
-//! Bounds of rounding: of each value an interval, and how far the float is from the exact
-//! program's value at most, by one pass over the text. Over the whole box that is a bound; at a
-//! point, the bound at that state.
+//! Bounds of rounding over a box: of each value an interval, and how far the float is from the
+//! exact program's value at most, by one pass over the text. A second pass, from a result back,
+//! multiplies each rounding by the largest derivative of the result: the smaller bound counts.
 
 use std::collections::HashMap;
 
 use crate::interval::Interval;
+use crate::polynomial::SLACK;
 use crate::program::{Operand, argument};
 use crate::read::{Function, Source};
 use crate::sines::{self, Scalar};
@@ -16,11 +17,28 @@ pub type Ranges = Vec<Vec<[f64; 2]>>;
 pub struct Value {
     pub exact: Interval,
     pub error: f64,
+    /// The part of the error that is the value's rounding alone.
+    rounded: f64,
+}
+
+/// The values of the steps and of the results.
+pub struct Bounds {
+    pub steps: Vec<Value>,
+    pub results: Vec<Value>,
 }
 
 impl Value {
-    fn exact(exact: Interval) -> Value {
-        Value { exact, error: 0.0 }
+    fn new(exact: Interval, error: f64) -> Value {
+        Value {
+            exact,
+            error,
+            rounded: 0.0,
+        }
+    }
+
+    /// Returns all numbers that the exact value, the float and those between may be.
+    fn all(self) -> Interval {
+        self.exact + Interval::around(0.0, self.error)
     }
 }
 
@@ -61,7 +79,7 @@ impl<'f> Rounding<'f> {
 
     /// Where sizes of all values are known, one a step, the exact value is that of polynomials for
     /// sines, whose error is none of rounding.
-    pub fn bounds(&self, ranges: &Ranges, sizes: Option<&[f64]>) -> Vec<Value> {
+    pub fn bounds(&self, ranges: &Ranges, sizes: Option<&[f64]>) -> Bounds {
         let steps = &self.function.program.steps;
         let is_exact = sizes.is_none();
         let pair = |joint: usize| [true, false].map(|own| self.sine(joint, ranges, own, is_exact));
@@ -88,31 +106,100 @@ impl<'f> Rounding<'f> {
             if let Some(most) = sizes.and_then(|sizes| sizes.get(index)) {
                 exact = exact.within(*most);
             }
-            let error = match operation {
-                '×' => error,
-                _ => self.scalar.rounded(exact.magnitude(), error),
+            let rounded = match operation {
+                '×' => 0.0,
+                _ => self.scalar.rounding(exact.magnitude() + error),
             };
-            given.values.push(Value { exact, error });
+            given.values.push(Value {
+                exact,
+                error: self.scalar.sum(exact.magnitude(), error, rounded),
+                rounded,
+            });
         }
         let outputs = self.function.program.outputs.iter();
         let result = |(negative, own): &(bool, Operand<f64>)| {
-            let own = self.operand(own, &given);
-            let exact = if *negative { -own.exact } else { own.exact };
-            Value { exact, ..own }
+            let value = self.operand(own, &given);
+            let exact = if *negative { -value.exact } else { value.exact };
+            let error = match own {
+                Operand::Step(step) if value.error.is_finite() => {
+                    value.error.min(self.by_derivatives(*step, &given))
+                }
+                _ => value.error,
+            };
+            Value {
+                exact,
+                error,
+                ..value
+            }
         };
-        outputs.map(result).collect()
+        let results = outputs.map(result).collect();
+        Bounds {
+            steps: given.values,
+            results,
+        }
+    }
+
+    /// Bounds the error of a step by the mean value theorem: each rounding times the largest
+    /// derivative by it, whatever the others are.
+    fn by_derivatives(&self, top: usize, given: &Given) -> f64 {
+        let zero = Interval::point(0.0);
+        let mut slopes = vec![zero; top + 1];
+        slopes[top] = Interval::point(1.0);
+        let mut leaves: Vec<(&Operand<f64>, Interval)> = Vec::new();
+        let mut sum = 0.0;
+        for step in (0..=top).rev() {
+            let slope = slopes[step];
+            if slope == zero {
+                continue;
+            }
+            sum += slope.magnitude() * given.values[step].rounded;
+            let (operation, operands) = &self.function.program.steps[step];
+            let [a, b] = operands
+                .each_ref()
+                .map(|own| self.operand(own, given).all());
+            let parts = match operation {
+                '+' => [slope, slope],
+                '-' => [slope, -slope],
+                '/' => return f64::INFINITY,
+                _ => [slope * b, slope * a],
+            };
+            for (own, part) in operands.iter().zip(parts) {
+                match own {
+                    Operand::Step(step) => slopes[*step] = slopes[*step] + part,
+                    Operand::Constant(_) => {
+                        sum += part.magnitude() * self.operand(own, given).error;
+                    }
+                    // All places where a sine is read have the same error.
+                    own => match leaves.iter_mut().find(|(other, _)| *other == own) {
+                        Some((_, slope)) => *slope = *slope + part,
+                        None => leaves.push((own, part)),
+                    },
+                }
+            }
+        }
+        for (own, slope) in leaves {
+            let error = self.operand(own, given).error;
+            // Nothing times what is not known is nothing.
+            sum += if error == 0.0 {
+                0.0
+            } else {
+                slope.magnitude() * error
+            };
+        }
+        let sum = sum * SLACK;
+        if sum.is_nan() { f64::INFINITY } else { sum }
     }
 
     fn operand(&self, own: &Operand<f64>, given: &Given) -> Value {
         let known = match own {
             Operand::Step(step) => given.values.get(*step).copied(),
             Operand::Constant(literal) if *literal == 0.0 => {
-                Some(Value::exact(Interval::point(0.0)))
+                Some(Value::new(Interval::point(0.0), 0.0))
             }
             Operand::Constant(literal) => {
                 let error = self.scalar.rounded(literal.abs(), 0.0);
                 let exact = Interval::around(*literal, error);
-                Some(Value { exact, error })
+                Some(Value::new(exact, error))
             }
             Operand::Entry(place, index) => {
                 let load = self
@@ -120,7 +207,7 @@ impl<'f> Rounding<'f> {
                     .get(*index)
                     .filter(|_| argument("load") == Some(*place));
                 let error = load.map_or(0.0, |own| own.error);
-                entry(given.ranges, *place, *index).map(|exact| Value { exact, error })
+                entry(given.ranges, *place, *index).map(|exact| Value::new(exact, error))
             }
             Operand::Sine(joint, is_sine) => {
                 let own = given.sines.get(*joint);
@@ -128,10 +215,7 @@ impl<'f> Rounding<'f> {
             }
             Operand::Speed(joint) => self.speed(*joint, given.ranges),
         };
-        known.unwrap_or(Value {
-            exact: Interval::NOTHING_KNOWN,
-            error: f64::INFINITY,
-        })
+        known.unwrap_or(Value::new(Interval::NOTHING_KNOWN, f64::INFINITY))
     }
 
     fn sine(&self, joint: usize, ranges: &Ranges, is_sine: bool, is_exact: bool) -> Value {
@@ -139,12 +223,9 @@ impl<'f> Rounding<'f> {
         let exact = angle.sine(is_sine);
         match self.polynomial(joint, is_sine) {
             // The library's is within an ulp of at most one.
-            None => Value {
-                exact,
-                error: 2.0 * self.scalar.unit,
-            },
-            Some(error) if is_exact => Value { exact, error },
-            Some(error) => Value::exact(exact + Interval::around(0.0, error)),
+            None => Value::new(exact, 2.0 * self.scalar.unit),
+            Some(error) if is_exact => Value::new(exact, error),
+            Some(error) => Value::new(exact + Interval::around(0.0, error), 0.0),
         }
     }
 
@@ -157,7 +238,7 @@ impl<'f> Rounding<'f> {
         let slack = 1.0 + 8.0 * self.scalar.unit;
         let exact = Interval::new(per(rate.magnitude()) / slack, per(rate.least()) * slack);
         let error = 5.0 * self.scalar.unit * exact.high;
-        Some(Value { exact, error })
+        Some(Value::new(exact, error))
     }
 
     /// |c x ± s y| is at most √(x² + y²), c and s being of one angle.

@@ -25,13 +25,29 @@ impl Scalar {
         Scalar { unit, least, most }
     }
 
-    pub fn rounded(self, size: f64, inherited: f64) -> f64 {
-        let error = inherited + self.unit * (size + inherited) + self.least;
+    /// Bounds one rounding of a number of at most this size.
+    pub fn rounding(self, size: f64) -> f64 {
+        (self.unit * size + self.least) * SLACK
+    }
+
+    /// Adds what was inherited to one rounding; infinite where the number may overflow.
+    pub fn sum(self, size: f64, inherited: f64, rounding: f64) -> f64 {
+        let error = inherited + rounding;
         match (size + error) * SLACK < self.most {
             true => error * SLACK,
             false => f64::INFINITY,
         }
     }
+
+    /// Bounds the error of a number that is rounded once more.
+    pub fn rounded(self, size: f64, inherited: f64) -> f64 {
+        self.sum(size, inherited, self.rounding(size + inherited))
+    }
+}
+
+/// About how many nanoseconds the bound for a sine or a cosine takes.
+pub fn work(polynomials: &Program<f64>) -> u64 {
+    40 * CELLS as u64 * (1 + polynomials.steps.len() as u64)
 }
 
 /// Bounds f, the polynomials of an angle in real numbers less its sine or cosine: the value at the

@@ -12,11 +12,12 @@ use crate::identity::setting::Setting;
 use crate::identity::table::{Field, Function};
 use crate::interval::FARTHEST;
 use crate::maximum;
-use crate::polynomial::{SLACK, Work};
+use crate::polynomial::SLACK;
 use crate::program::{ARGUMENTS, Operand, Program};
 use crate::read;
 use crate::ring::Ring;
 use crate::rounding::{Ranges, Rounding};
+use crate::work::Work;
 use crate::written::{at, written};
 
 /// The share by which a box may be another than the file's: decimals were rounded to doubles.
@@ -80,6 +81,7 @@ pub(crate) struct Subject<'s> {
     pub(crate) own: &'s Tolerated,
     /// The tolerance of each joint, relative to T.
     pub(crate) tolerance: &'s [f64],
+    pub(crate) work: &'s Work,
 }
 
 /// A result: its field and its joints, of a torque its own, of an entry of D two.
@@ -109,15 +111,16 @@ impl Subject<'_> {
             return Err(Fault::Work);
         }
         let most = self.attainable(&fields, file)?;
-        let work = &mut Work::default();
+        let work = self.work;
         let ring = Ring::new(self.setting, ranges, work)?;
         let rounding = Rounding::new(self.read, self.is_single, ranges);
         let (mut sizes, emitted) = written(self.emitted, &ring, Some(&rounding), work)?;
         let (_, exact) = written(self.exact, &ring, None, work)?;
         sizes.iter_mut().for_each(|size| *size *= SLACK);
-        let rounding = rounding.bounds(ranges, Some(&sizes));
+        let rounding = rounding.bounds(ranges, Some(&sizes)).results;
         let largest = own.scales.iter().copied().fold(0.0, f64::max);
-        let (mut found, mut left) = (Vec::new(), maximum::MOST_STEPS);
+        let (mut found, mut left) = (Vec::new(), maximum::MOST_STEPS.min(work.left()));
+        let before = left;
         for (k, (_, joints)) in fields.into_iter().enumerate() {
             let scale = own.scales[k];
             let rounding = match self.is_literal(k) {
@@ -149,6 +152,7 @@ impl Subject<'_> {
                 tolerated,
             });
         }
+        work.spend((before - left) as usize, 1)?;
         self.tried(&found, ranges)?;
         Ok(found)
     }

@@ -3,10 +3,11 @@
 use crate::fault::Fault;
 use crate::identity::exact::Exact;
 use crate::interval::Interval;
-use crate::polynomial::{Polynomial, Variable, Work};
+use crate::polynomial::{Polynomial, Variable};
 use crate::program::{Operand, Program};
 use crate::ring::Ring;
 use crate::rounding::Rounding;
+use crate::work::Work;
 
 pub(crate) fn at(program: &Program<Exact>, given: &[Vec<f64>]) -> Option<Vec<Interval>> {
     let leaf = |own: &Operand<Exact>| match own {
@@ -35,7 +36,7 @@ pub(crate) fn written(
     program: &Program<Exact>,
     ring: &Ring,
     sines: Option<&Rounding>,
-    work: &mut Work,
+    work: &Work,
 ) -> Result<(Vec<f64>, Vec<Polynomial>), Fault> {
     let counted = uses(program);
     let mut own = Values {

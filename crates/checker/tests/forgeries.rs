@@ -3,7 +3,7 @@
 use dalembert_checker::certify::certify;
 use dalembert_checker::file;
 
-use crate::support::{self, honest};
+use crate::support::{self, honest, in_scene};
 
 fn generated(functions: &str) -> String {
     format!(
@@ -17,8 +17,8 @@ const EVIL: &str = "#[must_use]\npub fn inverse_dynamics(_q: &[f64; 2], _qd: &[f
 
 fn is_shown(source: &str) -> bool {
     let [_, claim, robot] = honest();
-    let report = certify(source, &claim, &robot, Some("pick"), None);
-    report.is_ok_and(|report| report.is_shown())
+    let report = certify(source, &claim, &robot, &in_scene("pick"));
+    report.is_ok_and(|report| report.passes(true))
 }
 
 /// The file is what rustc reads, and the function that it would call is the one compared.

@@ -5,7 +5,7 @@ use dalembert_checker::identity::arm::Arm;
 use dalembert_checker::identity::exact::{Exact, Point};
 use dalembert_checker::identity::state::State;
 use dalembert_checker::identity::table::Function;
-use dalembert_checker::identity::{Base, Combination, Statement, aligned, check, robot};
+use dalembert_checker::identity::{Base, Combination, Points, Statement, aligned, check, robot};
 use dalembert_checker::program::{Operand, Program, argument};
 
 use crate::support::{changed, file};
@@ -86,7 +86,7 @@ fn refused(
         },
         load: None,
     };
-    check(statement, &["no program"]).unwrap_err()
+    check(statement, &mut Points::new(&["no program"])).unwrap_err()
 }
 
 /// Each of these is refused, and none is a panic.

@@ -2,7 +2,8 @@
 
 use dalembert_checker::identity::number::Draws;
 use dalembert_checker::interval::{Interval, SINE_ERROR, sin_cos};
-use dalembert_checker::polynomial::{Polynomial, Variable, Work, exponent};
+use dalembert_checker::polynomial::{Polynomial, Variable, exponent};
+use dalembert_checker::work::Work;
 use num_rational::BigRational;
 
 fn exact(value: f64) -> BigRational {
@@ -70,7 +71,7 @@ fn products_of_polynomials_are_within_their_rest() {
         let rate = Polynomial::variable(Variable::Velocity, 1, six[1]);
         let one = cos.plus(&Polynomial::constant(six[2], 0.0)).plus(&rate);
         let other = rate.plus(&Polynomial::variable(Variable::Cos, 0, six[3]));
-        let product = one.times(&other, &mut Work::default()).unwrap();
+        let product = one.times(&other, &Work::default()).unwrap();
         let (c, v) = (exact(six[4] % 1.0), exact(six[5] % 1.0));
         let at = |p: &Polynomial| {
             let term = |&(key, coefficient): &(u128, f64)| {
@@ -90,7 +91,7 @@ fn products_of_polynomials_are_within_their_rest() {
 #[test]
 fn the_square_of_a_sine_is_one_less_that_of_the_cosine() {
     let [sin, cos] = [Variable::Sin, Variable::Cos].map(|v| Polynomial::variable(v, 3, 1.0));
-    let work = &mut Work::default();
+    let work = &Work::default();
     let sum = sin
         .times(&sin, work)
         .unwrap()
@@ -101,11 +102,11 @@ fn the_square_of_a_sine_is_one_less_that_of_the_cosine() {
 #[test]
 fn powers_that_there_is_no_room_for_are_refused() {
     let rate = Polynomial::variable(Variable::Acceleration, 8, 1.0);
-    assert!(rate.times(&rate, &mut Work::default()).is_err());
+    assert!(rate.times(&rate, &Work::default()).is_err());
     let mut power = Polynomial::variable(Variable::Cos, 8, 1.0);
     let cos = power.clone();
     let mut steps = 1;
-    while let Ok(next) = power.times(&cos, &mut Work::default()) {
+    while let Ok(next) = power.times(&cos, &Work::default()) {
         (power, steps) = (next, steps + 1);
     }
     assert_eq!(steps, 7);

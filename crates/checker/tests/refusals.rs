@@ -1,8 +1,8 @@
 //! Robot files and tolerances that are refused, by name.
 
-use dalembert_checker::certify::certify;
+use dalembert_checker::certify::{Demand, certify};
 
-use crate::support::{changed, file};
+use crate::support::{changed, file, in_scene};
 
 const ROBOTS: &str = r#"
 mass = 1 | &; springs = {} | unknown field `springs`
@@ -30,12 +30,12 @@ fn robot_files_that_are_none() {
     let claim = r#"{ "claim": 1, "constants": [], "functions": [] }"#;
     let text = file("crates/checker/tests/data/attacks/C.rs");
     for (robot, words) in changed(&source, ROBOTS) {
-        let fault = certify(&text, claim, &robot, Some("pick"), None);
+        let fault = certify(&text, claim, &robot, &in_scene("pick"));
         let why = fault.unwrap_err().to_string();
         assert!(why.contains(words), "{words}: {why}");
     }
     let long = format!("{source}#{}", "#".repeat(1 << 18));
-    assert!(certify(&text, claim, &long, None, None).is_err());
+    assert!(certify(&text, claim, &long, &Demand::default()).is_err());
     let deep = format!("a{} = 1", ".a".repeat(50_000));
-    assert!(certify(&text, claim, &deep, None, None).is_err());
+    assert!(certify(&text, claim, &deep, &Demand::default()).is_err());
 }

@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use dalembert_checker::certify::Demand;
+
 pub fn file(path: &str) -> String {
     let path = format!("{}/../../{path}", env!("CARGO_MANIFEST_DIR"));
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
@@ -17,6 +19,14 @@ pub fn honest() -> [String; 3] {
     assert!(text.contains(planted[0]) && claim.contains(planted[1]));
     let text = text.replace(planted[0], "0.0");
     [text, claim.replace(planted[1], "0"), robot]
+}
+
+/// What a user asks for who names a scene.
+pub fn in_scene(scene: &str) -> Demand<'_> {
+    Demand {
+        scene: Some(scene),
+        ..Demand::default()
+    }
 }
 
 /// A line of a table has words of the text, those in their place, and what is expected; `&` stands

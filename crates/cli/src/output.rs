@@ -7,7 +7,7 @@ use dalembert_codegen::workspace::plan_file;
 
 use crate::files::{self, Target};
 use crate::report::Report;
-use crate::terminal::{note, print};
+use crate::terminal::{escaped, note, print};
 
 pub use crate::context::Context;
 pub use crate::failure::Failure;
@@ -51,11 +51,11 @@ impl Context {
         if denied.is_ok() {
             files::write(&done.files)?;
         }
-        let text = match self.json {
+        let text = escaped(&match self.json {
             // This cannot fail: all keys of reports are strings.
             true => serde_json::to_string_pretty(&done.report).unwrap_or_default() + "\n",
             false => done.report.to_string(),
-        };
+        });
         match done.is_aside && !self.json {
             _ if denied.is_err() && !self.json => {}
             _ if text.is_empty() => {}

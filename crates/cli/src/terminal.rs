@@ -77,6 +77,18 @@ const COLOURS: [(&str, &str); 6] = [
     (" --> ", "1;34"),
 ];
 
+/// Writes control characters out, which would move the cursor of whoever reads a file's words.
+pub fn escaped(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c.is_control() && !['\n', '\t'].contains(&c) {
+            true => plain += &format!("\\u{:04x}", u32::from(c)),
+            false => plain.push(c),
+        }
+    }
+    plain
+}
+
 /// Prints lines on standard error: in colour on a terminal, unless the environment says otherwise
 /// (`NO_COLOR`, `CLICOLOR_FORCE`).
 pub fn note(text: &str) {
@@ -87,9 +99,21 @@ pub fn note(text: &str) {
         }
         _ => line.to_owned(),
     };
-    let lines: Vec<String> = text.trim_end().split('\n').map(coloured).collect();
+    let text = escaped(text.trim_end());
+    let lines: Vec<String> = text.split('\n').map(coloured).collect();
     bar().suspend(|| {
         // No stream is left on which to report an error.
         let _ = writeln!(io::stderr().lock(), "{}", lines.join("\n"));
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_of_a_file_move_no_cursor() {
+        let text = "line 2: `\u{1b}[2J\r\u{9b}8m`\n\tτ";
+        assert_eq!(escaped(text), "line 2: `\\u001b[2J\\u000d\\u009b8m`\n\tτ");
+    }
 }

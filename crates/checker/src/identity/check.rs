@@ -11,7 +11,11 @@ use super::state::State;
 use super::table::Function;
 use crate::program::{Program, argument};
 
-const POINTS: usize = 12;
+/// A wrong program passes with a probability below 2 to the power of minus this.
+const CERTAINTY: u32 = 144;
+/// A wrong difference of a degree d passes a point with a probability below d times 2 to the power
+/// of minus this: `mod.rs`.
+const POINT: u32 = 42;
 /// The largest degree of a difference.
 const MOST_DEGREE: f64 = (1u64 << 30) as f64;
 
@@ -42,12 +46,39 @@ pub struct Statement<'s> {
     pub load: Option<&'s Program<Exact>>,
 }
 
-/// Checks a function's program against a robot; the points are drawn from these texts, which have
-/// all that is claimed.
+/// Points of prime fields that follow from texts which have all that is claimed.
+pub struct Points {
+    draws: Draws,
+    all: Vec<Point>,
+}
+
+impl Points {
+    /// Returns the points of texts.
+    pub fn new(texts: &[&str]) -> Points {
+        Points {
+            draws: Draws::new(texts),
+            all: Vec::new(),
+        }
+    }
+
+    /// Returns three of them.
+    pub(crate) fn three(&mut self) -> Option<&[Point; 3]> {
+        self.first(3).first_chunk()
+    }
+
+    fn first(&mut self, count: usize) -> &[Point] {
+        while self.all.len() < count {
+            self.all.push(Point::draw(&mut self.draws));
+        }
+        &self.all[..count]
+    }
+}
+
+/// Checks a function's program against a robot, at so many of the points as its degree asks for.
 ///
 /// # Errors
 /// The first result that differs, by its number.
-pub fn check(own: Statement, texts: &[&str]) -> Result<(), String> {
+pub fn check(own: Statement, points: &mut Points) -> Result<(), String> {
     // Own formulas are quotients of polynomials of a degree below 200 n²: D's entries are of 4 n,
     // its determinant of 4 n², and what is derived twice or inverted twice of a small multiple of
     // that. What follows a joint several times as far is of as many times its degree.
@@ -59,11 +90,9 @@ pub fn check(own: Statement, texts: &[&str]) -> Result<(), String> {
     if !(degree <= MOST_DEGREE) {
         return Err("the degree is too large for a few points to decide".into());
     }
-    let mut draws = Draws::new(&[texts, &[&own.function.name]].concat());
-    for _ in 0..POINTS {
-        at_point(own, &Point::draw(&mut draws))?;
-    }
-    Ok(())
+    let bits = (degree.ceil() as u64).next_power_of_two().trailing_zeros();
+    let points = points.first(CERTAINTY.div_ceil(POINT - bits) as usize);
+    points.iter().try_for_each(|point| at_point(own, point))
 }
 
 fn at_point(own: Statement, point: &Point) -> Result<(), String> {

@@ -2,16 +2,19 @@
 //! in `-73/500+169/1000*cos(3/10)`; their residues, and the float that is nearest.
 
 use std::cell::RefCell;
+use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 
 use num_bigint::BigInt;
 use num_rational::BigRational as Rational;
+use num_traits::float::FloatCore;
 use num_traits::{Euclid, One, Pow, Signed, ToPrimitive, Zero};
 
 use super::number::{Draws, Number};
 
-const MOST_DIGITS: usize = 1 << 12;
+/// The most digits of a number.
+const MOST_DIGITS: usize = 400;
 const MOST_BYTES: usize = 1 << 15;
 const MOST_FACTORS: u32 = 1 << 6;
 /// Bits behind the point where sines are rounded, and where products with them are.
@@ -43,7 +46,7 @@ fn decimal(text: &str) -> Option<Rational> {
     let bare = plain.strip_prefix(['-', '+']).unwrap_or(&plain);
     (!bare.is_empty() && bare.chars().all(is_digit)).then_some(())?;
     let places = exponent.parse::<i64>().ok()? - behind.len() as i64;
-    (places.abs() < 1000).then_some(())?;
+    (places.unsigned_abs() < MOST_DIGITS as u64).then_some(())?;
     let ten = Rational::from_integer(10.into());
     Some(Rational::from_integer(plain.parse().ok()?) * Pow::pow(ten, places as i32))
 }
@@ -140,8 +143,33 @@ pub struct Exact(Arc<Sum>);
 #[derive(Debug)]
 struct Sum {
     terms: Vec<Term>,
-    rounded: OnceLock<Option<[Rational; 2]>>,
+    rounded: OnceLock<Option<Rounded>>,
     double: OnceLock<Option<[f64; 2]>>,
+}
+
+/// over/under, and the constant is at most slack/under from it. Nothing is reduced to lowest terms.
+#[derive(Debug)]
+pub struct Rounded {
+    over: BigInt,
+    slack: BigInt,
+    under: BigInt,
+}
+
+/// A double as m·2^e.
+fn parts(value: f64) -> (BigInt, i64) {
+    let (mantissa, exponent, sign) = value.integer_decode();
+    (BigInt::from(mantissa) * sign, i64::from(exponent))
+}
+
+impl Rounded {
+    /// Compares (over + slack·sign)/under times two with the sum of two doubles.
+    fn twice_against(&self, sign: i32, [a, b]: [f64; 2]) -> Ordering {
+        let [(a, i), (b, k)] = [a, b].map(parts);
+        let least = i.min(k).min(0);
+        let sum = (a << (i - least)) + (b << (k - least));
+        let own: BigInt = ((&self.over + &self.slack * sign) * 2) << -least;
+        own.cmp(&(sum * &self.under))
+    }
 }
 
 impl PartialEq for Exact {
@@ -194,6 +222,14 @@ impl Exact {
         terms.map(Exact::new)
     }
 
+    /// Returns the number of factors of its terms.
+    pub(crate) fn factors(&self) -> usize {
+        let terms = self.0.terms.iter();
+        let factors =
+            |(_, own): &Term| -> u32 { own.iter().map(|(_, powers)| powers[0] + powers[1]).sum() };
+        terms.map(|term| 1 + factors(term) as usize).sum()
+    }
+
     /// Returns a constant without angles.
     pub fn fraction(&self) -> Option<&Rational> {
         match self.0.terms.as_slice() {
@@ -202,9 +238,9 @@ impl Exact {
         }
     }
 
-    /// Returns a fraction, and how far the constant is from it at most, by the sines that are
-    /// known, to which it adds its own; none if an angle is too far.
-    pub fn settle(&self, known: &mut Sines) -> Option<&[Rational; 2]> {
+    /// Rounds the constant once, by the sines that are known, to which it adds more; none if an
+    /// angle is too far.
+    pub fn settle(&self, known: &mut Sines) -> Option<&Rounded> {
         let rounded = &self.0.rounded;
         rounded.get_or_init(|| self.rounded(known)).as_ref()
     }
@@ -212,21 +248,32 @@ impl Exact {
     /// Returns a double, and how far the constant is from it at most; none if an angle is too far.
     pub fn double(&self) -> Option<[f64; 2]> {
         *self.0.double.get_or_init(|| {
-            let [sum, slack] = self.settle(&mut Sines::new())?;
-            let value = sum.to_f64().filter(|value| value.is_finite())?;
-            let off = (sum - Rational::from_float(value)?).abs() + slack;
-            let radius = if off.is_zero() {
-                0.0
-            } else {
-                off.to_f64()?.next_up()
+            let Rounded { over, slack, under } = self.settle(&mut Sines::new())?;
+            let near = |over: BigInt, under: BigInt| Rational::new_raw(over, under).to_f64();
+            let value = near(over.clone(), under.clone()).filter(|own| own.is_finite())?;
+            let (m, e) = parts(value);
+            let (up, down) = (e.max(0), (-e).max(0));
+            let off = ((over << down) - ((m * under) << up)).abs() + (slack << down);
+            let radius = match off.is_zero() {
+                true => 0.0,
+                false => near(off, under << down)?.next_up(),
             };
             Some([value, radius])
         })
     }
 
-    fn rounded(&self, known: &mut Sines) -> Option<[Rational; 2]> {
+    /// Returns true if it is this object, and not another one of the same value.
+    pub(crate) fn address(&self) -> usize {
+        Arc::as_ptr(&self.0) as usize
+    }
+
+    fn rounded(&self, known: &mut Sines) -> Option<Rounded> {
         if let Some(own) = self.fraction() {
-            return Some([own.clone(), Rational::zero()]);
+            return Some(Rounded {
+                over: own.numer().clone(),
+                slack: BigInt::zero(),
+                under: own.denom().clone(),
+            });
         }
         let (mut sum, mut slack) = (BigInt::zero(), BigInt::one());
         for (factor, powers) in &self.0.terms {
@@ -244,18 +291,23 @@ impl Exact {
             slack += (factor.abs() >> 280u32) + 128;
             sum += product;
         }
-        Some([sum, slack].map(|scaled| Rational::new(scaled, BigInt::one() << PLACES)))
+        Some(Rounded {
+            over: sum,
+            slack,
+            under: BigInt::one() << PLACES,
+        })
     }
 
     /// Compares a literal with the nearest float; between two as near, the even one counts.
     pub fn is_nearest(&self, literal: f64, is_single: bool) -> bool {
-        let Some([sum, slack]) = self.settle(&mut Sines::new()) else {
+        let Some(rounded) = self.settle(&mut Sines::new()) else {
             return false;
         };
+        let is_exact = rounded.slack.is_zero();
         // Printed code has no zero with a sign. A number that is not zero does not vanish: others
         // could be as large as it is small.
         if literal == 0.0 {
-            return literal.is_sign_positive() && sum.is_zero() && slack.is_zero();
+            return literal.is_sign_positive() && is_exact && rounded.over.is_zero();
         }
         let own = literal as f32;
         if is_single && f64::from(own) != literal {
@@ -269,17 +321,16 @@ impl Exact {
             ),
             false => (literal.next_down(), literal.next_up(), literal.to_bits()),
         };
-        let [Some(own), Some(below), Some(above)] =
-            [literal, below, above].map(Rational::from_float)
-        else {
+        if ![literal, below, above].iter().all(|own| own.is_finite()) {
             return false;
+        }
+        let is_tie = bits.is_multiple_of(2) && is_exact;
+        let low = rounded.twice_against(-1, [literal, below]);
+        let high = rounded.twice_against(1, [literal, above]);
+        let fits = |found: Ordering, wanted: Ordering| {
+            found == wanted || is_tie && found == Ordering::Equal
         };
-        let twice = |x: &Rational| x + x;
-        let low = twice(&(sum - slack)) - (&own + below);
-        let high = (own + above) - twice(&(sum + slack));
-        let is_tie = bits.is_multiple_of(2) && slack.is_zero();
-        let fits = |room: Rational| room.is_positive() || is_tie && room.is_zero();
-        fits(low) && fits(high)
+        fits(low, Ordering::Greater) && fits(high, Ordering::Less)
     }
 }
 

@@ -4,10 +4,10 @@
 //! A difference is N/M with polynomials N and M in the inputs. N does not vanish at a random point
 //! of a field of more than 2⁶¹ residues but with probability at most its degree over 2⁶¹, unless
 //! the prime divides all its coefficients, and few primes divide a number. Each point has a prime
-//! of its own. Constants count in the degree, which is below 2³⁰: so coefficients have at most 2⁴⁸
-//! bits, and of the 2⁵⁵ primes of 62 bits at most 2⁴³ divide all of them. A wrong program passes
-//! one point with a probability of at most 2⁻¹² even at these limits, and all twelve with at most
-//! 2⁻¹⁴⁴.
+//! of its own. Constants count in the degree d, which is at most 2³⁰: so coefficients have at most
+//! d·2¹⁸ bits, and of the 2⁵⁵ primes of 62 bits at most d·2¹³ divide all of them. A wrong program
+//! passes one point with a probability of at most d·2⁻⁴², and there are so many points that it
+//! passes all of them with at most 2⁻¹⁴⁴: six for a degree of 2¹⁷, twelve for 2³⁰.
 //!
 //! - `check`: the comparison, [`check`]; `residues`: the values of a program, and its degree
 //! - [`number`]: residues with slopes, and draws from a hash; [`exact`]: constants and angles
@@ -23,11 +23,11 @@ pub mod exact;
 mod matrix;
 pub mod number;
 pub mod outputs;
-mod residues;
+pub(crate) mod residues;
 pub mod robot;
 mod screw;
 pub mod setting;
 pub mod state;
 pub mod table;
 
-pub use self::check::{Base, Combination, Statement, check};
+pub use self::check::{Base, Combination, Points, Statement, check};

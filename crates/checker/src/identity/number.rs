@@ -172,6 +172,8 @@ impl Div for Number {
 pub struct Draws {
     seed: [u8; 32],
     count: u64,
+    /// The words of the last hash that are not taken yet.
+    words: Vec<u64>,
 }
 
 impl Draws {
@@ -185,6 +187,7 @@ impl Draws {
         Draws {
             seed: hash.finalize(),
             count: 0,
+            words: Vec::new(),
         }
     }
 
@@ -196,7 +199,11 @@ impl Draws {
     /// Returns draws that are independent of all others of these.
     pub fn split(&mut self) -> Draws {
         let seed = self.next_hash();
-        Draws { seed, count: 0 }
+        Draws {
+            seed,
+            count: 0,
+            words: Vec::new(),
+        }
     }
 
     fn next_hash(&mut self) -> [u8; 32] {
@@ -205,8 +212,12 @@ impl Draws {
     }
 
     fn next(&mut self) -> u64 {
-        let hash = self.next_hash();
-        u64::from_be_bytes(from_fn(|k| hash[k]))
+        if self.words.is_empty() {
+            let hash = self.next_hash();
+            let word = |place: usize| u64::from_be_bytes(from_fn(|k| hash[8 * place + k]));
+            self.words.extend((0..4).map(word));
+        }
+        self.words.pop().unwrap_or_default()
     }
 
     /// Returns the next number from zero to one.

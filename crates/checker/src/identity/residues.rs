@@ -5,23 +5,35 @@ use super::number::Number;
 use super::state::State;
 use crate::program::{Operand, Program};
 
+/// Returns the residue of an operand that is not a step.
+pub(crate) fn leaf(own: &Operand<Exact>, point: &Point, state: &State) -> Option<Number> {
+    match own {
+        Operand::Constant(constant) => Some(point.constant(constant)),
+        Operand::Entry(argument, index) => state.given.get(*argument)?.get(*index).copied(),
+        Operand::Sine(joint, is_sine) => Some(state.pairs.get(*joint)?[usize::from(!is_sine)]),
+        Operand::Speed(joint) => state.speeds.get(*joint).copied(),
+        Operand::Step(_) => None,
+    }
+}
+
+fn apply(operation: char, a: Number, b: Number) -> Number {
+    match operation {
+        '+' => a + b,
+        '-' => a - b,
+        '*' | '×' => a * b,
+        _ => a / b,
+    }
+}
+
 impl Program<Exact> {
     /// Returns its results at a point.
     pub fn residues(&self, point: &Point, state: &State) -> Option<Vec<Number>> {
-        let leaf = |own: &Operand<Exact>| match own {
-            Operand::Constant(constant) => Some(point.constant(constant)),
-            Operand::Entry(argument, index) => state.given.get(*argument)?.get(*index).copied(),
-            Operand::Sine(joint, is_sine) => Some(state.pairs.get(*joint)?[usize::from(!is_sine)]),
-            Operand::Speed(joint) => state.speeds.get(*joint).copied(),
-            Operand::Step(_) => None,
-        };
-        let apply = |operation: char, a: Number, b: Number| match operation {
-            '+' => a + b,
-            '-' => a - b,
-            '*' | '×' => a * b,
-            _ => a / b,
-        };
-        self.run(leaf, apply, |own: Number| -own)
+        self.run(|own| leaf(own, point, state), apply, |own: Number| -own)
+    }
+
+    /// Returns the residues of its steps.
+    pub(crate) fn step_residues(&self, point: &Point, state: &State) -> Option<Vec<Number>> {
+        self.values(|own| leaf(own, point, state), apply)
     }
 
     /// Returns at least the degrees of numerator and denominator of its results, in inputs, sines
@@ -31,6 +43,14 @@ impl Program<Exact> {
     /// it: a list of degrees. Multiplied by each divisor as often as it occurs, the last first, it
     /// has none.
     pub fn degree(&self) -> f64 {
+        if !self.steps.iter().any(|step| step.0 == '/') {
+            let apply = |operation: char, a: f64, b: f64| match operation {
+                '+' | '-' => a.max(b),
+                _ => a + b,
+            };
+            let all = self.run(|_| Some(1.0), apply, |own| own);
+            return all.unwrap_or_default().into_iter().fold(0.0, f64::max);
+        }
         let mut divisors = Vec::<Vec<f64>>::new();
         let zip = |a: Vec<f64>, b: Vec<f64>, pick: fn(f64, f64) -> f64| {
             let at = |list: &[f64], k: usize| list.get(k).copied().unwrap_or(0.0);

@@ -139,6 +139,14 @@ impl Field {
         Some(self)
     }
 
+    /// Returns true if it is by the inverse of a matrix: of others, no state is without.
+    pub(crate) fn divides(&self) -> bool {
+        const INVERSES: &str = "qdd d_inv dqdd_dq dqdd_dqd qdd_wrench contact_wrench mobility \
+            operational_inertia consistent_inverse operational_bias null_space d2qdd_dq_dq \
+            d2qdd_dq_dqd d2qdd_dqd_dqd d2qdd_dtau_dq";
+        INVERSES.split_whitespace().any(|word| word == self.is)
+    }
+
     /// A torque of each joint, D of each two, or a coefficient of each three.
     pub(crate) fn is_measured(&self) -> bool {
         let known = "tau c h h_rot h_tran d d_rot d_tran symbols";
@@ -246,15 +254,6 @@ impl Function {
                 fields,
             }),
         }
-    }
-
-    /// Returns true if a result of it is by the inverse of a matrix: of others, no state is without.
-    pub(crate) fn divides(&self) -> bool {
-        const INVERSES: &str = "qdd d_inv dqdd_dq dqdd_dqd qdd_wrench contact_wrench mobility \
-            operational_inertia consistent_inverse operational_bias null_space d2qdd_dq_dq \
-            d2qdd_dq_dqd d2qdd_dqd_dqd d2qdd_dtau_dq";
-        let mut fields = self.fields.iter();
-        fields.any(|own| INVERSES.split_whitespace().any(|word| word == own.is))
     }
 
     /// Returns the name of the constant that has the values of its base parameters, if it is over

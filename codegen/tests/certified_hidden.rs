@@ -1,0 +1,149 @@
+//! Numbers that hide where nobody looks: in real numbers they cancel, and floats lose what they are
+//! added to. None of these is shown. What divides may be measured at the most.
+
+use serde_json::{Value, json};
+
+use crate::certified::Certified;
+
+/// Numbers that are large at few states, or at none that is drawn: steps of a claim, in which `u1` is
+/// the first of these steps, and `{3/5}` a constant.
+const NUMBERS: [&str; 9] = [
+    // cos^2¹⁴ q1, 2²⁰⁰ at rest.
+    "c1*c1 SQUARED13 uN*{1606938044258990275541962092341162602522202993782792835301376}",
+    // The same around another angle than one of the special ones.
+    "c1*{3/5} s1*{4/5} u1+u2 SQUARED14 uN*{1606938044258990275541962092341162602522202993782792835301376}",
+    "c1*c2 SQUARED13 uN*{1606938044258990275541962092341162602522202993782792835301376}",
+    // A comb of cos 2⁸ q1.
+    "c1*c1 u1+u1 u2-{1} DOUBLED7 uN*uN SQUARED12 uN*{1e50}",
+    "s2*{5/13} c2*{12/13} u1-u2 SQUARED4 DOUBLED6 uN*uN SQUARED12 uN*{1e60}",
+    // A step of 1e20 everywhere.
+    "c1*{1e20}",
+    // Quotients.
+    "{1}-c1 u1+{1e-30} c2/u2",
+    "c1*c1 u1+{1e-40} s1*s1 u3/u2",
+    "{1}/s1 uN*{1e9}",
+];
+
+/// Ways to add a number to a value `x` and to take it away again.
+const WAYS: [&str; 6] = [
+    "x+uN uN-uM",
+    "x-uN uN+uM",
+    "uN+uN x+uN uM+uM uL-uN",
+    "x*uN uN/uM",
+    "uN/uN x*uN",
+    "uN-uN x+uN",
+];
+
+/// Numbers steps: `uN` is the last one before, `uM` the last of the number, `uL` the
+/// one before `uN`.
+fn spelled(number: &str, way: &str) -> Vec<String> {
+    let mut steps: Vec<String> = Vec::new();
+    let push = |word: &str, base: usize, steps: &mut Vec<String>| {
+        let last = steps.len();
+        let named = [("uN", last), ("uM", base), ("uL", last.saturating_sub(1))];
+        let named = named.map(|(name, step)| (name, format!("u{step}")));
+        let word = named.iter().fold(word.to_owned(), |word, (name, step)| {
+            word.replace(name, step)
+        });
+        steps.push(word);
+    };
+    for word in number.split(' ') {
+        if let Some(times) = word.strip_prefix("SQUARED") {
+            for _ in 0..times.parse().unwrap() {
+                push("uN*uN", 0, &mut steps);
+            }
+        } else if let Some(times) = word.strip_prefix("DOUBLED") {
+            for _ in 0..times.parse().unwrap() {
+                for word in ["uN*uN", "uN+uN", "uN-{1}"] {
+                    push(word, 0, &mut steps);
+                }
+            }
+        } else {
+            push(word, 0, &mut steps);
+        }
+    }
+    let base = steps.len();
+    for word in way.split(' ') {
+        push(word, base, &mut steps);
+    }
+    steps
+}
+
+/// Puts steps behind those of a file's function, and their last value in the place of a result.
+fn hidden(own: &Certified, added: &[String]) -> Certified {
+    let mut claim: Value = serde_json::from_str(&own.claim).unwrap();
+    let mut constants: Vec<Value> = claim["constants"].as_array().unwrap().clone();
+    let function = &claim["functions"][0];
+    let [steps, returns] =
+        ["steps", "returns"].map(|key| function[key].as_str().unwrap().to_owned());
+    let first = returns.split(' ').next().unwrap().to_owned();
+    let bare = first.trim_start_matches('-').to_owned();
+    let count = steps.split(' ').count();
+    let (mut words, mut lines) = (steps, String::new());
+    for (place, step) in added.iter().enumerate() {
+        let at = step.find(['+', '-', '*', '/']).unwrap();
+        // The sign of an exponent is in brackets.
+        let at = match step.starts_with('{') {
+            true => step.find('}').unwrap() + 1,
+            false => at,
+        };
+        let operands = [&step[..at], &step[at + 1..]];
+        let mut both = operands.map(|word| match word.strip_prefix('{') {
+            Some(number) => {
+                let number = number.trim_end_matches('}');
+                constants.push(json!(number));
+                let value = match number.split_once('/') {
+                    Some((a, b)) => a.parse::<f64>().unwrap() / b.parse::<f64>().unwrap(),
+                    None => number.parse().unwrap(),
+                };
+                (format!("#{}", constants.len() - 1), format!("{value:?}"))
+            }
+            None => {
+                let step = word
+                    .strip_prefix('u')
+                    .map(|own| own.parse::<usize>().unwrap());
+                let word = match (step, word) {
+                    (Some(step), _) => format!("t{}", count + step),
+                    (None, "x") => bare.clone(),
+                    (None, word) => word.to_owned(),
+                };
+                (word.clone(), word)
+            }
+        });
+        let operation = &step[at..=at];
+        let [(a, x), (b, y)] = both.each_mut().map(std::mem::take);
+        words += &format!(" {a}{operation}{b}");
+        lines += &format!("    let t{} = {x} {operation} {y};\n", count + place + 1);
+    }
+    let last = format!("t{}", count + added.len());
+    let function = &mut claim["functions"][0];
+    function["steps"] = json!(words);
+    function["returns"] = json!(returns.replacen(&bare, &last, 1));
+    claim["constants"] = json!(constants);
+    let end = own.text.rfind(&format!("    [{first},")).unwrap();
+    let (before, results) = own.text.split_at(end);
+    let results = results.replacen(&bare, &last, 1);
+    let mut other = own.with(&format!("{before}{lines}{results}"));
+    other.claim = claim.to_string();
+    other
+}
+
+#[test]
+fn numbers_that_cancel_are_not_shown() {
+    for (asked, divides) in [("gravity", false), ("forward_dynamics", true)] {
+        let own = Certified::planar2r(&format!("{asked}; scalar: f64"));
+        assert_eq!(own.report().unwrap().passes(true), !divides, "{asked}");
+        assert!(own.report().unwrap().passes(false), "{asked}");
+        // With nothing hidden it is shown; but what divides has no steps that come back.
+        let same = hidden(&own, &["x*{3/4}".into(), "u1*{4/3}".into()]);
+        assert_eq!(same.refusal().is_some(), divides, "{asked}");
+        for number in NUMBERS {
+            for way in WAYS {
+                let other = hidden(&own, &spelled(number, way));
+                let why = other.refusal();
+                let what = format!("{asked}: {number}, then {way}: {}", other.text);
+                assert!(why.is_some(), "{what}");
+            }
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! Conditions on a function that divides, whose rounding has no bound over the box: a number that
+//! is added and taken away again, large where nobody looks, is not in its program.
+//!
+//! - No step is in vain: every one has a derivative into some result, at random residues. K in
+//!   (x + K) − K has none.
+//! - No step that reads the state has one value at two random points, and none is, but for its
+//!   sign, an earlier one or an operand.
+//! - In f64, a step that no quotient reaches is over the box at most [`MOST_RATIO`] times its
+//!   largest magnitude at states. Honest programs need 2¹⁹. In f32 a constant of 24 bits hides as
+//!   much as rounding does.
+//!
+//! Programs of the generator satisfy these; they are a sieve, and no proof. x + 2K − L, where L is
+//! 2K written otherwise, passes.
+
+use std::collections::HashSet;
+
+use crate::fault::Fault;
+use crate::identity::exact::{Exact, Point};
+use crate::identity::number::Number;
+use crate::identity::residues::leaf;
+use crate::identity::setting::Setting;
+use crate::identity::state::State;
+use crate::program::{Operand, Program, argument};
+use crate::work::Work;
+
+/// The largest bound of a step relative to its largest magnitude at states.
+pub(crate) const MOST_RATIO: f64 = (1u64 << 20) as f64;
+
+/// Nanoseconds for an operation on residues.
+const RESIDUE: u64 = 60;
+
+/// Checks the first two conditions; `load` is the number of entries of a load.
+pub(crate) fn check(
+    program: &Program<Exact>,
+    setting: &Setting,
+    load: usize,
+    points: &[Point; 3],
+    work: &Work,
+) -> Result<(), Fault> {
+    work.spend(program.steps.len(), 6 * RESIDUE)?;
+    let lost = || Fault::Claim("the program reads what is not there".into());
+    let [first, second, point] = points;
+    let vain = [first, second].map(|point| vain(program, point, setting, load));
+    let [Some(one), Some(other)] = vain else {
+        return Err(lost());
+    };
+    if let Some(step) = one.intersection(&other).min() {
+        return Err(refused(*step, "changes no result"));
+    }
+    let states = [(); 2].map(|()| state(point, setting, load));
+    let [Some(one), Some(other)] = states else {
+        return Err(lost());
+    };
+    let values = [&one, &other].map(|state| program.step_residues(point, state));
+    let [Some(first), Some(second)] = values else {
+        return Err(lost());
+    };
+    let mut known = HashSet::new();
+    let mut is_new = |both: [Number; 2]| {
+        let [a, b] = both.map(|own| own.value(point.prime).unwrap_or_default());
+        let minus = |own: u64| if own == 0 { 0 } else { point.prime - own };
+        let opposite = [minus(a), minus(b)];
+        known.insert(opposite.min([a, b]))
+    };
+    let is_input = |own: &Operand<Exact>| Some(!matches!(own, Operand::Constant(_)));
+    let reads_state = program.values(is_input, |_, a, b| a || b);
+    let reads_state = reads_state.ok_or_else(lost)?;
+    let operands = program.steps.iter().flat_map(|step| &step.1);
+    for own in operands.filter(|own| !matches!(own, Operand::Step(_) | Operand::Constant(_))) {
+        let both = [&one, &other].map(|state| leaf(own, point, state));
+        if let [Some(a), Some(b)] = both {
+            is_new([a, b]);
+        }
+    }
+    for (step, (a, b)) in first.into_iter().zip(second).enumerate() {
+        // A product that is not rounded hides nothing, and may stand once for each of its sums.
+        if program.steps[step].0 == '×' {
+            continue;
+        }
+        let is_constant = a.value(point.prime) == b.value(point.prime);
+        if is_constant && reads_state[step] {
+            return Err(refused(step, "has one value at all states"));
+        }
+        if !is_new([a, b]) {
+            return Err(refused(step, "has the value of an earlier one"));
+        }
+    }
+    Ok(())
+}
+
+pub(crate) fn refused(step: usize, why: &str) -> Fault {
+    let number = step + 1;
+    Fault::Claim(format!(
+        "operation {number} {why}: it may hide a number that cancels"
+    ))
+}
+
+fn state(point: &Point, setting: &Setting, load: usize) -> Option<State> {
+    let mut state = State::draw(point, setting).ok()?;
+    let place = argument("load")?;
+    state.given[place] = (0..load).map(|_| point.residue()).collect();
+    Some(state)
+}
+
+/// Lists the steps without which a random combination of the results is the same.
+fn vain(
+    program: &Program<Exact>,
+    point: &Point,
+    setting: &Setting,
+    load: usize,
+) -> Option<HashSet<usize>> {
+    let state = state(point, setting, load)?;
+    let values = program.step_residues(point, &state)?;
+    let mut slopes = vec![Number::new(0, point.prime); values.len()];
+    for (_, own) in &program.outputs {
+        if let Operand::Step(step) = own {
+            slopes[*step] = slopes[*step] + point.residue();
+        }
+    }
+    for (step, (operation, operands)) in program.steps.iter().enumerate().rev() {
+        let slope = slopes[step];
+        if !slope.is_nonzero() {
+            continue;
+        }
+        let value = |own: &Operand<Exact>| match own {
+            Operand::Step(step) => values.get(*step).copied(),
+            own => leaf(own, point, &state),
+        };
+        let [a, b] = operands.each_ref().map(value);
+        let (a, b) = (a?, b?);
+        let parts = match operation {
+            '+' => [slope, slope],
+            '-' => [slope, -slope],
+            '/' => [slope / b, -(slope * values[step]) / b],
+            _ => [slope * b, slope * a],
+        };
+        for (own, part) in operands.iter().zip(parts) {
+            if let Operand::Step(step) = own {
+                slopes[*step] = slopes[*step] + part;
+            }
+        }
+    }
+    let is_vain = |(step, own): (usize, &Number)| {
+        let is_none = own.value(point.prime) == Some(0);
+        is_none.then_some(step)
+    };
+    Some(slopes.iter().enumerate().filter_map(is_vain).collect())
+}

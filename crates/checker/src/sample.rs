@@ -1,0 +1,192 @@
+//! A function at a state: its values, and a bound of how far the float is from each (a running
+//! error analysis after Wilkinson).
+//!
+//! Values are computed in doubles, whatever the scalar. The exact value is within `off` of the
+//! double, and the float of the text within `error` of the exact value: what operands bring along,
+//! and one rounding.
+
+use crate::interval::{SINE_ERROR, UNIT, sin_cos};
+use crate::program::{Operand, argument};
+use crate::read::Function;
+use crate::rounding::Rounding;
+use crate::sines::Scalar;
+
+/// A double, how far the exact value is from it, and how far the float is from the exact value.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Near {
+    pub value: f64,
+    pub off: f64,
+    pub error: f64,
+}
+
+/// The entries of each argument.
+pub type State = Vec<Vec<f64>>;
+
+pub struct Sampler<'f> {
+    leaves: Vec<Operand<f64>>,
+    /// Each step's operation and the places of its operands: leaves first, then steps.
+    code: Vec<(char, [usize; 2])>,
+    outputs: Vec<usize>,
+    speeds: &'f [(usize, f64)],
+    /// The errors of sines and cosines by polynomials.
+    polynomials: Vec<[Option<f64>; 2]>,
+    scalar: Scalar,
+}
+
+impl<'f> Sampler<'f> {
+    pub fn new(function: &'f Function, rounding: &Rounding, joints: usize) -> Sampler<'f> {
+        let program = &function.program;
+        let mut leaves: Vec<Operand<f64>> = Vec::new();
+        let mut known = std::collections::HashMap::new();
+        // Steps are behind all leaves, whose number is not known yet.
+        let mut place = |own: &Operand<f64>| match own {
+            Operand::Step(step) => Err(*step),
+            own => {
+                let key = match own {
+                    Operand::Constant(literal) => (0, 0, literal.to_bits()),
+                    Operand::Entry(place, index) => (1, *place, *index as u64),
+                    Operand::Sine(joint, is_sine) => (2, *joint, u64::from(*is_sine)),
+                    Operand::Speed(joint) => (3, *joint, 0),
+                    Operand::Step(_) => (4, 0, 0),
+                };
+                Ok(*known.entry(key).or_insert_with(|| {
+                    leaves.push(own.clone());
+                    leaves.len() - 1
+                }))
+            }
+        };
+        let steps = program.steps.iter();
+        let code: Vec<_> = steps
+            .map(|(operation, operands)| (*operation, operands.each_ref().map(&mut place)))
+            .collect();
+        let outputs: Vec<_> = program.outputs.iter().map(|own| place(&own.1)).collect();
+        let first = leaves.len();
+        let index = |own: Result<usize, usize>| own.unwrap_or_else(|step| first + step);
+        let pair = |joint| [true, false].map(|own| rounding.polynomial(joint, own));
+        Sampler {
+            leaves,
+            code: code
+                .into_iter()
+                .map(|(own, both)| (own, both.map(index)))
+                .collect(),
+            outputs: outputs.into_iter().map(index).collect(),
+            speeds: &function.speeds,
+            polynomials: (0..joints).map(pair).collect(),
+            scalar: rounding.scalar,
+        }
+    }
+
+    /// About how many nanoseconds a state takes.
+    pub fn work(&self) -> u64 {
+        30 * self.leaves.len() as u64 + 8 * self.code.len() as u64 + 100
+    }
+
+    /// Computes the values of all leaves and steps.
+    pub fn run(&self, state: &State, load: &[Near], values: &mut Vec<Near>) {
+        values.clear();
+        values.extend(self.leaves.iter().map(|own| self.leaf(own, state, load)));
+        let Scalar { unit, least, most } = self.scalar;
+        for (operation, [a, b]) in &self.code {
+            let (a, b) = (values[*a], values[*b]);
+            let (value, off, inherited) = match operation {
+                '+' => (a.value + b.value, a.off + b.off, a.error + b.error),
+                '-' => (a.value - b.value, a.off + b.off, a.error + b.error),
+                '/' => {
+                    let value = a.value / b.value;
+                    let divisor = b.value.abs() - b.off;
+                    let off = (a.off + b.off * value.abs()) / divisor;
+                    let error = (a.error + b.error * (value.abs() + off)) / (divisor - b.error);
+                    let is_apart = divisor > b.error;
+                    (value, off, if is_apart { error } else { f64::INFINITY })
+                }
+                _ => {
+                    let [x, y] = [a, b].map(|own| own.value.abs() + own.off);
+                    let off = a.off * y + b.off * a.value.abs();
+                    (
+                        a.value * b.value,
+                        off,
+                        a.error * (y + b.error) + b.error * x,
+                    )
+                }
+            };
+            // The slack is what these sums lose in doubles.
+            let off = (off + UNIT * value.abs()) * (1.0 + 1e-14) + least;
+            let size = value.abs() + off + inherited;
+            let error = (inherited + unit * size + least) * (1.0 + 1e-14);
+            let is_known = size + error < most;
+            let error = if is_known { error } else { f64::INFINITY };
+            values.push(Near { value, off, error });
+        }
+    }
+
+    /// Returns the results among the values.
+    pub fn results<'v>(&'v self, values: &'v [Near]) -> impl Iterator<Item = Near> + 'v {
+        self.outputs.iter().map(|place| values[*place])
+    }
+
+    /// Returns the values of steps among the values.
+    pub fn steps<'v>(&self, values: &'v [Near]) -> &'v [Near] {
+        &values[self.leaves.len()..]
+    }
+
+    /// Returns half an ulp of one.
+    pub fn unit(&self) -> f64 {
+        self.scalar.unit
+    }
+
+    fn leaf(&self, own: &Operand<f64>, state: &State, load: &[Near]) -> Near {
+        let unit = self.scalar.unit;
+        let entry = |place: usize, index: usize| state.get(place)?.get(index).copied();
+        let exactly = |value: f64| Near {
+            value,
+            off: 0.0,
+            error: 0.0,
+        };
+        let found = match own {
+            Operand::Constant(literal) if *literal == 0.0 => Some(Near::default()),
+            Operand::Constant(literal) => {
+                let error = self.scalar.rounded(literal.abs(), 0.0);
+                let value = *literal;
+                Some(Near {
+                    value,
+                    off: error,
+                    error,
+                })
+            }
+            Operand::Entry(place, index) if argument("load") == Some(*place) => {
+                load.get(*index).copied()
+            }
+            Operand::Entry(place, index) => entry(*place, *index).map(exactly),
+            Operand::Sine(joint, is_sine) => entry(0, *joint).map(|angle| {
+                let (sin, cos) = sin_cos(angle);
+                let polynomial = self.polynomials.get(*joint);
+                let polynomial = polynomial.and_then(|own| own[usize::from(!is_sine)]);
+                Near {
+                    value: if *is_sine { sin } else { cos },
+                    off: SINE_ERROR,
+                    // The library's is within an ulp of at most one.
+                    error: polynomial.unwrap_or(2.0 * unit),
+                }
+            }),
+            Operand::Speed(joint) => {
+                let square = self.speeds.iter().find(|own| own.0 == *joint);
+                let both = square.zip(entry(1, *joint));
+                // Four operations, and w² is rounded.
+                both.map(|((_, square), rate)| {
+                    let value = 1.0 / (rate * rate + square).sqrt();
+                    Near {
+                        value,
+                        off: 6.0 * unit * value,
+                        error: 6.0 * unit * value,
+                    }
+                })
+            }
+            Operand::Step(_) => None,
+        };
+        found.unwrap_or(Near {
+            value: f64::NAN,
+            off: f64::INFINITY,
+            error: f64::INFINITY,
+        })
+    }
+}

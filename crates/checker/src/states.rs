@@ -1,0 +1,193 @@
+//! States at which a function is tried: special ones, random ones, and where climbs end.
+
+use crate::identity::number::Draws;
+use crate::program::{ARGUMENTS, argument};
+use crate::rounding::Ranges;
+use crate::sample::State;
+
+/// One state in so many has nothing but zeros, ends and middles of ranges, and quarter turns.
+const SPECIAL: usize = 5;
+/// The parts of a range by which a climb goes on.
+const STRIDES: [f64; 3] = [0.2, 0.05, 0.01];
+/// The points of which a body is made: fewer have no inertia about some axis.
+const POINTS: usize = 5;
+
+pub(crate) struct States<'s> {
+    ranges: &'s Ranges,
+    /// The places of the arguments that are read.
+    places: &'s [usize],
+    body: Body,
+    draws: Draws,
+    is_single: bool,
+    count: usize,
+}
+
+/// The bodies that a payload may be: all of the mass is within a radius of the origin of its frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Body {
+    /// The range of the mass, kg.
+    pub mass: [f64; 2],
+    /// The radius, m.
+    pub radius: f64,
+}
+
+impl Default for Body {
+    fn default() -> Body {
+        Body {
+            mass: [0.0, 5.0],
+            radius: 0.3,
+        }
+    }
+}
+
+impl Body {
+    /// Returns the ranges of the ten numbers: mass, centre of mass, and inertia about that as xx,
+    /// yy, zz, xy, yz, xz.
+    pub(crate) fn ranges(self) -> Vec<[f64; 2]> {
+        let Body { mass, radius } = self;
+        let most = mass[1] * radius * radius;
+        let symmetric = |most: f64| [-most, most];
+        [
+            vec![mass],
+            vec![symmetric(radius); 3],
+            vec![[0.0, most]; 3],
+            // |∫ x y dm| ≤ ½ ∫ (x² + y²) dm
+            vec![symmetric(0.5 * most); 3],
+        ]
+        .concat()
+    }
+
+    /// Draws one as points of mass.
+    fn draw(self, draws: &mut Draws) -> Vec<f64> {
+        let Body { mass, radius } = self;
+        let mass = mass[0] + (mass[1] - mass[0]) * draws.share();
+        let mut points = [([0.0; 3], 0.0); POINTS];
+        let mut sum = 0.0;
+        for (at, weight) in &mut points {
+            // In the cube inside the ball, not beyond it.
+            let side = radius / 3f64.sqrt();
+            *at = [(); 3].map(|()| side * (2.0 * draws.share() - 1.0));
+            *weight = draws.share() + 1e-3;
+            sum += *weight;
+        }
+        let mean = |f: &dyn Fn([f64; 3]) -> f64| -> f64 {
+            points
+                .iter()
+                .map(|(at, weight)| f(*at) * weight / sum)
+                .sum()
+        };
+        let com = [0, 1, 2].map(|k| mean(&|at| at[k]));
+        let moment = |i: usize, k: usize| mass * mean(&|at| (at[i] - com[i]) * (at[k] - com[k]));
+        let about = |i: usize, k: usize| moment(i, i) + moment(k, k);
+        let [x, y, z] = com;
+        let inertia = [about(1, 2), about(2, 0), about(0, 1)];
+        let products = [-moment(0, 1), -moment(1, 2), -moment(0, 2)];
+        [vec![mass, x, y, z], inertia.to_vec(), products.to_vec()].concat()
+    }
+}
+
+impl<'s> States<'s> {
+    pub(crate) fn new(
+        ranges: &'s Ranges,
+        places: &'s [usize],
+        body: Body,
+        texts: &[&str],
+        is_single: bool,
+    ) -> States<'s> {
+        States {
+            ranges,
+            places,
+            body,
+            draws: Draws::new(texts),
+            is_single,
+            count: 0,
+        }
+    }
+
+    /// Draws the next state: at zero, in the middle, at the lower and the upper ends of all ranges,
+    /// then special ones among random ones.
+    pub(crate) fn next(&mut self) -> State {
+        let payload = argument("payload");
+        let mut state = vec![Vec::new(); ARGUMENTS.len()];
+        let count = self.count;
+        self.count += 1;
+        for &place in self.places {
+            let Some(list) = self.ranges.get(place) else {
+                continue;
+            };
+            state[place] = match Some(place) == payload {
+                true => self.body.draw(&mut self.draws),
+                false => (list.iter().map(|range| match count {
+                    0 => 0f64.clamp(range[0], range[1]),
+                    1 => 0.5 * (range[0] + range[1]),
+                    2 => range[0],
+                    3 => range[1],
+                    _ if count.is_multiple_of(SPECIAL) => self.special(place, *range),
+                    _ => range[0] + (range[1] - range[0]) * self.draws.share(),
+                }))
+                .collect(),
+            };
+        }
+        self.rounded(state)
+    }
+
+    fn special(&mut self, place: usize, [low, high]: [f64; 2]) -> f64 {
+        let middle = 0.5 * (low + high);
+        let mut all = vec![0f64.clamp(low, high), low, high, middle];
+        if place == 0 {
+            let quarters = [-4.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0];
+            let turns = quarters.map(|own| own * std::f64::consts::FRAC_PI_2);
+            all.extend(turns.into_iter().filter(|own| (low..=high).contains(own)));
+        }
+        let index = (self.draws.share() * all.len() as f64) as usize;
+        all[index.min(all.len() - 1)]
+    }
+
+    fn rounded(&self, mut state: State) -> State {
+        if self.is_single {
+            let all = state.iter_mut().flatten();
+            all.for_each(|own| *own = f64::from(*own as f32));
+        }
+        state
+    }
+
+    /// Climbs from a state to where something is larger, entry by entry, with so many tries. A body
+    /// stays as it is.
+    pub(crate) fn climb(
+        &self,
+        mut state: State,
+        mut tries: usize,
+        mut height: impl FnMut(&State) -> f64,
+    ) -> State {
+        let payload = argument("payload");
+        let mut highest = height(&state);
+        for stride in STRIDES {
+            let mut has_moved = true;
+            while has_moved {
+                has_moved = false;
+                for &place in self.places.iter().filter(|own| Some(**own) != payload) {
+                    for index in 0..state[place].len() {
+                        let Some([low, high]) = self.ranges[place].get(index).copied() else {
+                            continue;
+                        };
+                        for way in [-stride, stride] {
+                            if tries == 0 {
+                                return state;
+                            }
+                            tries -= 1;
+                            let mut next = state.clone();
+                            let own = &mut next[place][index];
+                            *own = (*own + way * (high - low)).clamp(low, high);
+                            let next = self.rounded(next);
+                            let own = height(&next);
+                            if own > highest {
+                                (state, highest, has_moved) = (next, own, true);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        state
+    }
+}
