@@ -9,7 +9,7 @@
 //!    SHA-256 draws
 //! 4. `rounding`, `cost`, `interval`: what rounding costs, over the box or at drawn states
 //! 5. `tolerance`: under a tolerance the text is another program, and the difference is bounded over
-//!    the box, by `written`, `polynomial`, `ring`, `sines`, `levels`, `maximum`
+//!    the box, by `written`, `polynomial`, `ring`, `sines`, `maximum`
 //! 6. `certify`, `fault`: these in order, function by function
 //!
 //! Believed are: that every operation is rounded to nearest and none is contracted,
@@ -40,8 +40,6 @@ mod hidden;
 pub mod identity;
 #[cfg(feature = "certify")]
 pub mod interval;
-#[cfg(feature = "certify")]
-mod levels;
 #[cfg(feature = "certify")]
 mod maximum;
 pub mod payload;

@@ -119,8 +119,7 @@ impl Subject<'_> {
         sizes.iter_mut().for_each(|size| *size *= SLACK);
         let rounding = rounding.bounds(ranges, Some(&sizes)).results;
         let largest = own.scales.iter().copied().fold(0.0, f64::max);
-        let (mut found, mut left) = (Vec::new(), maximum::MOST_STEPS.min(work.left()));
-        let before = left;
+        let mut found = Vec::new();
         for (k, (_, joints)) in fields.into_iter().enumerate() {
             let scale = own.scales[k];
             let rounding = match self.is_literal(k) {
@@ -146,13 +145,12 @@ impl Subject<'_> {
             found.push(Bounded {
                 joints,
                 scale,
-                real: maximum::bound(&difference, &ring, wanted, &mut left),
+                real: maximum::largest(&difference, &ring, wanted, work).bound,
                 rounding,
                 claimed,
                 tolerated,
             });
         }
-        work.spend((before - left) as usize, 1)?;
         self.tried(&found, ranges)?;
         Ok(found)
     }

@@ -1,0 +1,34 @@
+//! Products of velocities at the worst corner of their box.
+//!
+//! A sum of f q̇ᵢq̇ⱼ and g q̇ᵢ, with each velocity from −1 to 1, is linear in each, so that its ends
+//! are where all are −1 or 1. The sign of a product is the parity of a set of velocities: a Walsh
+//! transform gives the sum at all corners.
+
+/// The most velocities whose corners are tried: beyond, each product counts by itself.
+pub(super) const MOST_VELOCITIES: usize = 12;
+
+/// A factor of a group of terms: none, a product of velocities by its set, or any monomial.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Factor {
+    One,
+    Velocities(u32),
+    Other,
+}
+
+/// Returns the least and the largest value at all corners; the sums are by set, and are lost.
+pub(super) fn corners(sums: &mut [f64]) -> [f64; 2] {
+    let mut half = 1;
+    while half < sums.len() {
+        for both in sums.chunks_exact_mut(2 * half) {
+            let (a, b) = both.split_at_mut(half);
+            for (x, y) in a.iter_mut().zip(b) {
+                (*x, *y) = (*x + *y, *x - *y);
+            }
+        }
+        half *= 2;
+    }
+    sums.iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], own| {
+            [low.min(*own), high.max(*own)]
+        })
+}

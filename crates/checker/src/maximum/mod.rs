@@ -1,0 +1,132 @@
+//! The largest magnitude of a polynomial over the box.
+//!
+//! Rates and errors enter monomial by monomial, each at its worst: with the middle μ and half the
+//! length ρ of a monomial's range, and g its coefficient, a trigonometric polynomial in the
+//! angles, |P| ≤ F = |Σ μ g| + Σ ρ |g|; but products of velocities, and what is linear in one, at
+//! the worst corner of their box together (`corners`).
+//!
+//! That F ≤ B everywhere is shown angle by angle (`search`). At given other angles let F be
+//! largest, M, at x in a cell of middle c and half width δ, and let d be the degree in this angle.
+//! F is the maximum of finitely many trigonometric polynomials ±g ± …, and of the one that is M at
+//! x:
+//!
+//! - if the angle goes all the way round, M. Riesz: its value at c is at least M·cos(d·δ), for
+//!   d·δ ≤ π/2. So M ≤ B if F(c) ≤ B·cos(d·δ).
+//! - either x is an end of the range, and ends are looked at; or its slope at x is 0, and M ≤
+//!   F(c) + ½δ²·W, where W is at least the second derivative.
+//!
+//! F(c) is shown to be small by the same means over the other angles. Cells where that fails are
+//! cut in three; a point where F is above B refutes it. Sums of sines and cosines of multiples
+//! (`terms`) are bounded by Σ √(Σ c²), over the phases of each multiple; so is W, times the square
+//! of the multiple.
+//!
+//! A climb (`climb`) finds what F reaches, and from where a bound was refuted it goes on.
+
+mod climb;
+mod corners;
+mod search;
+mod terms;
+
+use self::search::{Search, Shown};
+use self::terms::Terms;
+use crate::polynomial::Polynomial;
+use crate::ring::Ring;
+use crate::work::Work;
+
+/// The multiplications for the wanted bound, and for each that is tighter: one purse a result, so
+/// that no result depends on another.
+const PURSE: u64 = 1_000_000_000;
+const PURSE_TIGHTER: u64 = 40_000_000;
+/// The starts of climbs.
+const STARTS: usize = 24;
+/// Bounds relative to what is reached, where none is wanted, or the wanted one is refuted.
+const LOOSE: [f64; 5] = [1.5, 2.0, 4.0, 16.0, 256.0];
+/// The same, one after the other as long as they are shown.
+const TIGHTER: [f64; 4] = [1.5, 1.2, 1.1, 1.05];
+/// The times that a bound is tried from a state that refutes it.
+const RETRIES: usize = 20;
+
+/// A bound of a polynomial's magnitude over the box.
+#[derive(Clone, Copy, Debug)]
+pub struct Largest {
+    /// The bound.
+    pub bound: f64,
+    /// What F reaches: up to some hundredths more than the polynomial does.
+    #[allow(dead_code)]
+    pub reached: f64,
+}
+
+/// Bounds the largest magnitude: by at most `wanted` if that can be shown, and then as tightly as
+/// small purses allow.
+pub fn largest(polynomial: &Polynomial, ring: &Ring, wanted: f64, work: &Work) -> Largest {
+    let terms = Terms::new(polynomial, ring);
+    let mut search = Search::new(&terms, ring);
+    let plain = search.plain_bound();
+    if search.is_constant() || !plain.is_finite() || plain == 0.0 {
+        let reached = (plain - 2.0 * search.slack).max(0.0);
+        return Largest {
+            bound: plain,
+            reached,
+        };
+    }
+    let purse = |search: &mut Search, most: u64| {
+        search.steps = most.min(work.left());
+        search.steps
+    };
+    let spent = |search: &Search, purse: u64| {
+        // Where all is spent, the next purse is empty.
+        let _ = work.spend((purse - search.steps) as usize, 1);
+    };
+    let given = purse(&mut search, PURSE);
+    let mut reached = search.climb(STARTS);
+    spent(&search, given);
+    let mut bound = plain;
+    // Shows B, or climbs on from where it is refuted.
+    let shows = |search: &mut Search, reached: &mut f64, factor: f64, most: u64| {
+        let given = purse(search, most);
+        let mut shown = false;
+        for _ in 0..RETRIES {
+            let goal = *reached * factor + 2.0 * search.slack;
+            match search.shows_all(goal) {
+                Shown::Yes => shown = true,
+                // Else it is above an inner B alone.
+                Shown::Refuted => {
+                    let found = search.climb_on();
+                    if found > *reached {
+                        *reached = found;
+                        continue;
+                    }
+                }
+                Shown::Unknown => {}
+            }
+            break;
+        }
+        spent(search, given);
+        shown.then_some(*reached * factor + 2.0 * search.slack)
+    };
+    if reached <= wanted && wanted < plain {
+        let given = purse(&mut search, PURSE);
+        match search.shows_all(wanted.next_down()) {
+            Shown::Yes => bound = wanted,
+            Shown::Refuted => reached = reached.max(search.climb_on()),
+            Shown::Unknown => {}
+        }
+        spent(&search, given);
+    }
+    if bound == plain && wanted < plain {
+        let loose = LOOSE.into_iter();
+        let mut found =
+            loose.filter_map(|factor| shows(&mut search, &mut reached, factor, PURSE / 4));
+        bound = found.next().map_or(plain, |own| own.min(plain));
+    }
+    for factor in TIGHTER {
+        if reached * factor >= bound {
+            continue;
+        }
+        match shows(&mut search, &mut reached, factor, PURSE_TIGHTER) {
+            Some(own) => bound = bound.min(own),
+            None => break,
+        }
+    }
+    Largest { bound, reached }
+}

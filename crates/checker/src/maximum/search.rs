@@ -1,0 +1,374 @@
+//! F ≤ B shown angle by angle, with the coefficients that are left at each level.
+
+use std::f64::consts::PI;
+
+use super::corners::{Factor, corners};
+use super::terms::{Key, Terms, bits, group, multiple, without_phases};
+use crate::interval::sin_cos;
+use crate::ring::Ring;
+
+/// Angles that are put in side by side.
+const LANES: usize = 8;
+/// The part of B that is lost in one of the first cells, and in the last that is cut.
+const FIRST_LOSS: f64 = 0.08;
+const LEAST_LOSS: f64 = 0.003;
+const MOST_CELLS: f64 = 64.0;
+/// The levels, from the last, at which constants are put in their worst corner together.
+const MEANS: usize = 9;
+
+/// One angle's turn: what its multiples are multiplied with, and where that is added to.
+pub(super) struct Level {
+    pub(super) range: Option<[f64; 2]>,
+    degree: f64,
+    /// The multiples and phases that there are.
+    bases: Vec<(u32, bool)>,
+    /// The base of each value, and its place among those of the next level.
+    moves: Vec<[u32; 2]>,
+    /// The end of each run of values that differ by phases, and the square of its multiple.
+    runs: Vec<(u32, f64)>,
+    /// The values that depend on no angle that is left, with their factors.
+    constants: Vec<(u32, Factor)>,
+}
+
+/// The finding about one B.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Shown {
+    Yes,
+    /// F is above B at `above`.
+    Refuted,
+    /// The steps are used up, or cells have become too narrow.
+    Unknown,
+}
+
+pub(super) struct Search {
+    pub(super) levels: Vec<Level>,
+    /// The values of each level, one state behind the other: the last ones are those of the state
+    /// that is looked at.
+    columns: Vec<Vec<f64>>,
+    /// The factor of each value behind the last level.
+    factors: Vec<Factor>,
+    /// What was left out, and what sums and sines lose in doubles.
+    pub(super) slack: f64,
+    pub(super) angles: Vec<f64>,
+    /// Where F was last above a B.
+    pub(super) above: Vec<f64>,
+    pub(super) steps: u64,
+    corner: Vec<f64>,
+}
+
+impl Search {
+    pub(super) fn new(own: &Terms, ring: &Ring) -> Search {
+        let place = |key: Key| (without_phases(key), key);
+        let mut terms = own.terms.clone();
+        terms.sort_by_key(|term| place(term.0));
+        let mass: f64 = terms.iter().map(|term| term.1.abs()).sum();
+        let mut keys: Vec<Key> = terms.iter().map(|term| term.0).collect();
+        let mut longest = keys.len() + own.factors.len() + 64;
+        let mut search = Search {
+            levels: Vec::new(),
+            columns: vec![terms.iter().map(|term| term.1).collect()],
+            factors: Vec::new(),
+            slack: 0.0,
+            angles: Vec::new(),
+            above: Vec::new(),
+            steps: 0,
+            corner: vec![0.0; 1 << own.velocities],
+        };
+        for joint in order(&own.terms, ring.angles.len()) {
+            let degree = keys.iter().map(|key| multiple(*key, joint).0).max();
+            let degree = degree.unwrap_or(0);
+            if degree == 0 {
+                continue;
+            }
+            let is_constant = |key: Key| without_phases(key) >> 16 == 0;
+            let constants = keys.iter().zip(0..).filter(|(key, _)| is_constant(**key));
+            let constants = constants.map(|(key, place)| (place, own.factors[group(*key)]));
+            let mut end = 0;
+            let same = |a: &Key, b: &Key| without_phases(*a) == without_phases(*b);
+            let runs = keys.chunk_by(same).map(|run| {
+                end += run.len() as u32;
+                (end, f64::from(multiple(run[0], joint).0).powi(2))
+            });
+            let (constants, runs) = (constants.collect(), runs.collect());
+            let mut next: Vec<Key> = keys.iter().map(|key| key & !bits(joint)).collect();
+            next.sort_unstable_by_key(|key| place(*key));
+            next.dedup();
+            let mut bases: Vec<(u32, bool)> =
+                keys.iter().map(|key| multiple(*key, joint)).collect();
+            bases.sort_unstable();
+            bases.dedup();
+            let moved = |key: &Key| {
+                let base = bases.binary_search(&multiple(*key, joint));
+                let to = place(key & !bits(joint));
+                let to = next.binary_search_by_key(&to, |key| place(*key));
+                [base.unwrap_or(0) as u32, to.unwrap_or(0) as u32]
+            };
+            search.levels.push(Level {
+                range: ring.angles[joint],
+                degree: f64::from(degree),
+                moves: keys.iter().map(moved).collect(),
+                bases,
+                runs,
+                constants,
+            });
+            search.columns.push(Vec::new());
+            // Sines are 1e-15 off, multiples so many times as much.
+            longest += 16 * degree as usize + 4;
+            keys = next;
+        }
+        search.factors = keys.iter().map(|key| own.factors[group(*key)]).collect();
+        search.angles = vec![0.0; search.levels.len()];
+        search.slack = (own.rest + mass * longest as f64 * f64::EPSILON) * (1.0 + 1e-9);
+        search
+    }
+
+    pub(super) fn is_constant(&self) -> bool {
+        self.levels.is_empty()
+    }
+
+    /// Returns a bound without looking at any angle.
+    pub(super) fn plain_bound(&mut self) -> f64 {
+        match self.is_constant() {
+            true => self.worst(),
+            false => self.crude(0).0,
+        }
+    }
+
+    fn len(&self, level: usize) -> usize {
+        let own = self.levels.get(level);
+        own.map_or(self.factors.len(), |own| own.moves.len())
+    }
+
+    fn values(&self, level: usize) -> &[f64] {
+        let column = &self.columns[level];
+        &column[column.len() - self.len(level)..]
+    }
+
+    /// Returns bounds of F and of its second derivative by the level's angle, which is not put in.
+    fn crude(&mut self, level: usize) -> (f64, f64) {
+        let own = &self.levels[level];
+        let column = &self.columns[level];
+        let values = &column[column.len() - own.moves.len()..];
+        let (mut most, mut bend) = (self.slack, own.degree.powi(2) * self.slack);
+        let mut from = 0;
+        for &(end, square) in &own.runs {
+            let run = &values[from..end as usize];
+            let length = match run {
+                [one] => one.abs(),
+                _ => run.iter().map(|own| own * own).sum::<f64>().sqrt(),
+            };
+            most += length;
+            bend += length * square;
+            from = end as usize;
+        }
+        if level + MEANS >= self.levels.len() && !own.constants.is_empty() {
+            let (mut sum, mut apart) = (0.0f64, 0.0);
+            self.corner.fill(0.0);
+            for &(at, factor) in &own.constants {
+                let value = values[at as usize];
+                match factor {
+                    Factor::One => sum += value,
+                    Factor::Other => {}
+                    Factor::Velocities(set) => {
+                        self.corner[set as usize] += value;
+                        apart += value.abs();
+                    }
+                }
+            }
+            if apart > 0.0 {
+                let [low, high] = corners(&mut self.corner);
+                let together = (sum + high).max(-(sum + low));
+                most += (together - sum.abs() - apart).min(0.0);
+            }
+        }
+        (most * (1.0 + 1e-9), bend * (1.0 + 1e-9))
+    }
+
+    /// Returns F where all angles are put in: at first by magnitudes, then at the worst corner.
+    fn is_at_most(&mut self, most: f64) -> bool {
+        let values = self.values(self.levels.len());
+        let plain = values.iter().map(|own| own.abs()).sum::<f64>() + self.slack;
+        plain <= most || self.worst() <= most
+    }
+
+    /// Returns F where all angles are put in.
+    pub(super) fn worst(&mut self) -> f64 {
+        let column = &self.columns[self.levels.len()];
+        let values = &column[column.len() - self.factors.len()..];
+        let (mut sum, mut other) = (0.0f64, 0.0);
+        self.corner.fill(0.0);
+        for (value, factor) in values.iter().zip(&self.factors) {
+            match *factor {
+                Factor::One => sum += value,
+                Factor::Other => other += value.abs(),
+                Factor::Velocities(set) => self.corner[set as usize] += value,
+            }
+        }
+        let [low, high] = corners(&mut self.corner);
+        other + (sum + high).max(-(sum + low)) + self.slack
+    }
+
+    /// Puts angles in, side by side: the values of the next level for each, one behind the other.
+    fn put(&mut self, level: usize, angles: &[f64]) {
+        let work = (self.len(level) + 20) * angles.len();
+        self.steps = self.steps.saturating_sub(work as u64);
+        for some in angles.chunks(LANES) {
+            match some.len() {
+                1 => self.lanes::<1>(level, some),
+                2..=4 => self.lanes::<4>(level, some),
+                _ => self.lanes::<LANES>(level, some),
+            }
+        }
+    }
+
+    fn lanes<const W: usize>(&mut self, level: usize, angles: &[f64]) {
+        let own = &self.levels[level];
+        let mut rows = [[0.0; W]; 32];
+        for (lane, angle) in angles.iter().enumerate() {
+            let (sin, cos) = sin_cos(*angle);
+            let mut multiples = [(0.0, 1.0); 16];
+            for k in 1..=(own.degree as usize).min(15) {
+                let (s, c) = multiples[k - 1];
+                multiples[k] = (s * cos + c * sin, c * cos - s * sin);
+            }
+            for (row, &(k, is_sine)) in rows.iter_mut().zip(&own.bases) {
+                let (s, c) = multiples[k as usize & 15];
+                row[lane] = if is_sine { s } else { c };
+            }
+        }
+        let count = self.len(level + 1);
+        let own = &self.levels[level];
+        let mut sums = vec![[0.0; W]; count];
+        let (before, behind) = self.columns.split_at_mut(level + 1);
+        let column = &before[level];
+        let values = &column[column.len() - own.moves.len()..];
+        for (value, &[base, to]) in values.iter().zip(&own.moves) {
+            let (row, sum) = (&rows[base as usize & 31], &mut sums[to as usize]);
+            for lane in 0..W {
+                sum[lane] += value * row[lane];
+            }
+        }
+        for lane in 0..angles.len() {
+            behind[0].extend(sums.iter().map(|sum| sum[lane]));
+        }
+    }
+
+    /// Puts one angle in, in place of what was put in there.
+    pub(super) fn fix(&mut self, level: usize, angle: f64) {
+        self.columns[level + 1].clear();
+        self.put(level, &[angle]);
+    }
+
+    /// Shows F ≤ B everywhere.
+    pub(super) fn shows_all(&mut self, most: f64) -> Shown {
+        self.above.clear();
+        (1..self.columns.len()).for_each(|level| self.columns[level].clear());
+        let shown = self.shows(0, most);
+        match (shown, self.above.is_empty()) {
+            (Shown::Refuted, true) => Shown::Unknown,
+            _ => shown,
+        }
+    }
+
+    /// Shows F ≤ B, the angles of the levels before being put in. A point above an inner B, which is
+    /// less by what cells lose, refutes that alone.
+    fn shows(&mut self, level: usize, most: f64) -> Shown {
+        if level == self.levels.len() {
+            if self.is_at_most(most) {
+                return Shown::Yes;
+            }
+            self.above.clone_from(&self.angles);
+            return Shown::Refuted;
+        }
+        let (crude, bend) = self.crude(level);
+        if crude <= most {
+            return Shown::Yes;
+        }
+        if self.steps == 0 {
+            return Shown::Unknown;
+        }
+        if !(most > 0.0) {
+            return Shown::Refuted;
+        }
+        let Level { degree, range, .. } = self.levels[level];
+        let [low, high] = range.unwrap_or([-PI, PI]);
+        for end in range.into_iter().flatten() {
+            self.fix(level, end);
+            self.angles[level] = end;
+            match self.shows(level + 1, most) {
+                Shown::Yes => {}
+                other => return other,
+            }
+        }
+        let widest = (2.0 * FIRST_LOSS * most / bend.min(degree * degree * most)).sqrt();
+        let count = (0.5 * (high - low) / widest).ceil().clamp(1.0, MOST_CELLS);
+        let half = (0.5 * (high - low) / count) * (1.0 + 1e-12) + 1e-15 * low.abs();
+        let cell = |k: usize| (low + (high - low) * (k as f64 + 0.5) / count, half);
+        let mut first = (0..count as usize).map(cell);
+        let mut cells: Vec<(f64, f64)> = Vec::new();
+        self.columns[level + 1].clear();
+        loop {
+            if cells.is_empty() {
+                cells.extend(first.by_ref().take(LANES));
+                cells.reverse();
+                let middles: Vec<f64> = cells.iter().map(|cell| cell.0).collect();
+                self.put(level, &middles);
+            }
+            let Some((middle, half)) = cells.pop() else {
+                return Shown::Yes;
+            };
+            let turn = degree * half * (1.0 + 1e-12);
+            let bent = 0.5 * half * half * bend;
+            let lost = match range {
+                None if turn < 1.5 => bent.min(most * (1.0 - sin_cos(turn).1 + 2e-15)),
+                _ => bent,
+            };
+            // One part in 10¹² for the roundings of all this.
+            let enough = most - lost * (1.0 + 1e-12) - 1e-12 * most;
+            self.angles[level] = middle;
+            let found = match self.is_above(level + 1, enough) {
+                true => Shown::Refuted,
+                false => self.shows(level + 1, enough),
+            };
+            let length = self.columns[level + 1].len() - self.len(level + 1);
+            self.columns[level + 1].truncate(length);
+            match found {
+                Shown::Yes => continue,
+                Shown::Unknown => return Shown::Unknown,
+                Shown::Refuted if lost <= LEAST_LOSS * most => return Shown::Refuted,
+                Shown::Refuted => {}
+            }
+            if self.steps == 0 {
+                return Shown::Unknown;
+            }
+            let third = half / 3.0;
+            let cut = [-2.0, 0.0, 2.0].map(|k| middle + k * third);
+            self.put(level, &cut);
+            cells.extend(cut.map(|middle| (middle, third * (1.0 + 1e-12))));
+        }
+    }
+
+    /// Tries the angles that refuted the last B: mostly they refute this one, too.
+    fn is_above(&mut self, level: usize, most: f64) -> bool {
+        if level == self.levels.len() || self.above.is_empty() {
+            return false;
+        }
+        for next in level..self.levels.len() {
+            self.fix(next, self.above[next]);
+        }
+        !self.is_at_most(most)
+    }
+}
+
+/// Orders the angles by Σ |c| k²: those that bend most come first.
+fn order(terms: &[(Key, f64)], joints: usize) -> Vec<usize> {
+    let bend = |joint: usize| -> f64 {
+        let all = terms.iter();
+        all.map(|(key, value)| value.abs() * f64::from(multiple(*key, joint).0).powi(2))
+            .sum()
+    };
+    let bends: Vec<f64> = (0..joints).map(bend).collect();
+    let mut all: Vec<usize> = (0..joints).collect();
+    all.sort_by(|&a, &b| bends[b].total_cmp(&bends[a]));
+    all
+}

@@ -1,0 +1,173 @@
+//! A polynomial in powers of sines and cosines, as multiples of angles.
+
+use std::collections::BTreeMap;
+
+use super::corners::{Factor, MOST_VELOCITIES};
+use crate::polynomial::{ANGLES, Key as Powers, Polynomial, Variable, exponent};
+use crate::ring::Ring;
+
+/// The number of a group in the lowest bits, then for each angle its multiple and whether it is a
+/// sine.
+pub(super) type Key = u128;
+const GROUP: usize = 16;
+const WIDTH: usize = 5;
+/// The most groups of monomials, and the most joints.
+const MOST_GROUPS: usize = 1 << GROUP;
+/// Terms below this share of the largest one count with their magnitudes.
+const NEGLIGIBLE: f64 = 1e-8;
+/// A bit that no monomial has.
+const RADIUS: Powers = 1 << 127;
+
+fn shift(joint: usize) -> usize {
+    GROUP + WIDTH * joint
+}
+
+/// Returns an angle's multiple, and whether it is a sine.
+pub(super) fn multiple(key: Key, joint: usize) -> (u32, bool) {
+    let own = (key >> shift(joint)) as u32;
+    (own & 15, own >> 4 & 1 == 1)
+}
+
+pub(super) fn bits(joint: usize) -> Key {
+    31 << shift(joint)
+}
+
+/// Returns the key of a term without its phases: those that differ by them stand together.
+pub(super) fn without_phases(key: Key) -> Key {
+    let each = (0..(Key::BITS as usize - GROUP) / WIDTH).fold(0, |all, k| all | 16 << shift(k));
+    key & !each
+}
+
+pub(super) fn group(key: Key) -> usize {
+    (key & ((1 << GROUP) - 1)) as usize
+}
+
+pub(super) struct Terms {
+    pub(super) terms: Vec<(Key, f64)>,
+    /// What each group of terms is multiplied with.
+    pub(super) factors: Vec<Factor>,
+    /// The velocities whose signs matter.
+    pub(super) velocities: usize,
+    pub(super) rest: f64,
+}
+
+/// cosᶜ·sinˢ, s at most one, as multiples of the angle: with cos for s = 0, else with sin.
+fn of_power(c: u32, s: u32) -> Vec<(u32, f64)> {
+    let mut parts = vec![0.0; c as usize + 2];
+    let mut part = 0.5f64.powi(c as i32);
+    for j in 0..=c {
+        // cosᶜ is the sum of cos (c − 2j) by binomials; cos a sin b is ½ (sin(a + b) − sin(a − b)).
+        let k = f64::from(c) - 2.0 * f64::from(j);
+        let (up, down) = (k + 1.0, k - 1.0);
+        if s == 0 {
+            parts[k.abs() as usize] += part;
+        } else {
+            parts[up.abs() as usize] += 0.5 * part * if up < 0.0 { -1.0 } else { 1.0 };
+            parts[down.abs() as usize] -= 0.5 * part * if down < 0.0 { -1.0 } else { 1.0 };
+            parts[0] = 0.0;
+        }
+        part = part * f64::from(c - j) / f64::from(j + 1);
+    }
+    let parts = (0..).zip(parts);
+    parts.filter(|(_, part)| *part != 0.0).collect()
+}
+
+impl Terms {
+    pub(super) fn new(polynomial: &Polynomial, ring: &Ring) -> Terms {
+        let mut sums: BTreeMap<(Powers, Key), f64> = BTreeMap::new();
+        let mut mass = 0.0;
+        for &(key, value) in &polynomial.terms {
+            let mut parts = vec![(0, value)];
+            for joint in 0..ring.angles.len() {
+                let [s, c] = [Variable::Sin, Variable::Cos].map(|own| exponent(key, own, joint));
+                if s + c > 0 {
+                    let powers = of_power(c, s);
+                    let spread = |&(key, value): &(Key, f64)| {
+                        let own = powers.iter().map(move |&(k, part)| {
+                            let bits = Key::from(k | s << 4);
+                            (key | bits << shift(joint), value * part)
+                        });
+                        own.collect::<Vec<_>>()
+                    };
+                    parts = parts.iter().flat_map(spread).collect();
+                }
+            }
+            let group = key & !ANGLES;
+            let (middle, radius) = ring.factor(group);
+            for (key, value) in parts {
+                mass += value.abs() * (middle.abs() + radius);
+                if middle != 0.0 {
+                    *sums.entry((0, key)).or_default() += value * middle;
+                }
+                if radius != 0.0 {
+                    *sums.entry((group | RADIUS, key)).or_default() += value * radius;
+                }
+            }
+        }
+        let mut groups: Vec<Powers> = sums.keys().map(|key| key.0).collect();
+        groups.dedup();
+        // Beyond, the terms of all others count with their magnitudes.
+        groups.truncate(MOST_GROUPS);
+        let largest = sums.values().fold(0.0f64, |most, own| most.max(own.abs()));
+        // Powers of doubles, products and sums of these were rounded.
+        let mut rest = polynomial.rest + mass * 64.0 * f64::EPSILON;
+        let mut terms = Vec::new();
+        for ((group, key), value) in sums {
+            match groups.binary_search(&group) {
+                Ok(id) if value.abs() > NEGLIGIBLE * largest => {
+                    terms.push((key | id as Key, value));
+                }
+                _ => rest += value.abs(),
+            }
+        }
+        let (factors, velocities) = factors(&groups, ring);
+        Terms {
+            terms,
+            factors,
+            velocities,
+            rest: rest * (1.0 + 1e-9),
+        }
+    }
+}
+
+/// Returns the factor of each group, and the number of velocities whose signs matter.
+fn factors(groups: &[Powers], ring: &Ring) -> (Vec<Factor>, usize) {
+    let joints = ring.angles.len();
+    // One or two velocities, with nothing else, that are as large backwards as forwards.
+    let product = |group: &Powers| -> Option<Vec<usize>> {
+        let own = group & !RADIUS;
+        let power = |joint: usize| exponent(own, Variable::Velocity, joint);
+        let others = [
+            Variable::Acceleration,
+            Variable::EvenError,
+            Variable::OddError,
+        ];
+        let is_bare = |joint: usize| others.iter().all(|other| exponent(own, *other, joint) == 0);
+        let is_product = own != 0
+            && (0..joints).all(|joint| power(joint) <= 1 && is_bare(joint))
+            && ring.factor(own).0 == 0.0;
+        let list: Vec<usize> = (0..joints).filter(|joint| power(*joint) == 1).collect();
+        (is_product && (1..=2).contains(&list.len())).then_some(list)
+    };
+    let products: Vec<Option<Vec<usize>>> = groups.iter().map(product).collect();
+    let mut moving: Vec<usize> = products.iter().flatten().flatten().copied().collect();
+    moving.sort_unstable();
+    moving.dedup();
+    let is_linear = products.iter().flatten().any(|own| own.len() == 1);
+    // If nothing is linear, the last velocity may be one: all signs at once change nothing.
+    let free = moving.len() - usize::from(!is_linear && !moving.is_empty());
+    let bit = |joint: &usize| match moving.binary_search(joint) {
+        Ok(place) if place < free => 1u32 << place,
+        _ => 0,
+    };
+    let factor = |(group, product): (&Powers, &Option<Vec<usize>>)| match product {
+        _ if *group == 0 => Factor::One,
+        Some(list) if free <= MOST_VELOCITIES => {
+            Factor::Velocities(list.iter().fold(0, |all, joint| all ^ bit(joint)))
+        }
+        _ => Factor::Other,
+    };
+    let factors = groups.iter().zip(&products).map(factor).collect();
+    let velocities = if free <= MOST_VELOCITIES { free } else { 0 };
+    (factors, velocities)
+}
