@@ -20,6 +20,7 @@ pub use crate::edits::{Edit, EditSite, Omission, Stage, difference, omissions};
 pub use crate::falsify::{Falsification, falsify};
 pub use crate::figures::bound_of;
 pub use crate::function::{Argument, Columns, Quantity, RuntimeParameter, Sizes};
+pub use crate::generate::bounded::bounded;
 pub use crate::generate::{
     MAX_OUTPUTS, ToleranceError,
     claim::{claim, claim_of},

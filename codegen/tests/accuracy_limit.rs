@@ -29,6 +29,7 @@ fn heavier(source: &str, factor: f64) -> String {
 
 daily_and_campaign! {
     neighbours_cost_about_the_same: (0..2), (2..6);
+    heavy_rotors_cost_few_digits: (&ROTORS[..2]), (&ROTORS[2..]);
 }
 
 fn neighbours_cost_about_the_same(places: Range<usize>) {
@@ -94,6 +95,39 @@ fn the_estimate_is_what_is_observed() {
         assert!(
             (0.3..3.0).contains(&ratio),
             "{name}: estimated {estimate}, observed {observed}"
+        );
+    }
+}
+
+/// A robot, the output, and the inertia of the last joint's rotor.
+const ROTORS: [[&str; 3]; 8] = [
+    ["planar3r", "forward_dynamics", "100"],
+    ["planar3r", "forward_dynamics", "1e6"],
+    ["planar3r", "inertia_inverse", "1e4"],
+    ["planar3r", "forward_dynamics_with_wrench", "1e6"],
+    ["stanford", "forward_dynamics", "1e3"],
+    ["puma560", "forward_dynamics", "1e5"],
+    ["puma560", "inertia_inverse", "1e6"],
+    ["scara", "forward_dynamics", "1e4"],
+];
+
+/// Beside a heavy rotor, parameters that are added up lose the digits of the others.
+fn heavy_rotors_cost_few_digits(cases: &[[&str; 3]]) {
+    for [name, output, armature] in cases {
+        let file = source(name, "");
+        let at = file.rfind("\nmass = ").unwrap();
+        let file = format!("{}\narmature = {armature}{}", &file[..at], &file[at..]);
+        let error = |formulation: &str| {
+            let asked = format!("outputs: {output}; scalar: f64{formulation}");
+            let case = Case::read(&file, &asked);
+            let program = &case.generated().functions[0].program;
+            Rounding::estimate(&Setup::whole(case.robot()), program).worst()
+        };
+        let [own, textbook] = ["", "; formulation: newton_euler"].map(error);
+        let most = 4.0 * textbook.max(4.0);
+        assert!(
+            own <= most,
+            "{name} {output} {armature}: {own} u, not {most}"
         );
     }
 }

@@ -227,7 +227,7 @@ task               | q qd qdd | reaction_wrenches.wrenches@eye | there is no res
 /// A place in a claim, what stands there instead, and the refusal.
 const CLAIMS: &str = r#"
 NONE := nothing is claimed of `gravity`
-/claim | 2 | version 2 is not known
+/claim | 1 | version 1 is not known, 2 is: generate the file and its claim anew
 /more | 1 | unknown field `more`
 /constants | ["1e999999999"] | is not a constant
 /constants | ["nan"] | is not a constant

@@ -18,8 +18,8 @@ pub(super) fn describe(
 ) -> Vec<String> {
     let mut lines = [
         "",
-        "Certified: inside the box, |this code - the full model| ≤ E·T. The last three columns",
-        "split E by cause. [`in_box`] says whether a state is inside.",
+        "Certified: inside the box, |this code - the full model| ≤ E·T. The last two columns split E",
+        "into what differs in real numbers and rounding. [`in_box`] says whether a state is inside.",
     ]
     .map(String::from)
     .to_vec();
@@ -74,12 +74,12 @@ fn saved(omission: &Omission) -> String {
 fn bounds(certificate: &Certificate, setup: &Setup) -> Vec<String> {
     let units = scale::units(&certificate.emitted, setup.robot());
     let mut lines = vec![
-        "| output | T | E | left out | sin/cos | rounding |".to_owned(),
-        "|---|---|---|---|---|---|".to_owned(),
+        "| output | T | E | real | rounding |".to_owned(),
+        "|---|---|---|---|---|".to_owned(),
     ];
     let bounds = certificate.bounds.iter().zip(&certificate.scales);
     for (index, ((bound, scale), unit)) in bounds.zip(units).enumerate() {
-        let errors = [bound.total(), bound.model, bound.sincos, bound.rounding];
+        let errors = [bound.total(), bound.model + bound.sincos, bound.rounding];
         lines.push(format!(
             "| {} | {} {unit} | {} |",
             certificate.emitted.entry(index),

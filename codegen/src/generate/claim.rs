@@ -35,7 +35,7 @@ pub fn claim(
         Claimed {
             symbols: ScalarType::ALL.iter().map(symbol).collect(),
             tolerated: (own.admitted.as_ref())
-                .and_then(|own| tolerated(&own.certificates, &mut constants)),
+                .and_then(|own| tolerated(own.certificates.first()?, &mut constants)),
             ..of_setup(&own.program, setup, &mut constants)
         }
     });
@@ -47,7 +47,7 @@ pub fn claim(
 pub fn claim_of(robot: &Robot, source: &str, setup: &Setup, own: &Certificate) -> Claim {
     let mut constants = Written::default();
     let function = Claimed {
-        tolerated: tolerated(std::slice::from_ref(own), &mut constants),
+        tolerated: tolerated(own, &mut constants),
         ..of_setup(&own.emitted, setup, &mut constants)
     };
     document(robot, source, setup, vec![function], constants)
@@ -80,34 +80,19 @@ fn document(
     }
 }
 
-fn tolerated(certificates: &[Certificate], constants: &mut Written) -> Option<Tolerated> {
-    let first = certificates.first()?;
+fn tolerated(first: &Certificate, constants: &mut Written) -> Option<Tolerated> {
     let program = &first.emitted;
     let exact = Some(&first.exact).filter(|exact| *exact != program);
     let [steps, returns] = exact.map_or_else(Default::default, |own| code(own, constants));
     let is_given = |own: &Argument| program.arguments.contains(own);
-    let ranges = Argument::STATE.map(|own| {
-        let ranges = first.limits.of_argument(own).iter();
-        let ranges = ranges.filter(|_| is_given(&own));
-        ranges.map(|range| [range.low(), range.high()]).collect()
-    });
     let reached = first.reached.iter().map(|at| {
         let given = Argument::STATE.iter().filter(|own| is_given(own));
         given.flat_map(|own| at.entries(*own)).copied().collect()
     });
-    let bounds = |scalar: ScalarType| {
-        let own = certificates.iter().find(|own| own.scalar == scalar);
-        let bounds = own.map_or(&[][..], |own| &own.bounds);
-        bounds.iter().map(|own| own.total()).collect()
-    };
     Some(Tolerated {
         steps,
         returns,
         relative_to: (first.relative_to).map_or_else(String::new, |own| own.word().to_owned()),
-        ranges,
-        scales: first.scales.clone(),
         reached: reached.collect(),
-        f64: bounds(ScalarType::F64),
-        f32: bounds(ScalarType::F32),
     })
 }

@@ -3,6 +3,7 @@
 //! - `search`: a program from the plan, or searched for
 //! - `tolerate`: the cheapest variant that a scene's tolerance admits
 //! - [`mod@keep`]: what was generated, in a plan; [`claim`]: for the checker
+//! - [`bounded`]: the bounds of a variant, by the checker
 //! - `again`: what is searched for again: after an edit, and after an early end
 //! - `contradiction`: what was proved, tried
 //! - [`parameters`]: which parameters can be arguments
@@ -11,6 +12,7 @@
 //! - [`error`]: why nothing was generated
 
 mod again;
+pub(crate) mod bounded;
 pub(crate) mod claim;
 pub(crate) mod contradiction;
 pub(crate) mod error;

@@ -9,7 +9,7 @@ use crate::function::Function;
 use crate::plan::{Entry, Plan};
 use crate::program::{Counts, Program, ScalarType};
 use crate::search::{self, Effort, Pass, Searched};
-use crate::seeds::start::{Approach, Problem};
+use crate::seeds::start::{Approach, Problem, Start};
 use crate::seeds::{Limit, Seed, Source, Tuned};
 use crate::setup::{ParametersKey, SceneKey, Task, input_hash};
 use crate::task::Prefer;
@@ -138,7 +138,8 @@ impl<'a> Search<'a> {
         }
         tell(Part::Formulations, Some(quick.searched.graph.counts()));
         let mut found = self.run(Effort::Thorough, true, &[], watch)?;
-        if found.cost() > quick.cost() {
+        let order = |own: &Found| (!self.judge.accepts(&own.searched.graph), own.cost());
+        if order(&found) > order(&quick) {
             found = quick;
         } else {
             found.refused = quick
@@ -199,6 +200,16 @@ impl<'a> Search<'a> {
             found = both.min_by_key(order);
         }
         let mut found = found.ok_or_else(GenerateError::empty)?;
+        if !self.judge.accepts(&found.searched.graph) {
+            // All that share parameters lose digits, as beside a heavy rotor: the textbook's does not.
+            let textbook = Start::textbook(self.task);
+            let textbook =
+                textbook.and_then(|own| self.search_from(own, Effort::Quick, true, watch));
+            let is_better = |own: &Found| self.judge.accepts(&own.searched.graph);
+            if let Some(textbook) = textbook.filter(is_better) {
+                return Ok(textbook);
+            }
+        }
         let graph = &free.searched.graph;
         let error = self.judge.error(graph);
         // The limit holds for every result: what breaks it for one may be cheaper and have a

@@ -40,6 +40,13 @@ impl Start {
         }
     }
 
+    /// Returns the recursion in link axes alone: what rounding is held against. It has no load.
+    pub(crate) fn textbook(task: Task<'_>) -> Option<Approach> {
+        let is_loaded = task.setup.takes(task.function, RuntimeParameter::Payload);
+        let seed = || vec![trace(task, Formulation::NewtonEulerLink)];
+        (!is_loaded).then(|| Approach::of(seed()))
+    }
+
     pub(crate) fn approaches(self, problem: &Problem<'_>) -> Vec<Approach> {
         let task = problem.task;
         let function = task.function;

@@ -3,6 +3,7 @@
 //! is inside the box, gets what was checked, and that nothing hides.
 
 use std::collections::{HashMap, HashSet};
+use std::f64::consts::PI;
 
 use crate::claim::whole;
 use crate::compare::is_literal;
@@ -14,6 +15,7 @@ use crate::payload;
 use crate::program::ARGUMENTS;
 use crate::read::number;
 use crate::rounding::Ranges;
+use crate::sines::Scalar;
 use crate::tolerance::BOX_SLACK;
 
 const TYPES: [&str; 2] = [
@@ -194,6 +196,16 @@ impl<'k> Known<'k> {
                     !is_bounded && !held.polynomials.contains(&joint)
                 }
                 None => !held.bounded[place],
+                // Polynomials that take off whole turns are good far beyond one.
+                Some([low, high])
+                    if place == 0
+                        && self.setting.turns_by(joint)
+                        && !self.setting.is_limited(joint) =>
+                {
+                    let far = Scalar::new(is_single).far;
+                    let is_far = high <= far * (1.0 + BOX_SLACK) && low >= -far * (1.0 + BOX_SLACK);
+                    is_far && low <= -PI && PI <= high
+                }
                 Some([low, high]) => {
                     let [own_low, own_high] = self.ranges[place][joint];
                     // Ends are floats inside the range.

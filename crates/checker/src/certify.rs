@@ -399,9 +399,9 @@ impl<'w> Whole<'w> {
         let why = match (&self.tolerance, &own.tolerated) {
             (None, None) => return Ok(None),
             (Some(_), None) if own.function == LOAD => return Ok(None),
-            (Some(_), None) => "its claim has no error bounds, and a tolerance is asked for",
+            (Some(_), None) => "its claim has no exact program, and a tolerance is asked for",
             (None, Some(_)) => {
-                "its claim has error bounds, and no tolerance is asked for: name its scene, or \
+                "it was generated under a tolerance, and none is asked for: name its scene, or \
                  give one"
             }
             (Some((_, Some(to))), Some(own)) if *to != own.relative_to => {

@@ -2,7 +2,7 @@
 //! that its text has to be.
 //!
 //! ```json
-//! { "claim": 1,
+//! { "claim": 2,
 //!   "constants": ["981/100", "1/2*cos(3/10)"],
 //!   "functions": [
 //!     { "function": "gravity", "arguments": ["q"], "results": ["gravity.c"],
@@ -26,7 +26,7 @@ use crate::program::{Operand, Program, Step, argument};
 use crate::work::Work;
 
 /// The version that is read.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 /// The longest document.
 pub const MOST_BYTES: usize = 32 << 20;
 /// The most constants, and the most operations of a function.
@@ -93,7 +93,7 @@ pub struct Claimed {
     pub steps: String,
     /// The values of the results.
     pub returns: String,
-    /// The errors of the results, if a tolerance left something out.
+    /// The exact program, if a tolerance left something out.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerated: Option<Tolerated>,
     /// The parameters that each column of a regressor adds up: `m2 #4*mx2`.
@@ -136,8 +136,8 @@ pub struct Planned {
     pub left_out: Vec<(String, usize, usize)>,
 }
 
-/// The claim about a function under a tolerance: at every state of the box each result of the
-/// text is within E·T of the robot's.
+/// The claim about a function under a tolerance: the exact program, and what errors are relative to.
+/// None of its numbers makes an error look smaller.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Tolerated {
@@ -150,19 +150,9 @@ pub struct Tolerated {
     /// The meaning of T: `actuator`, the limits of the actuators, or `range`, a size that the result
     /// reaches.
     pub relative_to: String,
-    /// The ranges of q, q̇ and q̈, of each joint; none of what is no argument.
-    pub ranges: [Vec<[f64; 2]>; 3],
-    /// T of each result, in its unit.
-    pub scales: Vec<f64>,
     /// Where T is the range: a state for each result at which it is reached, q, q̇ and q̈ in a row.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub reached: Vec<Vec<f64>>,
-    /// E of each result in f64; empty where nothing is claimed.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub f64: Vec<f64>,
-    /// E of each result in f32; empty where nothing is claimed.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub f32: Vec<f64>,
 }
 
 impl Claim {
@@ -179,7 +169,9 @@ impl Claim {
         let claim = claim.or_else(|error| refuse(error.to_string()))?;
         if claim.claim != VERSION {
             let own = claim.claim;
-            let why = format!("version {own} is not known: version {VERSION} is read");
+            let why = format!(
+                "version {own} is not known, {VERSION} is: generate the file and its claim anew"
+            );
             return refuse(why);
         }
         if claim.constants.len() > MOST {

@@ -30,6 +30,8 @@ pub mod claim;
 mod compare;
 #[cfg(feature = "certify")]
 mod cost;
+#[cfg(feature = "certify")]
+mod derivatives;
 #[cfg(feature = "claim")]
 mod fault;
 #[cfg(feature = "certify")]

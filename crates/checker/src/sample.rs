@@ -85,7 +85,9 @@ impl<'f> Sampler<'f> {
     pub fn run(&self, state: &State, load: &[Near], values: &mut Vec<Near>) {
         values.clear();
         values.extend(self.leaves.iter().map(|own| self.leaf(own, state, load)));
-        let Scalar { unit, least, most } = self.scalar;
+        let Scalar {
+            unit, least, most, ..
+        } = self.scalar;
         for (operation, [a, b]) in &self.code {
             let (a, b) = (values[*a], values[*b]);
             let (value, off, inherited) = match operation {

@@ -1,8 +1,10 @@
 //! Bounds of one rounding, and of how far polynomials of an angle are from its sine and its cosine.
 
+use std::f64::consts::{PI, TAU};
+
 use crate::interval::{FARTHEST, Interval, SINE_ERROR, UNIT, sin_cos};
 use crate::polynomial::SLACK;
-use crate::program::{Operand, Program};
+use crate::program::{Operand, Program, Step};
 
 const CELLS: usize = 1 << 14;
 
@@ -14,15 +16,22 @@ pub struct Scalar {
     pub least: f64,
     /// Where results are too near to overflow: states a little outside of the box would.
     pub most: f64,
+    /// The largest angle of which whole turns are taken off, rad.
+    pub far: f64,
 }
 
 impl Scalar {
     pub fn new(is_single: bool) -> Scalar {
-        let (unit, least, most) = match is_single {
-            true => (f64::from(f32::EPSILON) / 2.0, 1e-45, 1e30),
-            false => (UNIT, f64::from_bits(1), 1e280),
+        let (unit, least, most, far) = match is_single {
+            true => (f64::from(f32::EPSILON) / 2.0, 1e-45, 1e30, 1e3),
+            false => (UNIT, f64::from_bits(1), 1e280, 1e6),
         };
-        Scalar { unit, least, most }
+        Scalar {
+            unit,
+            least,
+            most,
+            far,
+        }
     }
 
     /// Bounds one rounding of a number of at most this size.
@@ -50,10 +59,102 @@ pub fn work(polynomials: &Program<f64>) -> u64 {
     40 * CELLS as u64 * (1 + polynomials.steps.len() as u64)
 }
 
+/// Bounds how far polynomials of an angle are from its sine or cosine, with the rounding on the way;
+/// infinite if nothing can be said. Polynomials that take off whole turns first are bounded as
+/// far as [`Scalar::far`], wherever the angle is.
+pub fn error(
+    polynomials: &Program<f64>,
+    result: usize,
+    is_sine: bool,
+    range: Interval,
+    scalar: Scalar,
+) -> f64 {
+    match Reduction::read(polynomials, scalar) {
+        None => error_near(polynomials, result, is_sine, range, scalar),
+        Some(_) if !(range.magnitude() <= scalar.far) => f64::INFINITY,
+        Some(own) => {
+            let near = Interval::new(-own.most, own.most);
+            own.error + error_near(&own.rest, result, is_sine, near, scalar)
+        }
+    }
+}
+
+/// Polynomials behind the steps that take whole turns off an angle.
+struct Reduction {
+    rest: Program<f64>,
+    /// The largest angle that is left, and how far it is from the angle less whole turns.
+    most: f64,
+    error: f64,
+}
+
+impl Reduction {
+    /// k = (q·ι + M) − M with ι ≈ 1/2π, and M so that floats next to it are the integers; then
+    /// (q − k·A) − k·B with A + B ≈ 2π, where k·A is exact.
+    fn read(own: &Program<f64>, scalar: Scalar) -> Option<Reduction> {
+        const ANGLE: Operand<f64> = Operand::Entry(0, 0);
+        let (steps, behind) = own.steps.split_first_chunk::<7>()?;
+        let number = |step: usize| match steps[step].1[1] {
+            Operand::Constant(value) => Some(value),
+            _ => None,
+        };
+        let [inverse, magic, much, little] = [number(0)?, number(1)?, number(3)?, number(5)?];
+        let of = |operation, a, b| (operation, [a, b]);
+        let (step, value) = (Operand::Step, Operand::Constant);
+        let expected = [
+            of('*', ANGLE, value(inverse)),
+            of('+', step(0), value(magic)),
+            of('-', step(1), value(magic)),
+            of('*', step(2), value(much)),
+            of('-', ANGLE, step(3)),
+            of('*', step(2), value(little)),
+            of('-', step(4), step(5)),
+        ];
+        // Nothing else reads what came before.
+        let moved = |own: &Operand<f64>| match own {
+            Operand::Step(6) => Some(ANGLE),
+            Operand::Step(step) => step.checked_sub(7).map(Operand::Step),
+            Operand::Constant(value) => Some(Operand::Constant(*value)),
+            _ => None,
+        };
+        let step = |(operation, [a, b]): &Step<f64>| Some((*operation, [moved(a)?, moved(b)?]));
+        let output = |(negative, own): &(bool, Operand<f64>)| Some((*negative, moved(own)?));
+        let rest = Program {
+            steps: behind.iter().map(step).collect::<Option<_>>()?,
+            outputs: own.outputs.iter().map(output).collect::<Option<_>>()?,
+        };
+        let Scalar {
+            unit, least, far, ..
+        } = scalar;
+        // 2^(p − 1) times 1.5, of p bits.
+        (*steps == expected && magic == 0.75 / unit).then_some(())?;
+        let scaled = far * inverse.abs();
+        let counted = far * ((inverse - INVERSE).abs() + 2e-17) + unit * scaled + least;
+        let turns = (scaled + 1.0).ceil();
+        (4.0 * turns * unit < 1.0).then_some(())?;
+        // k·A is exact: k has so many bits at most, and A the others.
+        let grid = (turns as u64).next_power_of_two() as f64 * unit;
+        let is_short = much > 4.0 && (much / (8.0 * grid)).fract() == 0.0 && much < 8.0;
+        // Both differences are exact, of numbers so near to one another.
+        let apart = TAU - much;
+        let is_near = little > 0.5 * apart && little < 2.0 * apart;
+        (is_short && is_near).then_some(())?;
+        let off = ((apart - little) + TAU_REST).abs() + 1e-30;
+        let most = (PI + TAU * counted) * (1.0 + 1e-15);
+        let shift = turns * off + unit * (2.0 * turns * little + 3.0 * most + 1.0) + 3.0 * least;
+        let error = shift * (1.0 + 1e-12);
+        let most = (most + error) * (1.0 + 1e-15);
+        Some(Reduction { rest, most, error })
+    }
+}
+
+/// The double next to 1/2π, and 2π as the sum of two.
+const INVERSE: f64 = 0.159_154_943_091_895_35;
+const TAU_REST: f64 = 2.449_293_598_294_706_4e-16;
+
 /// Bounds f, the polynomials of an angle in real numbers less its sine or cosine: the value at the
 /// middle of each cell and the slope over the cell are enclosed, |f| ≤ |f(m)| + max|f′|·w. The
-/// rounding on the way is added; infinite if nothing can be said.
-pub fn error(
+/// rounding on the way is added.
+fn error_near(
     polynomials: &Program<f64>,
     result: usize,
     is_sine: bool,

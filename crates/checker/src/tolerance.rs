@@ -1,34 +1,38 @@
-//! A function under a tolerance: at every state of the box each result of its text is within E·T of
-//! the exact program's, and T is no larger than it may be.
+//! A function under a tolerance: at every state of the box each result of its text is within the
+//! tolerance, relative to T, of the exact program's.
 //!
 //! The difference of the two programs is a polynomial in sines, cosines and rates, of which all
-//! that both have in common cancels. Its largest magnitude over the box and what rounding costs add up.
+//! that both have in common cancels. Its largest magnitude over the box and what rounding costs add
+//! up. Box and T are not the claim's: the box is the scene's or the limits of the joints, T the
+//! actuators' limit, or what the exact program reaches at a state of the box.
 
 use crate::claim::Tolerated;
+use crate::derivatives::Derivatives;
 use crate::fault::Fault;
 use crate::identity::exact::Exact;
-use crate::identity::number::Draws;
 use crate::identity::setting::Setting;
 use crate::identity::table::{Field, Function};
 use crate::interval::FARTHEST;
-use crate::maximum;
+use crate::maximum::{self, length};
 use crate::polynomial::SLACK;
 use crate::program::{ARGUMENTS, Operand, Program};
 use crate::read;
 use crate::ring::Ring;
 use crate::rounding::{Ranges, Rounding};
 use crate::work::Work;
-use crate::written::{at, written};
+use crate::written::{Written, at};
 
 /// The share by which a box may be another than the file's: decimals were rounded to doubles.
 pub(crate) const BOX_SLACK: f64 = 1e-9;
-/// The share by which T may be above the value that is reached. The tolerance is relative to that.
-const SCALE_SLACK: f64 = 1e-4;
-const MOST_EVALUATED: usize = 1 << 24;
-const STATES: usize = 1000;
+/// Nanoseconds for an operation of intervals, and for a term whose length is summed.
+const INTERVALS: u64 = 20;
+const LENGTH: u64 = 300;
+/// The part of the tolerance that rounding may take by intervals, before polynomials bound it.
+const SHARE: f64 = 1.0 / 16.0;
 /// The largest error of a result that is always zero, relative to the largest T: differences of
 /// programs are of doubles.
 const ZERO: f64 = 1e-12;
+const MOST_RATE: f64 = 1e30;
 
 /// The findings about one result, in its own unit.
 #[derive(Clone, Debug)]
@@ -37,12 +41,11 @@ pub struct Bounded {
     pub joints: Vec<usize>,
     /// T: the size that errors are relative to.
     pub scale: f64,
-    /// A bound of what the text differs from the exact program in real numbers.
+    /// A bound of what the text differs from the exact program in real numbers: parts that were left
+    /// out, and polynomials for sines.
     pub real: f64,
     /// A bound of what rounding costs.
     pub rounding: f64,
-    /// The claim, E·T.
-    pub claimed: f64,
     /// The user's tolerance times T.
     pub tolerated: f64,
 }
@@ -59,15 +62,9 @@ impl Bounded {
         if self.scale == 0.0 { 1.0 } else { self.scale }
     }
 
-    /// Returns true if E is shown, but for one part in 10⁹ of it.
-    pub fn holds(&self) -> bool {
-        self.bound() <= self.claimed * (1.0 + 1e-9)
-    }
-
     /// Returns true if the tolerance is shown.
     pub fn is_shown(&self) -> bool {
-        let is_none = self.claimed == 0.0 && !self.holds();
-        !is_none && self.bound() <= self.tolerated
+        self.bound() <= self.tolerated
     }
 }
 
@@ -89,69 +86,84 @@ type Entry<'s> = (&'s Field, Vec<usize>);
 
 impl Subject<'_> {
     pub(crate) fn bounded(&self) -> Result<Vec<Bounded>, Fault> {
-        let (own, count) = (self.own, self.emitted.outputs.len());
-        let errors = if self.is_single { &own.f32 } else { &own.f64 };
-        let is_error = |error: &f64| (0.0..1.0).contains(error);
-        unless(
-            errors.len() == count && errors.iter().all(is_error),
-            "expected E of each result, from zero to below one",
-        )?;
-        unless(
-            own.scales.len() == count && own.scales.iter().all(|own| *own >= 0.0),
-            "expected T of each result",
-        )?;
+        let count = self.emitted.outputs.len();
         unless(
             self.exact.outputs.len() == count,
             "two programs of other results",
         )?;
         let fields = self.results();
         unless(fields.len() == count, "results that are not the function's")?;
-        let [ranges, file] = &self.ranges()?;
-        if (self.exact.steps.len() + count) * count > MOST_EVALUATED {
-            return Err(Fault::Work);
-        }
-        let most = self.attainable(&fields, file)?;
+        let ranges = &self.ranges()?;
         let work = self.work;
+        let evaluated = (self.exact.steps.len() + count) * count;
+        work.spend(evaluated, INTERVALS)?;
+        let scales = self.scales(&fields, ranges)?;
         let ring = Ring::new(self.setting, ranges, work)?;
         let rounding = Rounding::new(self.read, self.is_single, ranges);
-        let (mut sizes, emitted) = written(self.emitted, &ring, Some(&rounding), work)?;
-        let (_, exact) = written(self.exact, &ring, None, work)?;
-        sizes.iter_mut().for_each(|size| *size *= SLACK);
-        let rounding = rounding.bounds(ranges, Some(&sizes)).results;
-        let largest = own.scales.iter().copied().fold(0.0, f64::max);
+        let emitted = Written::new(self.emitted, &ring, Some(&rounding), work)?;
+        let exact = Written::new(self.exact, &ring, None, work)?;
+        let steps = self.read.program.steps.len();
+        let size = |step: usize| {
+            let own = emitted.step(step);
+            own.map_or(f64::INFINITY, |own| ring.size(own) * SLACK)
+        };
+        let mut sizes: Vec<f64> = (0..steps).map(size).collect();
+        work.spend(steps * (count + 4), INTERVALS)?;
+        let bounds = rounding.bounds(ranges, Some(&sizes)).results;
+        let mut costs: Vec<f64> = bounds.iter().map(|own| own.error).collect();
+        // Where intervals leave little of the tolerance.
+        let allowed = |k: usize| self.held(&fields[k].1) * scales[k];
+        let is_dear = |k: &usize| costs[*k] > SHARE * allowed(*k);
+        let dear: Vec<usize> = (0..count).filter(is_dear).collect();
+        if !dear.is_empty() {
+            for (step, size) in sizes.iter_mut().enumerate() {
+                if let Some(own) = emitted.step(step) {
+                    work.spend(own.terms.len(), LENGTH)?;
+                    *size = size.min(length(own, &ring) * SLACK);
+                }
+            }
+            let derivatives = Derivatives {
+                text: &self.read.program,
+                program: self.emitted,
+                written: &emitted,
+                ring: &ring,
+                rounding: &rounding,
+                sizes: &sizes,
+                work,
+            };
+            for (k, cost) in dear.iter().zip(derivatives.bounds(&dear)?) {
+                costs[*k] = costs[*k].min(cost);
+            }
+        }
+        let (emitted, exact) = (&emitted.outputs, &exact.outputs);
+        let largest = scales.iter().copied().fold(0.0, f64::max);
         let mut found = Vec::new();
         for (k, (_, joints)) in fields.into_iter().enumerate() {
-            let scale = own.scales[k];
+            let scale = scales[k];
             let rounding = match self.is_literal(k) {
                 true => 0.0,
-                false => rounding[k].error,
+                false => costs[k],
             };
-            let is_nothing = scale == 0.0 && most[k] == 0.0;
             // Of a result that is not always zero there is a state where it is not.
             let is_zero = exact[k].terms.is_empty() && exact[k].rest == 0.0;
             unless(
-                !is_nothing || is_zero,
+                scale > 0.0 || is_zero,
                 "T of zero of a result that is not always zero",
             )?;
-            let (claimed, tolerated) = match is_nothing {
-                true => (ZERO * largest, ZERO * largest),
-                false => (
-                    below(errors[k] * scale),
-                    below(self.held(&joints) * scale.min(most[k])),
-                ),
+            let tolerated = match scale > 0.0 {
+                true => below(self.held(&joints) * scale),
+                false => ZERO * largest,
             };
             let difference = emitted[k].plus(&exact[k].negated());
-            let wanted = (claimed - rounding).next_down().next_down();
+            let wanted = (tolerated - rounding).next_down().next_down();
             found.push(Bounded {
                 joints,
                 scale,
                 real: maximum::largest(&difference, &ring, wanted, work).bound,
                 rounding,
-                claimed,
                 tolerated,
             });
         }
-        self.tried(&found, ranges)?;
         Ok(found)
     }
 
@@ -163,32 +175,6 @@ impl Subject<'_> {
             }
             _ => false,
         }
-    }
-
-    /// Refuses an E that is not shown where a state of the box refutes it.
-    fn tried(&self, found: &[Bounded], ranges: &Ranges) -> Result<(), Fault> {
-        if found.iter().all(Bounded::holds) {
-            return Ok(());
-        }
-        let mut draws = Draws::new(&["states"]);
-        for count in 0..STATES {
-            let mut point = |[low, high]: &[f64; 2]| {
-                let share = draws.share();
-                // Of every second state all are ends of their ranges.
-                low + (high - low) * if count % 2 == 0 { share } else { share.round() }
-            };
-            let lists = ranges.iter();
-            let given = lists.map(|list| list.iter().map(&mut point).collect());
-            let given: Vec<Vec<f64>> = given.collect();
-            let both = [self.emitted, self.exact].map(|own| at(own, &given).unwrap_or_default());
-            for (k, (a, b)) in both[0].iter().zip(&both[1]).enumerate() {
-                let off = *a + -*b;
-                let is_refuted = off.low.max(-off.high) > found[k].claimed;
-                let why = format!("E of result {} is refuted at a state", k + 1);
-                unless(!is_refuted, &why)?;
-            }
-        }
-        Ok(())
     }
 
     fn results(&self) -> Vec<Entry<'_>> {
@@ -218,15 +204,14 @@ impl Subject<'_> {
         each.fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the box of the claim, once it has all states of the file's, and that one; no ranges
-    /// of what is no argument. Refuses a joint that the file does not limit.
-    fn ranges(&self) -> Result<[Ranges; 2], Fault> {
+    /// Returns the box: ranges of q, q̇ and q̈, of zero where they are no argument. Refuses a joint
+    /// that the file does not limit.
+    fn ranges(&self) -> Result<Ranges, Fault> {
         let places = &self.function.arguments;
         let is_bounded = places.iter().all(|place| *place < 3);
         unless(is_bounded, "an argument that no box bounds")?;
         let of_robot = |why: String| Fault::Robot("limits".into(), why);
-        let none: Ranges = vec![Vec::new(); ARGUMENTS.len()];
-        let (mut all, mut file) = (none.clone(), none);
+        let mut all: Ranges = vec![Vec::new(); ARGUMENTS.len()];
         for place in 0..3 {
             if !places.contains(&place) {
                 all[place].resize(self.setting.joints(), [0.0; 2]);
@@ -235,48 +220,37 @@ impl Subject<'_> {
             let name = ARGUMENTS[place].0;
             let own = self.setting.ranges(name, f64::INFINITY).map_err(of_robot)?;
             let own = own.unwrap_or_default();
-            if !own.iter().flatten().all(|end| end.is_finite()) {
+            if !own.iter().flatten().all(|end| end.abs() < MOST_RATE) {
                 let why = format!("a tolerance needs the range of `{name}` of every joint");
                 return Err(of_robot(why));
             }
-            let claimed = &self.own.ranges[place];
-            let is_range =
-                |own: &[f64; 2]| own[0] <= own[1] && own.iter().all(|end| end.abs() < 1e30);
-            let is_finite = claimed.iter().all(is_range);
-            let mut pairs = own.iter().zip(claimed);
-            let has_all = claimed.len() == own.len()
-                && pairs.all(|(own, claimed)| is_within(*own, *claimed, *own));
-            unless(
-                is_finite && has_all,
-                "the box lacks states of the scene, or of the joints' limits",
-            )?;
-            all[place].clone_from(claimed);
-            file[place] = own;
+            // The decimal, or the multiple of π, may be on either side of the double, and the end of
+            // a box in f32 on either side of a point.
+            let outward = |[low, high]: [f64; 2]| match (low == high, self.is_single) {
+                (true, _) if low == 0.0 => [low, high],
+                (true, true) => [(low as f32).next_down(), (high as f32).next_up()].map(f64::from),
+                _ => [low.next_down(), high.next_up()],
+            };
+            all[place] = own.into_iter().map(outward).collect();
         }
         let is_far = |(joint, range): (usize, &[f64; 2])| {
             self.setting.turns_by(joint) && range.iter().any(|end| end.abs() >= FARTHEST)
         };
         let is_near = !all[0].iter().enumerate().any(is_far);
         unless(is_near, "the sine of an angle beyond 1000 rad")?;
-        Ok([all, file])
+        Ok(all)
     }
 
-    /// Refuses a T above the largest of each result: E would look smaller than it is.
-    fn attainable(&self, results: &[Entry], file: &Ranges) -> Result<Vec<f64>, Fault> {
-        let most = match self.own.relative_to.as_str() {
-            "actuator" => self.actuator(results)?,
-            "range" => self.reached(file)?,
+    /// Returns T of each result.
+    fn scales(&self, results: &[Entry], ranges: &Ranges) -> Result<Vec<f64>, Fault> {
+        match self.own.relative_to.as_str() {
+            "actuator" => self.actuator(results),
+            "range" => self.reached(ranges),
             _ => {
                 let why = "tolerance: `relative_to` is neither actuator nor range";
-                return Err(Fault::Claim(why.into()));
+                Err(Fault::Claim(why.into()))
             }
-        };
-        for (scale, most) in self.own.scales.iter().zip(&most) {
-            let is_reached = *scale <= most * (1.0 + SCALE_SLACK) || *scale == 0.0;
-            let why = format!("T of {scale:e} is above {most:e}, the largest that is reached");
-            unless(is_reached, &why)?;
         }
-        Ok(most)
     }
 
     /// Returns the limits of the actuators; of an entry of D the inertia that takes all of a limit at
@@ -300,7 +274,8 @@ impl Subject<'_> {
         own.ok_or_else(|| Fault::Claim(why.into()))
     }
 
-    fn reached(&self, file: &Ranges) -> Result<Vec<f64>, Fault> {
+    /// Returns what the exact program reaches at the claim's state of each result.
+    fn reached(&self, ranges: &Ranges) -> Result<Vec<f64>, Fault> {
         let (states, count) = (&self.own.reached, self.setting.joints());
         let places = &self.function.arguments;
         let wrong = "`reached`: expected a state of the box for each result";
@@ -311,8 +286,11 @@ impl Subject<'_> {
                 given[*place] = list.to_vec();
             }
             let is_whole = state.len() == count * places.len();
-            let mut pairs = given.iter().flatten().zip(file.iter().flatten());
-            let is_inside = pairs.all(|(at, own)| is_within([*at; 2], *own, *own));
+            let mut pairs = given
+                .iter()
+                .zip(ranges)
+                .flat_map(|(at, own)| at.iter().zip(own));
+            let is_inside = pairs.all(|(at, own)| is_within(*at, *own));
             unless(is_whole && is_inside, wrong)?;
             let values = at(self.exact, &given).unwrap_or_default();
             let found = values.get(result);
@@ -323,11 +301,10 @@ impl Subject<'_> {
     }
 }
 
-/// Returns true if a range is within another one, but for what decimals of the file's may be in
-/// doubles: of a point by their least.
-fn is_within([low, high]: [f64; 2], outer: [f64; 2], file: [f64; 2]) -> bool {
-    let slack = BOX_SLACK * (file[0].abs() + file[1].abs()) + f64::MIN_POSITIVE;
-    outer[0] - slack <= low && high <= outer[1] + slack
+/// Returns true if a number is in a range, but for what decimals of the file's may be in doubles.
+fn is_within(value: f64, [low, high]: [f64; 2]) -> bool {
+    let slack = BOX_SLACK * (low.abs() + high.abs()) + f64::MIN_POSITIVE;
+    low - slack <= value && value <= high + slack
 }
 
 fn unless(holds: bool, why: &str) -> Result<(), Fault> {

@@ -9,6 +9,9 @@ use crate::ring::Ring;
 use crate::rounding::Rounding;
 use crate::work::Work;
 
+/// The most terms that are alive at once: 32 bytes each.
+const MOST_ALIVE: usize = 1 << 23;
+
 pub(crate) fn at(program: &Program<Exact>, given: &[Vec<f64>]) -> Option<Vec<Interval>> {
     let leaf = |own: &Operand<Exact>| match own {
         Operand::Constant(constant) => {
@@ -31,78 +34,99 @@ pub(crate) fn at(program: &Program<Exact>, given: &[Vec<f64>]) -> Option<Vec<Int
     program.run(leaf, apply, |own: Interval| -own)
 }
 
-/// Sines by polynomials have an error that is a variable.
-pub(crate) fn written(
-    program: &Program<Exact>,
-    ring: &Ring,
-    sines: Option<&Rounding>,
-    work: &Work,
-) -> Result<(Vec<f64>, Vec<Polynomial>), Fault> {
-    let counted = uses(program);
-    let mut own = Values {
-        ring,
-        sines,
-        values: vec![None; counted.len()],
-        left: counted.clone(),
-    };
-    let mut sizes = vec![f64::INFINITY; counted.len()];
-    for (index, (operation, [one, other])) in program.steps.iter().enumerate() {
-        if counted[index] == 0 {
-            continue;
-        }
-        let (a, b) = (own.read(one)?, own.read(other)?);
-        let value = match operation {
-            '+' => a.sum(&b, work)?,
-            '-' => a.sum(&b.negated(), work)?,
-            '*' | '×' => a.times(&b, work)?,
-            _ => return Err(Fault::Claim("tolerance: the program divides".into())),
+/// A program whose steps and results are polynomials. Sines by polynomials have an error that is a
+/// variable.
+pub(crate) struct Written<'w> {
+    ring: &'w Ring,
+    sines: Option<&'w Rounding<'w>>,
+    /// Of each step that is needed, unless nobody asks for it any more.
+    steps: Vec<Option<Polynomial>>,
+    pub(crate) outputs: Vec<Polynomial>,
+}
+
+impl<'w> Written<'w> {
+    /// Writes a program out. Steps are kept if sines are given.
+    pub(crate) fn new(
+        program: &Program<Exact>,
+        ring: &'w Ring,
+        sines: Option<&'w Rounding<'w>>,
+        work: &Work,
+    ) -> Result<Written<'w>, Fault> {
+        let mut left = uses(program);
+        let mut own = Written {
+            ring,
+            sines,
+            steps: vec![None; left.len()],
+            outputs: Vec::new(),
         };
-        sizes[index] = ring.size(&value);
-        own.values[index] = Some(value);
-    }
-    let outputs = program.outputs.iter().map(|(negative, output)| {
-        let value = own.read(output)?;
-        Ok(if *negative { value.negated() } else { value })
-    });
-    let outputs = outputs.collect::<Result<_, Fault>>()?;
-    Ok((sizes, outputs))
-}
-
-struct Values<'v> {
-    ring: &'v Ring,
-    sines: Option<&'v Rounding<'v>>,
-    values: Vec<Option<Polynomial>>,
-    left: Vec<usize>,
-}
-
-impl Values<'_> {
-    /// Reads an operand; who is the last to read a step takes its value away.
-    fn read(&mut self, own: &Operand<Exact>) -> Result<Polynomial, Fault> {
-        let value = match own {
-            Operand::Step(step) => {
-                self.left[*step] -= 1;
-                match self.left[*step] {
-                    0 => self.values[*step].take(),
-                    _ => self.values[*step].clone(),
+        let mut alive = 0;
+        for (index, (operation, operands)) in program.steps.iter().enumerate() {
+            if left[index] == 0 {
+                continue;
+            }
+            let [one, other] = operands;
+            let (a, b) = (own.value(one)?, own.value(other)?);
+            let value = match operation {
+                '+' => a.sum(&b, work)?,
+                '-' => a.sum(&b.negated(), work)?,
+                '*' | '×' => a.times(&b, work)?,
+                _ => return Err(Fault::Claim("tolerance: the program divides".into())),
+            };
+            alive += value.terms.len();
+            own.steps[index] = Some(value);
+            for operand in operands {
+                if let Operand::Step(step) = operand {
+                    left[*step] -= 1;
+                    if left[*step] == 0 && sines.is_none() {
+                        alive -= own.steps[*step].take().map_or(0, |own| own.terms.len());
+                    }
                 }
             }
+            if alive > MOST_ALIVE {
+                return Err(Fault::Large);
+            }
+        }
+        for (negative, output) in &program.outputs {
+            let value = own.value(output)?;
+            own.outputs
+                .push(if *negative { value.negated() } else { value });
+        }
+        Ok(own)
+    }
+
+    /// Returns the step of an index, if it is needed.
+    pub(crate) fn step(&self, index: usize) -> Option<&Polynomial> {
+        self.steps[index].as_ref()
+    }
+
+    /// Returns the value of an operand.
+    pub(crate) fn value(&self, own: &Operand<Exact>) -> Result<Polynomial, Fault> {
+        let value = match own {
+            Operand::Step(step) => self.steps[*step].clone(),
+            own => self.leaf(own),
+        };
+        let why = "tolerance: it reads an angle as a number, or what is no state";
+        value.ok_or_else(|| Fault::Claim(why.into()))
+    }
+
+    /// Returns the value of an operand that is not a step.
+    pub(crate) fn leaf(&self, own: &Operand<Exact>) -> Option<Polynomial> {
+        match own {
             Operand::Constant(constant) => {
                 let double = constant.double();
                 double.map(|[value, radius]| Polynomial::constant(value, radius))
             }
+            Operand::Sine(joint, is_sine) => {
+                let value = self.ring.leaf(own)?;
+                let error = self.sines.and_then(|own| own.polynomial(*joint, *is_sine));
+                let variable = [Variable::EvenError, Variable::OddError][usize::from(*is_sine)];
+                Some(match error {
+                    Some(error) => value.plus(&Polynomial::variable(variable, *joint, error)),
+                    None => value,
+                })
+            }
             own => self.ring.leaf(own),
-        };
-        let why = "tolerance: it reads an angle as a number, or what is no state";
-        let value = value.ok_or_else(|| Fault::Claim(why.into()))?;
-        let Operand::Sine(joint, is_sine) = own else {
-            return Ok(value);
-        };
-        let error = self.sines.and_then(|own| own.polynomial(*joint, *is_sine));
-        let variable = [Variable::EvenError, Variable::OddError][usize::from(*is_sine)];
-        Ok(match error {
-            Some(error) => value.plus(&Polynomial::variable(variable, *joint, error)),
-            None => value,
-        })
+        }
     }
 }
 

@@ -37,10 +37,10 @@ fn found(
 const ATTACKS: &str = "
 # Multiples of 2⁶¹ − 1 in a constant of the exact program; of the text alone.
 A r2 pick result 1 is not that of the robot
-B r2 pick E of result 1 is refuted at a state
+B r2 pick result 1 has a bound of
 # Terms that vanish at known points of a known prime.
 C r2l pick result 1 is not that of the robot
-C2 r2l pick E of result 1 is refuted at a state
+C2 r2l pick result 1 has a bound of
 pt pt pick result 1 is not that of the robot
 # The function at rest is another one.
 still_bad r2_conf still result 1 is not that of the robot
@@ -53,8 +53,7 @@ rubbed rubbed free another width of friction of joint 1
 t1 r2l pick line 3: not of the grammar: `libm` expected
 t5 r2l pick `libm` expected, not `0.0`
 t6 r2l pick line 4: not of the grammar: `=` expected
-# T that nothing reaches, and limits between which nothing is.
-forged user s the largest that is reached
+# Limits between which nothing is.
 ra ru s the range of `qd` is empty
 ";
 
@@ -115,11 +114,10 @@ fn exact_functions_that_are_not_what_is_claimed() {
 fn a_tolerance_that_is_not_the_scenes() {
     let (name, scene) = ("scara_a4_too_loose", ["scara", "a4"]);
     let results = found(name, scene, Some(0.1)).unwrap();
-    let held = results.iter().filter(|own| own.holds()).count();
-    assert_eq!(held, 3, "{results:?}");
+    assert!(results.iter().all(Bounded::is_shown), "{results:?}");
     let why = found(name, scene, None).unwrap_err();
     assert!(
-        why.contains("result 1 has a bound of 7.9e-2 T, over 1.0e-3: approximation"),
+        why.contains("result 1 has a bound of 8.2e-2 T, over 1.0e-3: approximation"),
         "{why}"
     );
 }
@@ -157,7 +155,7 @@ fn variants_that_are_checked_in() {
         .unwrap();
         let results = &report.lines[0].result.as_ref().unwrap().results;
         assert!(
-            results.len() == 6 && results.iter().all(Bounded::holds),
+            results.len() == 6 && results.iter().all(Bounded::is_shown),
             "{results:?}"
         );
     }

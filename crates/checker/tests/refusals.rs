@@ -27,7 +27,7 @@ convention | name | duplicate key
 #[test]
 fn robot_files_that_are_none() {
     let source = file("crates/checker/tests/data/attacks/r2_conf.toml");
-    let claim = r#"{ "claim": 1, "constants": [], "functions": [] }"#;
+    let claim = r#"{ "claim": 2, "constants": [], "functions": [] }"#;
     let text = file("crates/checker/tests/data/attacks/C.rs");
     for (robot, words) in changed(&source, ROBOTS) {
         let fault = certify(&text, claim, &robot, &in_scene("pick"));

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use dalembert_checker::certify::{Bounded, Cost, Demand, Line, RATE, Shown, certify};
 use dalembert_checker::file::MOST_BYTES;
-use dalembert_codegen::workspace::input_hash;
+use dalembert_codegen::workspace::{bound_of, input_hash};
 use dalembert_import::ChainArgs;
 use dalembert_stamp::Stamp;
 
@@ -58,26 +58,23 @@ pub(crate) fn run(args: &CertifyArgs, context: &Context) -> Outcome {
     Ok(done)
 }
 
-const RESULTS: &str = "joint|T|real|rounding|bound|E|.tolerance|finding=";
+const RESULTS: &str = "joint|T|real|rounding|E|.tolerance";
 
 /// Values are relative to T; absolute if T is zero.
 fn row(own: &Bounded) -> Vec<Cell> {
-    let cell = |x: f64| Cell::power(x / own.unit(), 3);
-    let finding = match own.holds() {
-        true => "E holds",
-        false => "E not shown; within the tolerance",
+    let cell = |x: f64| {
+        let relative = x / own.unit();
+        Cell::of(bound_of(relative, 4), relative)
     };
     // An entry of D has two: its row and its column.
     let joints = own.joints.iter().map(|joint| (joint + 1).to_string());
     cells![
         joints.collect::<Vec<_>>().join(", "),
-        Cell::power(own.scale, 4),
+        Cell::of(bound_of(own.scale, 5), own.scale),
         cell(own.real),
         cell(own.rounding),
         cell(own.bound()),
-        cell(own.claimed),
         Cell::json(own.tolerated / own.unit()),
-        finding,
     ]
 }
 
@@ -111,7 +108,7 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
              rounding: the largest error, as a part of the largest value of that result, and in u (--help)."
         }
         true => {
-            "shown: at every state of the box each result is within its bound of the robot's, relative to T."
+            "shown: at every state of the box each result is within E of the robot's, relative to T."
         }
     });
     if let Some(scene) = scene {

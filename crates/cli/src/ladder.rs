@@ -6,7 +6,8 @@
 //! may still find less for one tolerance alone.
 
 use dalembert_codegen::workspace::{
-    Admitted, BoundEffort, Certificate, ErrorBudget, PruneSettings, TextError, each, falsify,
+    Admitted, BoundEffort, Certificate, ErrorBudget, PruneSettings, TextError, bounded, each,
+    falsify,
 };
 use dalembert_codegen::{Counts, Effort, Program, ScalarType};
 
@@ -168,10 +169,14 @@ impl<'a> Ladder<'a> {
             }
         }
         let samples = self.samples;
+        // Of what the checker does not show there is no point.
         let points = each(&certificates, |(left_out, own)| {
-            point(samples, tolerance, *left_out, own)
+            // Of the exact program the checker bounds rounding as finely as the search did.
+            let most = if exact { 16.0 * worst(own) } else { tolerance };
+            let shown = bounded(self.frame.setup, own, Some(most)).ok()?;
+            Some(point(samples, tolerance, *left_out, own, shown))
         });
-        points.into_iter().collect()
+        points.into_iter().flatten().collect()
     }
 
     /// `before` is one that a smaller tolerance admits.
@@ -206,10 +211,11 @@ fn point(
     samples: usize,
     tolerance: f64,
     left_out: usize,
-    certificate: &Certificate,
+    found: &Certificate,
+    certificate: Certificate,
 ) -> Result<Point, TextError> {
-    let (observed, mut violation) = falsified(samples, certificate)?;
-    let rounding = certificate.of_rounding();
+    let (observed, mut violation) = falsified(samples, &certificate)?;
+    let rounding = found.of_rounding();
     let mut rounding_observed = None;
     if certificate.scalar == ScalarType::F32 {
         let (observed, other) = falsified(samples, &rounding)?;
@@ -218,9 +224,9 @@ fn point(
     }
     Ok(Point {
         tolerance,
-        certificate: certificate.clone(),
         left_out,
-        certified: worst(certificate),
+        certified: worst(&certificate),
+        certificate,
         observed,
         rounding: worst(&rounding),
         rounding_observed,

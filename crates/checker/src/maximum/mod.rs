@@ -56,10 +56,15 @@ pub struct Largest {
     pub reached: f64,
 }
 
+/// Bounds the largest magnitude without looking at any angle, by lengths over phases.
+pub fn length(polynomial: &Polynomial, ring: &Ring) -> f64 {
+    Terms::new(polynomial, ring, 0.0).length()
+}
+
 /// Bounds the largest magnitude: by at most `wanted` if that can be shown, and then as tightly as
 /// small purses allow.
 pub fn largest(polynomial: &Polynomial, ring: &Ring, wanted: f64, work: &Work) -> Largest {
-    let terms = Terms::new(polynomial, ring);
+    let terms = Terms::new(polynomial, ring, wanted);
     let mut search = Search::new(&terms, ring);
     let plain = search.plain_bound();
     if search.is_constant() || !plain.is_finite() || plain == 0.0 {

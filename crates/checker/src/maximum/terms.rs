@@ -13,8 +13,10 @@ const GROUP: usize = 16;
 const WIDTH: usize = 5;
 /// The most groups of monomials, and the most joints.
 const MOST_GROUPS: usize = 1 << GROUP;
-/// Terms below this share of the largest one count with their magnitudes.
+/// Terms below this share of the largest one, and of the bound that is wanted if all were so large,
+/// count with their magnitudes.
 const NEGLIGIBLE: f64 = 1e-8;
+const NEGLIGIBLE_OF_WANTED: f64 = 1e-3;
 /// A bit that no monomial has.
 const RADIUS: Powers = 1 << 127;
 
@@ -73,7 +75,7 @@ fn of_power(c: u32, s: u32) -> Vec<(u32, f64)> {
 }
 
 impl Terms {
-    pub(super) fn new(polynomial: &Polynomial, ring: &Ring) -> Terms {
+    pub(super) fn new(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> Terms {
         let mut sums: BTreeMap<(Powers, Key), f64> = BTreeMap::new();
         let mut mass = 0.0;
         for &(key, value) in &polynomial.terms {
@@ -109,12 +111,14 @@ impl Terms {
         // Beyond, the terms of all others count with their magnitudes.
         groups.truncate(MOST_GROUPS);
         let largest = sums.values().fold(0.0f64, |most, own| most.max(own.abs()));
+        let of_wanted = NEGLIGIBLE_OF_WANTED * wanted.max(0.0) / sums.len() as f64;
+        let least = (NEGLIGIBLE * largest).min(of_wanted);
         // Powers of doubles, products and sums of these were rounded.
         let mut rest = polynomial.rest + mass * 64.0 * f64::EPSILON;
         let mut terms = Vec::new();
         for ((group, key), value) in sums {
             match groups.binary_search(&group) {
-                Ok(id) if value.abs() > NEGLIGIBLE * largest => {
+                Ok(id) if value.abs() > least => {
                     terms.push((key | id as Key, value));
                 }
                 _ => rest += value.abs(),
@@ -127,6 +131,18 @@ impl Terms {
             velocities,
             rest: rest * (1.0 + 1e-9),
         }
+    }
+}
+
+impl Terms {
+    /// Returns Σ √(Σ c²), over the phases of each multiple of each group.
+    pub(super) fn length(&self) -> f64 {
+        let mut terms = self.terms.clone();
+        terms.sort_unstable_by_key(|term| without_phases(term.0));
+        let same = |a: &(Key, f64), b: &(Key, f64)| without_phases(a.0) == without_phases(b.0);
+        let runs = terms.chunk_by(same);
+        let lengths = runs.map(|run| run.iter().map(|own| own.1 * own.1).sum::<f64>().sqrt());
+        (lengths.sum::<f64>() + self.rest) * (1.0 + 1e-9)
     }
 }
 

@@ -1,0 +1,186 @@
+//! What rounding costs a result, as a sum over all roundings: each times the largest derivative of
+//! the result by it, both bounded by polynomials.
+//!
+//! Let e be how far a float is from the exact value. A sum has e₁ + e₂ and its own rounding; a
+//! product e₁·ỹ + x·e₂, where ỹ is the float. So the error of a result is exactly the sum of all
+//! roundings, each times a product of values along the ways to the result. A polynomial A of exact
+//! values is that sum of products but for a difference of at most D, since some of the values are
+//! floats. The bound is Σ (A + D)·r.
+
+use crate::fault::Fault;
+use crate::identity::exact::Exact;
+use crate::maximum::length;
+use crate::polynomial::Polynomial;
+use crate::program::{Operand, Program};
+use crate::ring::Ring;
+use crate::rounding::Rounding;
+use crate::work::Work;
+use crate::written::Written;
+
+/// The text of a function, the same program with exact constants, and its steps as polynomials.
+pub(crate) struct Derivatives<'d> {
+    pub(crate) text: &'d Program<f64>,
+    pub(crate) program: &'d Program<Exact>,
+    pub(crate) written: &'d Written<'d>,
+    pub(crate) ring: &'d Ring,
+    pub(crate) rounding: &'d Rounding<'d>,
+    /// A bound of the magnitude of each step.
+    pub(crate) sizes: &'d [f64],
+    pub(crate) work: &'d Work,
+}
+
+/// Bounds of an operand: its magnitude, and how far the float is from it.
+#[derive(Clone, Copy)]
+struct Known {
+    size: f64,
+    error: f64,
+}
+
+/// Half an ulp of a number of at most this size.
+fn half_ulp(unit: f64, size: f64) -> f64 {
+    match size.is_normal() {
+        true => unit * f64::from_bits(size.to_bits() & !((1 << 52) - 1)),
+        false => size,
+    }
+}
+
+fn is_power(own: &Operand<f64>) -> bool {
+    let is_power = |own: f64| own.is_normal() && own.to_bits() & ((1 << 52) - 1) == 0;
+    matches!(own, Operand::Constant(own) if is_power(*own))
+}
+
+impl Derivatives<'_> {
+    /// Bounds what rounding costs each of these results.
+    pub(crate) fn bounds(&self, results: &[usize]) -> Result<Vec<f64>, Fault> {
+        let mut known: Vec<Known> = Vec::new();
+        let mut rounded = Vec::new();
+        let steps = self.text.steps.iter().zip(&self.program.steps);
+        for (step, ((operation, [a, b]), (_, [one, other]))) in steps.enumerate() {
+            let [x, y] = [(a, one), (b, other)].map(|(text, own)| self.known(text, own, &known));
+            let inherited = match operation {
+                '+' | '-' => x.error + y.error,
+                _ => x.size * y.error + y.size * x.error + x.error * y.error,
+            };
+            let size = self.sizes[step];
+            let is_exact = match operation {
+                '×' => true,
+                '*' => is_power(a) || is_power(b),
+                '+' => a == b,
+                _ => false,
+            };
+            let scalar = self.rounding.scalar;
+            let own = match is_exact {
+                true => scalar.least,
+                false => half_ulp(scalar.unit, size + inherited) + scalar.least,
+            };
+            rounded.push(own);
+            known.push(Known {
+                size,
+                error: (inherited + own) * (1.0 + 1e-12),
+            });
+        }
+        let bound = |result: &usize| self.bound(*result, &known, &rounded);
+        results.iter().map(bound).collect()
+    }
+
+    fn known(&self, text: &Operand<f64>, own: &Operand<Exact>, steps: &[Known]) -> Known {
+        let unit = self.rounding.scalar.unit;
+        match (text, own) {
+            (Operand::Step(step), _) => steps[*step],
+            (Operand::Constant(literal), Operand::Constant(exact)) => {
+                let [value, radius] = exact.double().unwrap_or([f64::NAN; 2]);
+                let off = (value - literal).abs();
+                let error = if off == 0.0 {
+                    radius
+                } else {
+                    (off + radius) * (1.0 + 1e-12)
+                };
+                let size = literal.abs() + error;
+                Known { size, error }
+            }
+            (Operand::Sine(joint, is_sine), _) => {
+                let (size, error) = match self.rounding.polynomial(*joint, *is_sine) {
+                    Some(own) => (1.0 + own, 0.0),
+                    None => (1.0, 2.0 * unit),
+                };
+                Known { size, error }
+            }
+            _ => {
+                let value = self.written.leaf(own);
+                let size = value.map_or(f64::INFINITY, |value| self.ring.size(&value));
+                Known { size, error: 0.0 }
+            }
+        }
+    }
+
+    fn bound(&self, result: usize, known: &[Known], rounded: &[f64]) -> Result<f64, Fault> {
+        let (_, output) = &self.text.outputs[result];
+        let (_, exact) = &self.program.outputs[result];
+        let Operand::Step(top) = output else {
+            return Ok(self.known(output, exact, known).error);
+        };
+        let mut slopes = vec![Polynomial::default(); top + 1];
+        let mut offs = vec![0.0; top + 1];
+        slopes[*top] = Polynomial::constant(1.0, 0.0);
+        let mut sum = 0.0;
+        let mut sines: Vec<(&Operand<f64>, Polynomial, f64)> = Vec::new();
+        for step in (0..=*top).rev() {
+            let (slope, off) = (std::mem::take(&mut slopes[step]), offs[step]);
+            let most = match slope.terms.is_empty() {
+                true => slope.rest,
+                false => self.size(&slope)?,
+            };
+            if most + off == 0.0 {
+                continue;
+            }
+            sum += (most + off) * rounded[step];
+            let (operation, [a, b]) = &self.text.steps[step];
+            let [one, other] = &self.program.steps[step].1;
+            let [x, y] = [(a, one), (b, other)].map(|(text, own)| self.known(text, own, known));
+            // The other factor of the left operand is the float, of the right one the exact value.
+            let sides = [(a, x, other, y, y.error), (b, y, one, x, 0.0)];
+            for (side, (text, own, factor, other, error)) in sides.into_iter().enumerate() {
+                let (part, part_off) = match operation {
+                    '-' if side == 1 => (slope.negated(), off),
+                    '+' | '-' => (slope.clone(), off),
+                    _ => {
+                        let value = self.written.value(factor)?;
+                        let part = slope.times(&value, self.work)?;
+                        (part, (most + off) * error + off * other.size)
+                    }
+                };
+                match text {
+                    Operand::Step(to) => {
+                        slopes[*to] = slopes[*to].sum(&part, self.work)?;
+                        offs[*to] += part_off;
+                    }
+                    Operand::Constant(_) if own.error > 0.0 => {
+                        sum += (self.size(&part)? + part_off) * own.error;
+                    }
+                    // All places where a sine is read have the same error.
+                    Operand::Sine(..) if own.error > 0.0 => {
+                        match sines.iter_mut().find(|known| known.0 == text) {
+                            Some((_, all, off)) => {
+                                *all = all.sum(&part, self.work)?;
+                                *off += part_off;
+                            }
+                            None => sines.push((text, part, part_off)),
+                        }
+                    }
+                    _ => {}
+                }
+            }
+        }
+        for (own, slope, off) in &sines {
+            let error = self.known(own, exact, known).error;
+            sum += (self.size(slope)? + off) * error;
+        }
+        let sum = sum * (1.0 + 1e-9);
+        Ok(if sum.is_nan() { f64::INFINITY } else { sum })
+    }
+
+    fn size(&self, polynomial: &Polynomial) -> Result<f64, Fault> {
+        self.work.spend(polynomial.terms.len(), 300)?;
+        Ok(length(polynomial, self.ring).min(self.ring.size(polynomial)))
+    }
+}
