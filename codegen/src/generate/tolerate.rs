@@ -230,18 +230,17 @@ fn chosen(
             })?;
         }
     }
-    let mut plain = admitted.clone();
-    plain.certificates = libm;
-    let unedited = || budget.unedited(scalars, bound_effort);
-    let is_auto = request.sincos != SinCos::Polynomial;
+    let mut called = admitted.clone();
+    called.certificates = libm;
     let shown = |admitted: Admitted| shown(job, &budget, admitted, &tolerances, bound_effort);
+    let has_polynomials = called.certificates != admitted.certificates;
     let mut found = shown(admitted);
     // What the checker does not show gives way to what it does.
-    if found.is_err() && is_auto && plain.certificates.iter().any(|own| own.sines.is_empty()) {
-        found = shown(plain).or(found);
+    if found.is_err() && has_polynomials && request.sincos == SinCos::Auto {
+        found = shown(called).or(found);
     }
-    if found.is_err() && is_auto {
-        found = shown(unedited()).or(found);
+    if found.is_err() && request.sincos != SinCos::Polynomial {
+        found = shown(budget.unedited(scalars, bound_effort)).or(found);
     }
     found.map_err(|why| fail(ToleranceError::Above(why)))
 }

@@ -155,7 +155,8 @@ impl Subject<'_> {
             let height = seen.look(&state, &divides)?;
             worst.push((height, state));
         }
-        let drawn = seen.states;
+        // Climbs lead to states that nobody drew.
+        let (drawn, near) = (seen.states, seen.near.clone());
         if is_measured {
             let bounds = rounding.bounds(&ranges, None);
             self.steps_are_seen(&bounds, &has_quotients, &seen.steps)?;
@@ -213,7 +214,7 @@ impl Subject<'_> {
                     "rounding of `{name}` has a bound of {rounding:.1e} {of}, over {most:.1e}"
                 )));
             }
-            if !is_bounded && 2 * seen.near[field] <= drawn {
+            if !is_bounded && 2 * near[field] <= drawn {
                 return Err(unsure(format!(
                     "at half of the states `{name}` is off by more than an eighth of its value"
                 )));

@@ -244,10 +244,12 @@ impl Motion {
         states
     }
 
-    /// Returns the motion that sizes are taken from: near balance, every torque is dust.
+    /// Returns the motion that sizes are taken from: near balance, every torque is dust, and next to
+    /// zero those of joints that feel no weight there. They count relative to the arm's weight.
     pub fn scales(self) -> Motion {
         match self {
             Motion::Balanced => Times([1.0, 0.0, 0.0]),
+            Times([at, velocity, acceleration]) if at < 1.0 => Times([1.0, velocity, acceleration]),
             other => other,
         }
     }
