@@ -216,7 +216,7 @@ planar2r | | TORQUES; sincos: polynomial | 6
 scara    | lock = { 3 = 0.1 } | TORQUES, jacobian | 7
 coulomb  | | forward_dynamics, inverse_dynamics_derivatives, momentum_observer, forward_dynamics_derivatives | 4
 coulomb  | velocity = "zero" | inverse_dynamics, inverse_dynamics_derivatives | 2
-coulomb  | | forward_dynamics_second_derivatives, inverse_dynamics_second_derivatives | 2
+coulomb  | | forward_dynamics_second_derivatives | 1
 wafer    | | coriolis_matrix, forward_dynamics | 2
 planar3r | | inverse_dynamics, gravity; parameters: gravity | 2
 "#,

@@ -1,6 +1,7 @@
 //! Numbers that hide where nobody looks: in real numbers they cancel, and floats lose what they are
 //! added to. None of these is shown. What divides may be measured at the most.
 
+use dalembert_checker::certify::{Demand, certify};
 use serde_json::{Value, json};
 
 use crate::certified::Certified;
@@ -146,4 +147,23 @@ fn numbers_that_cancel_are_not_shown() {
             }
         }
     }
+}
+
+/// Friction bends where speeds are small, and intervals see no more than that: in f32 the bound is
+/// above 1/64, and the user may accept it.
+#[test]
+fn a_bound_that_says_little_needs_the_users_word() {
+    let asked = "inverse_dynamics_second_derivatives; scalar: f32";
+    let own = &Certified::all("coulomb", "", asked)[0];
+    let why = own.refusal().unwrap();
+    assert!(why.contains("of its largest value, over 1.6e-2"), "{why}");
+    let passes = |worst: f64| {
+        let demand = Demand {
+            worst: Some(worst),
+            ..Demand::default()
+        };
+        let report = certify(&own.text, &own.claim, &own.robot, &demand).unwrap();
+        report.passes(true)
+    };
+    assert!(passes(0.1) && !passes(0.001));
 }

@@ -148,7 +148,8 @@ impl Subject<'_> {
             loads: Vec::new(),
         };
         let texts = self.texts;
-        let mut states = States::new(self.ranges, &arguments, self.body, texts, head.is_single);
+        let bodies = (self.body, read.speeds.as_slice());
+        let mut states = States::new(self.ranges, &arguments, bodies, texts, head.is_single);
         let mut worst: Vec<(f64, State)> = Vec::new();
         for _ in 0..if is_measured { STATES } else { LOOKED_AT } {
             let state = states.next();

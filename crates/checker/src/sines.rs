@@ -151,9 +151,9 @@ impl Reduction {
 const INVERSE: f64 = 0.159_154_943_091_895_35;
 const TAU_REST: f64 = 2.449_293_598_294_706_4e-16;
 
-/// Bounds f, the polynomials of an angle in real numbers less its sine or cosine: the value at the
-/// middle of each cell and the slope over the cell are enclosed, |f| ≤ |f(m)| + max|f′|·w. The
-/// rounding on the way is added.
+/// Bounds f, the polynomials of an angle in real numbers less its sine or cosine: the value and the
+/// slope at the middle of each cell and the second derivative over the cell are enclosed, |f| ≤
+/// |f(m)| + |f′(m)|·w + ½ max|f″|·w². The rounding on the way is added.
 fn error_near(
     polynomials: &Program<f64>,
     result: usize,
@@ -171,14 +171,18 @@ fn error_near(
         let middle = range.low + width * (cell as f64 + 0.5);
         let over = Interval::around(middle, half);
         let (sin, cos) = sin_cos(middle);
-        let (value, slope) = match is_sine {
-            true => (sin, Interval::around(cos, half + SINE_ERROR)),
-            false => (cos, Interval::around(-sin, half + SINE_ERROR)),
+        let (value, slope) = if is_sine { (sin, cos) } else { (cos, -sin) };
+        let ([at, rise, _], _) = evaluate(polynomials, result, Interval::point(middle), scalar);
+        let ([_, _, bend], rounding) = evaluate(polynomials, result, over, scalar);
+        let apart = |own: Interval, other: f64, radius: f64| {
+            (own + -Interval::around(other, radius)).magnitude()
         };
-        let ([at, _], _) = evaluate(polynomials, result, Interval::point(middle), scalar);
-        let ([_, around], rounding) = evaluate(polynomials, result, over, scalar);
-        let off = (at + -Interval::around(value, SINE_ERROR)).magnitude();
-        let off = off + (around + -slope).magnitude() * half + rounding;
+        // The second derivative of the sine is −sin, and so of the cosine.
+        let bent = apart(bend, -value, half + SINE_ERROR);
+        let off = apart(at, value, SINE_ERROR)
+            + apart(rise, slope, SINE_ERROR) * half
+            + 0.5 * bent * half * half
+            + rounding;
         // So that a result that is no number counts as the worst.
         if !(off <= worst) {
             worst = off;
@@ -190,34 +194,39 @@ fn error_near(
     worst * (1.0 + 1e-12)
 }
 
-/// The value and the derivative over a range of angles, and the rounding error up to it.
-type Enclosed = ([Interval; 2], f64);
+/// The value and two derivatives over a range of angles, and the rounding error up to it.
+type Enclosed = ([Interval; 3], f64);
 
 fn evaluate(own: &Program<f64>, result: usize, angle: Interval, scalar: Scalar) -> Enclosed {
     let leaf = |own: &Operand<f64>| match own {
-        Operand::Constant(literal) => Some(([*literal, 0.0].map(Interval::point), 0.0)),
-        Operand::Entry(..) => Some(([angle, Interval::point(1.0)], 0.0)),
+        Operand::Constant(literal) => Some(([*literal, 0.0, 0.0].map(Interval::point), 0.0)),
+        Operand::Entry(..) => {
+            let [one, zero] = [1.0, 0.0].map(Interval::point);
+            Some(([angle, one, zero], 0.0))
+        }
         _ => None,
     };
     let apply = |operation: char, (a, a_error): Enclosed, (b, b_error): Enclosed| {
-        let (both, inherited) = match operation {
-            '+' => ([a[0] + b[0], a[1] + b[1]], a_error + b_error),
-            '-' => ([a[0] + -b[0], a[1] + -b[1]], a_error + b_error),
+        let (all, inherited) = match operation {
+            '+' => ([0, 1, 2].map(|k| a[k] + b[k]), a_error + b_error),
+            '-' => ([0, 1, 2].map(|k| a[k] + -b[k]), a_error + b_error),
             '*' | '×' => {
                 let own = a_error * (b[0].magnitude() + b_error);
                 let inherited = own + b_error * a[0].magnitude();
-                ([a[0] * b[0], a[1] * b[0] + a[0] * b[1]], inherited)
+                let cross = a[1] * b[1];
+                let bend = a[2] * b[0] + (cross + cross) + a[0] * b[2];
+                ([a[0] * b[0], a[1] * b[0] + a[0] * b[1], bend], inherited)
             }
-            _ => ([Interval::NOTHING_KNOWN; 2], 0.0),
+            _ => ([Interval::NOTHING_KNOWN; 3], 0.0),
         };
         let error = match operation {
             '×' => inherited,
-            _ => scalar.rounded(both[0].magnitude(), inherited),
+            _ => scalar.rounded(all[0].magnitude(), inherited),
         };
-        (both, error)
+        (all, error)
     };
-    let opposite = |(both, error): Enclosed| (both.map(|own| -own), error);
+    let opposite = |(all, error): Enclosed| (all.map(|own| -own), error);
     let results = own.run(leaf, apply, opposite).unwrap_or_default();
-    let nothing = ([Interval::NOTHING_KNOWN; 2], f64::INFINITY);
+    let nothing = ([Interval::NOTHING_KNOWN; 3], f64::INFINITY);
     results.get(result).copied().unwrap_or(nothing)
 }

@@ -17,6 +17,8 @@ pub(crate) struct States<'s> {
     /// The places of the arguments that are read.
     places: &'s [usize],
     body: Body,
+    /// The squares of the speeds over which friction of joints is smoothed: near to these it bends.
+    widths: &'s [(usize, f64)],
     draws: Draws,
     is_single: bool,
     count: usize,
@@ -90,7 +92,7 @@ impl<'s> States<'s> {
     pub(crate) fn new(
         ranges: &'s Ranges,
         places: &'s [usize],
-        body: Body,
+        (body, widths): (Body, &'s [(usize, f64)]),
         texts: &[&str],
         is_single: bool,
     ) -> States<'s> {
@@ -98,6 +100,7 @@ impl<'s> States<'s> {
             ranges,
             places,
             body,
+            widths,
             draws: Draws::new(texts),
             is_single,
             count: 0,
@@ -117,12 +120,12 @@ impl<'s> States<'s> {
             };
             state[place] = match Some(place) == payload {
                 true => self.body.draw(&mut self.draws),
-                false => (list.iter().map(|range| match count {
+                false => (list.iter().enumerate().map(|(index, range)| match count {
                     0 => 0f64.clamp(range[0], range[1]),
                     1 => 0.5 * (range[0] + range[1]),
                     2 => range[0],
                     3 => range[1],
-                    _ if count.is_multiple_of(SPECIAL) => self.special(place, *range),
+                    _ if count.is_multiple_of(SPECIAL) => self.special(place, index, *range),
                     _ => range[0] + (range[1] - range[0]) * self.draws.share(),
                 }))
                 .collect(),
@@ -131,13 +134,18 @@ impl<'s> States<'s> {
         self.rounded(state)
     }
 
-    fn special(&mut self, place: usize, [low, high]: [f64; 2]) -> f64 {
+    fn special(&mut self, place: usize, index: usize, [low, high]: [f64; 2]) -> f64 {
         let middle = 0.5 * (low + high);
         let mut all = vec![0f64.clamp(low, high), low, high, middle];
         if place == 0 {
             let quarters = [-4.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0];
             let turns = quarters.map(|own| own * std::f64::consts::FRAC_PI_2);
             all.extend(turns.into_iter().filter(|own| (low..=high).contains(own)));
+        }
+        if let (1, Some((_, square))) = (place, self.widths.iter().find(|own| own.0 == index)) {
+            let width = square.sqrt();
+            let bends = [-width, -0.5 * width, 0.5 * width, width];
+            all.extend(bends.into_iter().filter(|own| (low..=high).contains(own)));
         }
         let index = (self.draws.share() * all.len() as f64) as usize;
         all[index.min(all.len() - 1)]

@@ -31,6 +31,25 @@ impl Program<Exact> {
         self.run(|own| leaf(own, point, state), apply, |own: Number| -own)
     }
 
+    /// Returns its results at a point with another value in the place of a step's.
+    pub(crate) fn residues_but(
+        &self,
+        step: usize,
+        other: Number,
+        point: &Point,
+        state: &State,
+    ) -> Option<Vec<Number>> {
+        let mut count = 0;
+        let apply = |operation: char, a: Number, b: Number| {
+            count += 1;
+            match count - 1 == step {
+                true => other,
+                false => apply(operation, a, b),
+            }
+        };
+        self.run(|own| leaf(own, point, state), apply, |own: Number| -own)
+    }
+
     /// Returns the residues of its steps.
     pub(crate) fn step_residues(&self, point: &Point, state: &State) -> Option<Vec<Number>> {
         self.values(|own| leaf(own, point, state), apply)

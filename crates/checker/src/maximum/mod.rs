@@ -38,7 +38,7 @@ use crate::work::Work;
 const PURSE: u64 = 1_000_000_000;
 const PURSE_TIGHTER: u64 = 40_000_000;
 /// The starts of climbs.
-const STARTS: usize = 24;
+const STARTS: usize = 16;
 /// Bounds relative to what is reached, where none is wanted, or the wanted one is refuted.
 const LOOSE: [f64; 5] = [1.5, 2.0, 4.0, 16.0, 256.0];
 /// The same, one after the other as long as they are shown.
