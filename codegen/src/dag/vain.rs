@@ -1,7 +1,8 @@
 //! Steps in vain: steps that no result depends on.
 //!
 //! Regrouping shares sums whose common part cancels later. Every result's derivative by such a part
-//! is zero, so zero may take its place: fewer operations, and fewer digits are lost.
+//! is zero, so zero may take its place: fewer operations, and fewer digits are lost. In the place of
+//! a factor by which a whole quotient is scaled, one may stand.
 
 use std::array::from_fn;
 
@@ -24,11 +25,18 @@ impl Dag {
         let mut best = self.clone();
         loop {
             let vain = best.vain_steps();
-            let mut next = best.with_zeros(&vain);
+            let zero = Exact::zero();
+            let mut next = best.with(&vain, &zero);
             if !is_same(&next) {
                 // Two of them may matter together, though none does alone.
-                let mut alone = vain.iter().map(|step| best.with_zeros(&[*step]));
-                next = alone.find(is_same).unwrap_or_else(|| best.with_zeros(&[]));
+                let one = Exact::one();
+                let alone = [&zero, &one].into_iter();
+                let mut alone = alone.flat_map(|value| vain.iter().map(move |step| (step, value)));
+                let mut found = None;
+                while let (None, Some((step, value))) = (&found, alone.next()) {
+                    found = Some(best.with(&[*step], value)).filter(is_same);
+                }
+                next = found.unwrap_or_else(|| best.with(&[], &zero));
             }
             if next.counts().operations() >= best.counts().operations() || !is_same(&next) {
                 return best;
@@ -68,7 +76,7 @@ impl Dag {
         vain.map(|(index, _)| index).collect()
     }
 
-    fn with_zeros(&self, steps: &[usize]) -> Dag {
+    fn with(&self, steps: &[usize], value: &Exact) -> Dag {
         let mut builder = Builder::new(Folding::Semantic);
         // Leaves first: a step that equals one is replaced by it.
         for (_, node) in self.live() {
@@ -80,10 +88,10 @@ impl Dag {
         }
         let mut dag = self.clone();
         if !steps.is_empty() {
-            let zero = Node::Constant(Exact::zero());
+            let value = Node::Constant(value.clone());
             steps
                 .iter()
-                .for_each(|step| dag.nodes[*step] = zero.clone());
+                .for_each(|step| dag.nodes[*step] = value.clone());
         }
         let outputs = builder.results(&dag);
         builder.finish(outputs).rebuild(Folding::Syntactic)
