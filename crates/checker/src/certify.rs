@@ -65,7 +65,7 @@ impl Report {
     }
 }
 
-/// What the user asks for.
+/// The user's demands on a file.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Demand<'d> {
     /// The scene that the file is for.

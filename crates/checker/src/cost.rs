@@ -125,8 +125,12 @@ impl Subject<'_> {
             let load = rounding.load.len();
             hidden::check(self.program, self.setting, load, points, self.work)?;
         }
+        let bounded = divides.iter().filter(|own| !**own).count();
+        self.work
+            .spend(read.program.steps.len() * (bounded + 4), 20)?;
+        let over_box = rounding.bounds(&ranges, None);
         let mut arguments = self.function.arguments.clone();
-        // What a load is made of.
+        // A load is computed from its payload.
         arguments.extend(self.load.and_then(|_| argument("payload")));
         let joints = self.setting.joints();
         let mut seen = Seen {
@@ -159,8 +163,7 @@ impl Subject<'_> {
         // Climbs lead to states that nobody drew.
         let (drawn, near) = (seen.states, seen.near.clone());
         if is_measured {
-            let bounds = rounding.bounds(&ranges, None);
-            self.steps_are_seen(&bounds, &has_quotients, &seen.steps)?;
+            self.steps_are_seen(&over_box, &has_quotients, &seen.steps)?;
             worst.sort_by(|a, b| b.0.total_cmp(&a.0));
             for (_, state) in worst.into_iter().take(CLIMBS) {
                 let mut fault = Ok(());
@@ -174,15 +177,6 @@ impl Subject<'_> {
                 fault?;
             }
         }
-        let bounded = divides.iter().filter(|own| !**own).count();
-        let over_box = match bounded {
-            0 => Vec::new(),
-            _ => {
-                self.work
-                    .spend(read.program.steps.len() * (bounded + 4), 20)?;
-                rounding.bounds(&ranges, None).results
-            }
-        };
         let shapes = head.fields.iter().map(|own| own.1.as_slice());
         let sizes = measures(&seen.sizes, shapes);
         let (mut costs, mut first) = (Vec::new(), 0);
@@ -191,7 +185,7 @@ impl Subject<'_> {
             first = entries.end;
             let is_bounded = !divides[entries.clone()].contains(&true);
             let error = |k: usize| match is_bounded {
-                true => over_box[k].error,
+                true => over_box.results[k].error,
                 false => seen.errors[k],
             };
             let relative = |(k, size): (usize, f64)| match error(k) {

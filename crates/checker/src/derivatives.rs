@@ -1,5 +1,5 @@
-//! What rounding costs a result, as a sum over all roundings: each times the largest derivative of
-//! the result by it, both bounded by polynomials.
+//! The cost of rounding in a result, as a sum over all roundings: each times the largest derivative
+//! of the result by it, both bounded by polynomials.
 //!
 //! Let e be how far a float is from the exact value. A sum has e₁ + e₂ and its own rounding; a
 //! product e₁·ỹ + x·e₂, where ỹ is the float. So the error of a result is exactly the sum of all

@@ -159,7 +159,7 @@ impl Subject<'_> {
             found.push(Bounded {
                 joints,
                 scale,
-                real: maximum::largest(&difference, &ring, wanted, work).bound,
+                real: maximum::largest(&difference, &ring, wanted, work),
                 rounding,
                 tolerated,
             });

@@ -39,7 +39,7 @@ pub(crate) fn at(program: &Program<Exact>, given: &[Vec<f64>]) -> Option<Vec<Int
 pub(crate) struct Written<'w> {
     ring: &'w Ring,
     sines: Option<&'w Rounding<'w>>,
-    /// Of each step that is needed, unless nobody asks for it any more.
+    /// The value of each step, as long as another one needs it; all if sines are given.
     steps: Vec<Option<Polynomial>>,
     pub(crate) outputs: Vec<Polynomial>,
 }

@@ -21,7 +21,7 @@ pub fn honest() -> [String; 3] {
     [text, claim.replace(planted[1], "0"), robot]
 }
 
-/// What a user asks for who names a scene.
+/// Demands of a user who names a scene.
 pub fn in_scene(scene: &str) -> Demand<'_> {
     Demand {
         scene: Some(scene),

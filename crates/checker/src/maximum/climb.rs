@@ -1,4 +1,4 @@
-//! What F reaches: climbs from fixed starts, angle by angle.
+//! Climbs to large F from fixed starts, angle by angle.
 
 use std::f64::consts::PI;
 

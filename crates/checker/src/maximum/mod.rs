@@ -41,20 +41,10 @@ const PURSE_TIGHTER: u64 = 40_000_000;
 const STARTS: usize = 16;
 /// Bounds relative to what is reached, where none is wanted, or the wanted one is refuted.
 const LOOSE: [f64; 5] = [1.5, 2.0, 4.0, 16.0, 256.0];
-/// The same, one after the other as long as they are shown.
+/// Tighter ones, tried one after the other as long as they are shown.
 const TIGHTER: [f64; 4] = [1.5, 1.2, 1.1, 1.05];
 /// The times that a bound is tried from a state that refutes it.
 const RETRIES: usize = 20;
-
-/// A bound of a polynomial's magnitude over the box.
-#[derive(Clone, Copy, Debug)]
-pub struct Largest {
-    /// The bound.
-    pub bound: f64,
-    /// What F reaches: up to some hundredths more than the polynomial does.
-    #[allow(dead_code)]
-    pub reached: f64,
-}
 
 /// Bounds the largest magnitude without looking at any angle, by lengths over phases.
 pub fn length(polynomial: &Polynomial, ring: &Ring) -> f64 {
@@ -63,16 +53,12 @@ pub fn length(polynomial: &Polynomial, ring: &Ring) -> f64 {
 
 /// Bounds the largest magnitude: by at most `wanted` if that can be shown, and then as tightly as
 /// small purses allow.
-pub fn largest(polynomial: &Polynomial, ring: &Ring, wanted: f64, work: &Work) -> Largest {
+pub fn largest(polynomial: &Polynomial, ring: &Ring, wanted: f64, work: &Work) -> f64 {
     let terms = Terms::new(polynomial, ring, wanted);
     let mut search = Search::new(&terms, ring);
     let plain = search.plain_bound();
     if search.is_constant() || !plain.is_finite() || plain == 0.0 {
-        let reached = (plain - 2.0 * search.slack).max(0.0);
-        return Largest {
-            bound: plain,
-            reached,
-        };
+        return plain;
     }
     let purse = |search: &mut Search, most: u64| {
         search.steps = most.min(work.left());
@@ -133,5 +119,5 @@ pub fn largest(polynomial: &Polynomial, ring: &Ring, wanted: f64, work: &Work) -
             None => break,
         }
     }
-    Largest { bound, reached }
+    bound
 }

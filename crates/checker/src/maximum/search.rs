@@ -47,7 +47,7 @@ pub(super) struct Search {
     columns: Vec<Vec<f64>>,
     /// The factor of each value behind the last level.
     factors: Vec<Factor>,
-    /// What was left out, and what sums and sines lose in doubles.
+    /// A bound of terms left out, and of what sums and sines lose in doubles.
     pub(super) slack: f64,
     pub(super) angles: Vec<f64>,
     /// Where F was last above a B.

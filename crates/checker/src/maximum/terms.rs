@@ -46,7 +46,7 @@ pub(super) fn group(key: Key) -> usize {
 
 pub(super) struct Terms {
     pub(super) terms: Vec<(Key, f64)>,
-    /// What each group of terms is multiplied with.
+    /// The factor of each group of terms.
     pub(super) factors: Vec<Factor>,
     /// The velocities whose signs matter.
     pub(super) velocities: usize,
