@@ -9,15 +9,10 @@
 #![cfg_attr(docsrs, feature(doc_cfg), doc(auto_cfg))]
 #![warn(unreachable_pub)]
 
-mod approximate;
 mod ask;
-mod bound;
-mod certificate;
 mod claim;
 mod dag;
-mod edits;
 mod emit;
-mod falsify;
 mod figures;
 mod function;
 mod generate;
@@ -34,9 +29,9 @@ mod search;
 mod seeds;
 mod setup;
 mod sincos;
-mod split;
 mod states;
 mod task;
+mod tolerance;
 mod verify;
 mod watch;
 mod words;

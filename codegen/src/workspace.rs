@@ -1,29 +1,12 @@
 //! What the workspace's other crates and the tests use of the generator besides what it
 //! shows to everyone, in one list, so that the compiler finds what nobody uses.
 
-pub use crate::approximate::{
-    admitted::Admitted,
-    choose::ErrorBudget,
-    prune::{PruneSettings, Pruned, prune},
-    sines::within,
-};
-pub use crate::bound::{
-    definite::least_eigenvalue,
-    input_box::InputBox,
-    magnitude::{BoxEffort, magnitudes},
-    sample::{climb, draw},
-    sensitivity::{BoundEffort, Sensitivity},
-};
-pub use crate::certificate::Certificate;
 pub use crate::dag::{Dag, Edge, Fingerprint, Folding, Id, Leaves, Node, Points};
-pub use crate::edits::{Edit, EditSite, Omission, Stage, difference, omissions};
-pub use crate::falsify::{Falsification, falsify};
 pub use crate::figures::bound_of;
 pub use crate::function::{Argument, Columns, Quantity, RuntimeParameter, Sizes};
-pub use crate::generate::bounded::bounded;
 pub use crate::generate::{
     MAX_OUTPUTS, ToleranceError,
-    claim::{claim, claim_of},
+    claim::claim,
     contradiction::exact as run_exactly,
     generate_anew,
     keep::keep,
@@ -37,7 +20,7 @@ pub use crate::language::{
     read::{Signature, TextError},
 };
 pub use crate::parallel::each;
-pub use crate::plan::{Edited, Entry, file as plan_file};
+pub use crate::plan::{Entry, file as plan_file};
 pub use crate::program::{
     Code, Input, Library, Literal, Need, Operand, Operation, Output, Pair, Step, Steps,
     kernel::{Angle, Kernel},
@@ -53,9 +36,17 @@ pub use crate::setup::{
     input_hash,
 };
 pub use crate::sincos::{AngleKernel, Sines, choose::Candidates, stated};
-pub use crate::split::ErrorByCause;
 pub use crate::states::{JointState, SEED, STATES, State, positions, seeded};
 pub use crate::task::Job;
+pub use crate::tolerance::{
+    attempt::{Attempt, attempt},
+    budget::{Allowed, Budget},
+    claim::claim_of,
+    input_box::InputBox,
+    sample::{climb, draw},
+    search::SearchEffort,
+    variant::{Admitted, Bound, Variant},
+};
 pub use crate::verify::{
     exact::{Disproof, Proof, prove, prove_same},
     measure::{Emitted, Granted, LEAST_PART, Runtime},
@@ -69,7 +60,7 @@ pub use dalembert_checker::read::Text;
 pub use dalembert_stamp::{Comment, is_as_written, sealed};
 
 pub mod scale {
-    pub use crate::bound::scale::{actuator, range};
+    pub use crate::tolerance::scale::{actuator, range};
 }
 pub mod tune {
     pub use crate::seeds::tune::{Tuned, start};

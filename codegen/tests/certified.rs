@@ -2,7 +2,7 @@
 
 use dalembert_checker::Fault;
 use dalembert_checker::certify::{Bounded, Demand, Report, Shown, certify};
-use dalembert_codegen::workspace::{Certificate, Setup, claim, claim_of, keep};
+use dalembert_codegen::workspace::{Setup, Variant, claim, claim_of, keep};
 use dalembert_codegen::{Generated, Plan};
 
 use crate::support::{
@@ -55,17 +55,18 @@ impl Certified {
         files.collect()
     }
 
-    pub fn variant(robot: &str, own: &Certificate) -> Certified {
+    /// The scene is the only one of the robot file.
+    pub fn variant(robot: &str, own: &Variant) -> Certified {
         let reading = support::read(robot);
-        let scene = own.scene.as_ref().map(|scene| scene.name.clone());
-        let mut scenes = reading.scenes.iter();
-        let found = scenes.find(|own| Some(&own.name) == scene.as_ref());
-        let setup = Setup::in_scene(&reading.robot, found).unwrap();
+        let [scene] = reading.scenes.as_slice() else {
+            panic!("several scenes")
+        };
+        let setup = Setup::in_scene(&reading.robot, Some(scene)).unwrap();
         Certified {
             text: own.text.clone(),
             claim: claim_of(&reading.robot, robot, &setup, own).write(),
             robot: robot.to_owned(),
-            scene,
+            scene: Some(scene.name.clone()),
         }
     }
 

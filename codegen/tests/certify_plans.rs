@@ -52,10 +52,8 @@ fn bounds_are_found_anew() {
         assert!(again.functions[0].planned);
         assert_eq!(again.text(), found.text());
         let [first, again] = [&found, &again].map(|own| own.functions[0].admitted.as_ref());
-        let [first, again] = [first, again].map(|own| &own.unwrap().certificates);
+        let [first, again] = [first, again].map(|own| &own.unwrap().variants);
         assert_eq!(again, first);
-        let is_definite = first[0].lambda_min.is_some_and(|least| least > 0.0);
-        assert_eq!(is_definite, scene == "push");
         let other = changed(&plan, |own| {
             let count = own.returns.split(' ').count();
             own.returns = vec!["#0"; count].join(" ");
@@ -87,7 +85,7 @@ fn with_steps(plan: &str, constants: &[String], steps: &[String]) -> String {
 
 #[test]
 fn variants_that_grow_without_end() {
-    let (case, _, plan) = planned("pick");
+    let (case, found, plan) = planned("pick");
     let first = |first: &str, rest: Vec<String>| [vec![first.to_owned()], rest].concat();
     let squares = (1..20).map(|step| format!("t{step}*t{step}")).collect();
     let factors = (1..5).map(|step| format!("t{step}*$0")).collect();
@@ -95,31 +93,17 @@ fn variants_that_grow_without_end() {
     let angles: Vec<String> = (10..30).map(|n| format!("1+1*cos(1/{n})")).collect();
     let products = (2..20).map(|n| format!("t{}*${n}", n - 1)).collect();
     let long = format!("{}/3", "7".repeat(15_001));
-    for (constants, steps, what) in [
-        (
-            vec!["3/10".into()],
-            first("$0*$0", squares),
-            "bits of a constant",
-        ),
-        (vec![long], first("s2*$0", factors), "bits of a constant"),
-        (angles, first("$0*$1", products), "of a constant"),
-        (
-            vec![],
-            vec!["qd[1]*qd[1]".into(); 60_000],
-            "50000 are the most",
-        ),
+    for (constants, steps) in [
+        (vec!["3/10".into()], first("$0*$0", squares)),
+        (vec![long], first("s2*$0", factors)),
+        (angles, first("$0*$1", products)),
+        (vec![], vec!["qd[1]*qd[1]".into(); 60_000]),
     ] {
         let begun = Instant::now();
-        match by(&case, &with_steps(&plan, &constants, &steps)) {
-            Err(GenerateError::Variant(_, much)) => {
-                let much = much.to_string();
-                let is_limit = much.ends_with("the most that is checked");
-                assert!(is_limit && much.contains(what), "{much}");
-            }
-            other => panic!("{what}: {other:?}"),
-        }
-        // Without the generation, milliseconds; the rest is for a busy machine.
-        assert!(begun.elapsed() < Duration::from_secs(20), "{what}");
+        // What the checker does not show gives way to another search.
+        let again = by(&case, &with_steps(&plan, &constants, &steps)).unwrap();
+        assert_eq!(again.text(), found.text());
+        assert!(begun.elapsed() < Duration::from_secs(20), "{}", steps[0]);
     }
     // A text that reading alone would multiply out is none.
     let squares = (10..200).map(|n| format!("*sin(1/{n})*sin(1/{n})"));
@@ -141,15 +125,6 @@ fn variants_that_are_other_functions() {
     }
     // No bound is known of a quotient.
     let divided = with_steps(&plan, &[], &["qd[1]/qd[2]".into()]);
-    let hidden = changed(&plan, |own| {
-        let planned = own.planned.as_mut().unwrap();
-        planned.left_out.push(("*/ evil();".into(), 1, 0));
-    });
-    for (text, words) in [
-        (divided, "a quotient, of which no bound"),
-        (hidden, "what was left out"),
-    ] {
-        let error = Plan::parse(&text).unwrap_err().to_string();
-        assert!(error.contains(words), "{error}");
-    }
+    let error = Plan::parse(&divided).unwrap_err().to_string();
+    assert!(error.contains("a quotient, of which no bound"), "{error}");
 }

@@ -3,7 +3,7 @@
 //! `text` lines that say something else.
 
 use dalembert_codegen::workspace::{
-    Argument, Certificate, Code, JointState, Library, Rounding, Setup, Signature, Sizes, keep,
+    Argument, Code, JointState, Library, Rounding, Setup, Signature, Sizes, Variant, keep,
 };
 use dalembert_codegen::{Function, Generated, ScalarType};
 
@@ -94,45 +94,41 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
     assert!(twice > 5, "{twice}");
 }
 
-fn certificates(generated: &Generated) -> &[Certificate] {
+fn variants(generated: &Generated) -> &[Variant] {
     let admitted = generated.functions[0].admitted.as_ref();
-    &admitted.unwrap().certificates
+    &admitted.unwrap().variants
 }
 
 #[test]
-fn certificates_bound_one_rounding() {
+fn bounds_are_of_one_rounding() {
     let scene = "\n[scene.hold]\ntolerance = { value = 1e-2, relative_to = \"range\" }\n";
     let asked = "outputs: gravity; scene: hold; scalar: f64, f32; fma: ";
     let [off, on] = ["off", "on"].map(|fma| Case::new("puma560", scene, &format!("{asked}{fma}")));
     let (plain, found) = (off.generated(), on.generated());
-    assert_eq!(certificates(&found).len(), certificates(&plain).len());
-    for (certificate, plain) in certificates(&found).iter().zip(certificates(&plain)) {
-        assert!(certificate.emitted.fuses() && certificate.text.contains(".mul_add("));
-        assert_eq!(certificate.emitted, plain.emitted.fused());
-        assert_eq!(certificate.emitted, found.functions[0].program);
+    assert_eq!(variants(&found).len(), variants(&plain).len());
+    for (variant, plain) in variants(&found).iter().zip(variants(&plain)) {
+        assert!(variant.emitted.fuses() && variant.text.contains(".mul_add("));
+        assert_eq!(variant.emitted, plain.emitted.fused());
+        assert_eq!(variant.emitted, found.functions[0].program);
         let mut smaller = 0;
-        for (own, other) in certificate.bounds.iter().zip(&plain.bounds) {
-            assert!(own.rounding <= other.rounding && own.model == other.model);
+        for (own, other) in variant.bounds.iter().zip(&plain.bounds) {
+            assert!(own.rounding <= other.rounding && own.real == other.real);
             smaller += usize::from(own.rounding < other.rounding);
         }
         assert!(smaller > 0);
-        Certified::variant(&support::source("puma560", scene), certificate).is_shown(1, "fused");
+        Certified::variant(&support::source("puma560", scene), variant).is_shown(1, "fused");
     }
     let kept = |case: &Case, own: &Generated| keep(case.robot(), &case.request, own, None).plan;
     assert_eq!(kept(&on, &found).write(), kept(&off, &plain).write());
 }
 
 #[test]
-fn certificates_name_the_library() {
+fn claims_name_the_library() {
     let scene = "\n[scene.slow]\noutputs = [\"gravity\"]\n\
                  tolerance = { value = 1e-9, relative_to = \"range\" }\nscalar = \"f64\"\n";
     let generated = Case::new("planar2r", scene, "scene: slow; sincos: together").generated();
     assert!(generated.text().contains("dalembert_sines::sincos(&["));
-    let certificate = &certificates(&generated)[0];
-    assert_eq!(certificate.library, Library::Together);
-    Certified::variant(&support::source("planar2r", scene), certificate).is_shown(1, "together");
-
-    let alone = certificate.calling(Library::Libm);
-    assert!(alone.text.contains("libm::sincos("));
-    assert_eq!(alone.bounds, certificate.bounds);
+    let variant = &variants(&generated)[0];
+    assert_eq!(variant.library, Library::Together);
+    Certified::variant(&support::source("planar2r", scene), variant).is_shown(1, "together");
 }

@@ -5,8 +5,8 @@ use core::f64::consts::{FRAC_PI_2, PI};
 use core::ops::Range;
 
 use dalembert_codegen::workspace::{
-    AngleKernel, Candidates, Code, Dag, Edge, ErrorByCause, Input, Interval, Library, Node,
-    Signature, write_function,
+    AngleKernel, Bound, Candidates, Code, Dag, Edge, Input, Interval, Library, Node, Signature,
+    write_function,
 };
 use dalembert_codegen::{Function, Program, ScalarType};
 
@@ -198,12 +198,16 @@ fn a_tolerance_says_how_exact_sines_are() {
     let (source, asked) = in_scene("planar2r", rough, "inverse_dynamics; scalar: f64");
     let generated = Case::read(&source, &asked).generated();
     let function = &generated.functions[0];
-    let certificate = &function.admitted.as_ref().unwrap().certificates[0];
-    assert_eq!(certificate.sines, function.sines(ScalarType::F64));
-    Certified::variant(&source, certificate).is_shown(1, "rough");
-    let most = |of: fn(&ErrorByCause) -> f64| certificate.bounds.iter().map(of).fold(0.0, f64::max);
-    let (all, real) = (most(|b| b.total()), most(|b| b.model));
+    let variant = &function.admitted.as_ref().unwrap().variants[0];
+    assert_eq!(variant.sines, function.sines(ScalarType::F64));
+    Certified::variant(&source, variant).is_shown(1, "rough");
+    let most = |of: fn(&Bound) -> f64| variant.bounds.iter().map(of).fold(0.0, f64::max);
+    let (all, real) = (most(|b| b.total()), most(|b| b.real));
     assert!(all <= 1e-4 && real > 1e-7, "{all:e} {real:e}");
     let text = &generated.text();
-    assert!(!text.contains("libm") && text.contains("Certified") && text.contains("about pi/2"));
+    assert!(
+        !text.contains("libm")
+            && text.contains("Shown: inside the box")
+            && text.contains("about pi/2")
+    );
 }

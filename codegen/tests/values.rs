@@ -238,7 +238,7 @@ fn what_has_no_friction_is_as_ever() {
     assert_eq!(torques.warnings, [""; 0]);
     let rough = Case::read(&source, "outputs: gravity; scene: test").generated();
     let admitted = rough.functions[0].admitted.as_ref();
-    assert!(admitted.is_some_and(|own| !own.certificates.is_empty()));
+    assert!(admitted.is_some_and(|own| !own.variants.is_empty()));
 }
 
 /// Compared with 256 bits, since the runtime's recursion errs more here than the code does.

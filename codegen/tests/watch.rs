@@ -99,11 +99,11 @@ fn a_tolerance_is_watched(late: Option<(Part, usize)>) {
     let (generated, seen) = watched(case(), Effort::Thorough, late);
     let all = rounds(&seen);
     let bounds = seen.iter().filter(|p| p.part == Part::Bounds).count();
-    assert!(bounds >= 4, "of the exact program and of the variant");
+    assert!(bounds >= 1, "of the variant");
     let (ended, seen) = watched(case(), Effort::Thorough, Some((Part::Omissions, 1)));
     assert!(rounds(&seen) < all.min(8));
     let admitted = ended.functions[0].admitted.as_ref().unwrap();
-    let bounds = &admitted.certificates[0].bounds;
+    let bounds = &admitted.variants[0].bounds;
     assert!(!bounds.is_empty() && bounds.iter().all(|bound| bound.total() <= 0.3));
     let operations = |own: &Generated| own.functions[0].counts().operations();
     assert!(late.is_some() || operations(&ended) >= operations(&generated));

@@ -58,15 +58,6 @@ impl<C, I> Dag<C, I> {
         })
     }
 
-    /// True for a product, a quotient, and a sum with a fused product. A sum of two floats loses
-    /// nothing below the least normal number.
-    pub(crate) fn underflows(&self, id: Id) -> bool {
-        match self.node(id) {
-            Node::Apply(Operation::Mul | Operation::Div, _) => true,
-            _ => self.fusion(id).is_some(),
-        }
-    }
-
     /// Returns the length of the longest chain of operations; a fused multiply-add counts as one.
     pub fn depth(&self) -> usize {
         let mut depths: Vec<usize> = Vec::with_capacity(self.nodes.len());

@@ -1,13 +1,12 @@
 //! A function with what was found and proved of it.
 
-use crate::approximate::admitted::Admitted;
-use crate::certificate::Certificate;
 use crate::function::Function;
 use crate::program::{Code, Counts, Library, Program, ScalarType};
 use crate::search::Pass;
 use crate::seeds::Source;
 use crate::setup::ParametersKey;
 use crate::sincos::{AngleKernel, Sines};
+use crate::tolerance::variant::{Admitted, Variant};
 use crate::verify::accuracy::Refused;
 use crate::verify::exact::Proof;
 
@@ -34,7 +33,7 @@ pub struct GeneratedFunction {
     pub proof: Proof,
     /// A cheaper program that the limit on rounding errors refused, if it did.
     pub refused: Option<Refused>,
-    /// With a tolerance: what was left out, and the certificates.
+    /// With a tolerance: the variants that meet it.
     pub admitted: Option<Admitted>,
 }
 
@@ -45,8 +44,8 @@ impl GeneratedFunction {
         found.map_or(&[], |(_, sines)| sines)
     }
 
-    pub(crate) fn certificate(&self, scalar: ScalarType) -> Option<&Certificate> {
-        let mut all = self.admitted.as_ref()?.certificates.iter();
+    pub(crate) fn variant(&self, scalar: ScalarType) -> Option<&Variant> {
+        let mut all = self.admitted.as_ref()?.variants.iter();
         all.find(|own| own.scalar == scalar)
     }
 

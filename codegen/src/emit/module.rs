@@ -251,9 +251,9 @@ pub(super) fn function_doc(
     lines.extend(parameters::doc(generated.function, setup));
     lines.extend(said::sines(generated.sines(scalar), scalar));
     if let Some(admitted) = &generated.admitted
-        && let Some(certificate) = generated.certificate(scalar)
+        && let Some(own) = generated.variant(scalar)
     {
-        lines.extend(variant::describe(admitted, certificate, setup));
+        lines.extend(variant::describe(admitted, own, setup));
     }
     lines
 }

@@ -8,16 +8,15 @@ use super::say;
 use crate::function::{ErrorScale, Quantity};
 use crate::program::Program;
 
-pub(super) fn sentences(relative_to: Option<Scale>, quantities: &[Quantity]) -> Vec<String> {
+pub(super) fn sentences(relative_to: Scale, quantities: &[Quantity]) -> Vec<String> {
     match relative_to {
-        None => vec!["T is as given.".into()],
-        Some(Scale::Range) => [
+        Scale::Range => [
             "T of an output is a size that it attains in the box, at its largest there or just",
             "below.",
         ]
         .map(String::from)
         .to_vec(),
-        Some(Scale::Actuator) => actuators(quantities),
+        Scale::Actuator => actuators(quantities),
     }
 }
 
@@ -89,8 +88,7 @@ mod tests {
 
     #[test]
     fn every_kind_of_output_has_its_t() {
-        let said =
-            |function: Function| sentences(Some(Scale::Actuator), function.quantities()).join(" ");
+        let said = |function: Function| sentences(Scale::Actuator, function.quantities()).join(" ");
         let torques = said(Function::InverseDynamics);
         assert!(torques.starts_with("T of τ is T_i") && !torques.contains("D_ik"));
         let inertia = said(Function::Inertia);

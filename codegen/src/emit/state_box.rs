@@ -6,7 +6,6 @@
 
 use super::GeneratedFunction;
 use super::variant::held;
-use crate::certificate::Certificate;
 use crate::function::Argument;
 use crate::interval::Interval;
 use crate::language::c99::{Names, float};
@@ -14,6 +13,7 @@ use crate::language::list;
 use crate::program::{Literal, ScalarType};
 use crate::setup::Setup;
 use crate::sincos;
+use crate::tolerance::variant::Variant;
 
 pub(super) struct StateBox {
     pub(super) columns: Vec<(Argument, Vec<Option<Interval>>)>,
@@ -126,13 +126,13 @@ fn bound(
     scalar: ScalarType,
 ) {
     if generated.admitted.is_some() {
-        let reads = |own: &&Certificate| own.emitted.arguments.contains(&argument);
-        let Some(certificate) = generated.certificate(scalar).filter(reads) else {
+        let reads = |own: &&Variant| own.emitted.arguments.contains(&argument);
+        let Some(variant) = generated.variant(scalar).filter(reads) else {
             return;
         };
         for (joint, place) in column.iter_mut().enumerate() {
             if setup.lock(joint).is_none()
-                && let Some(range) = held(certificate, setup, argument, joint)
+                && let Some(range) = held(variant, setup, argument, joint)
             {
                 *place = Some(narrower(*place, range));
             }

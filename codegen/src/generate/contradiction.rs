@@ -3,15 +3,15 @@
 //! A proof in a prime field may miss, with a chance that nobody will see, and whoever writes it may
 //! err. Two states of the robot tell: the program with its exact constants, in 256 bits, against
 //! the robot's own recursion in 256 bits. With a tolerance the text, read back, against its
-//! certificate.
+//! bounds.
 
-use crate::bound::sample::draw;
-use crate::falsify::held;
 use crate::generate::{GenerateError, GeneratedFunction};
 use crate::program::ScalarType;
 use crate::random::Random;
 use crate::setup::Setup;
 use crate::states::JointState;
+use crate::tolerance::attempt::held;
+use crate::tolerance::sample::draw;
 use crate::verify::measure::Emitted;
 use crate::verify::truth::Reference;
 
@@ -71,8 +71,8 @@ fn tolerated(
     emitted: &Emitted,
 ) -> Result<(), GenerateError> {
     let scalar = emitted.scalar;
-    let Some(claim) = generated.certificate(scalar) else {
-        let why = "it passed its proof, but has no certificate";
+    let Some(claim) = generated.variant(scalar) else {
+        let why = "it passed its proof, but has no bounds";
         let function = generated.function;
         return Err(GenerateError::Defect(function, Some(scalar), why.into()));
     };
@@ -85,7 +85,7 @@ fn tolerated(
         let errors = truth.iter().zip(results).map(|(own, x)| own.error(x));
         let mut both = errors.zip(claim.errors()).enumerate();
         if let Some((index, (error, bound))) = both.find(|(_, (error, bound))| error > bound) {
-            let why = format!("its certificate allows {bound:.3e}");
+            let why = format!("its bound is {bound:.3e}");
             return Err(wrong(generated, index, Some(scalar), error, &why));
         }
     }

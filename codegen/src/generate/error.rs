@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use crate::approximate::error::ToleranceError;
 use crate::function::{Argument, Function};
 use crate::program::ScalarType;
+use crate::tolerance::refusals::ToleranceError;
 use crate::verify::exact::Disproof;
 use crate::words::{Complaint, complaint};
 

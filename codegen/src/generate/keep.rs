@@ -4,7 +4,7 @@ use dalembert_model::robot::Robot;
 
 use super::{Generated, Request};
 use crate::function::Function;
-use crate::plan::{Edited, Entry, Plan};
+use crate::plan::{Entry, Plan};
 use crate::program::{Program, ScalarType};
 use crate::search::price;
 use crate::setup::{SceneKey, input_hash};
@@ -44,10 +44,7 @@ pub fn keep(robot: &Robot, request: &Request, generated: &Generated, plan: Optio
                 scene: request.scene.as_ref().map(SceneKey::new),
                 parameters: function.parameters.clone(),
                 program: admitted.map_or(found, |admitted| &admitted.exact).clone(),
-                edited: admitted.map(|admitted| Edited {
-                    program: admitted.program.clone(),
-                    left_out: admitted.left_out.clone(),
-                }),
+                edited: admitted.map(|admitted| admitted.program.clone()),
             };
             let (name, scene) = (function.function, request.scene.as_ref());
             let parameters = function.parameters.as_ref();
@@ -70,5 +67,5 @@ pub fn keep(robot: &Robot, request: &Request, generated: &Generated, plan: Optio
 
 fn emitted(entry: &Entry) -> &Program {
     let edited = entry.edited.as_ref();
-    edited.map_or(&entry.program, |edited| &edited.program)
+    edited.unwrap_or(&entry.program)
 }

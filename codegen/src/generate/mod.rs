@@ -12,7 +12,6 @@
 //! - [`error`]: why nothing was generated
 
 mod again;
-pub(crate) mod bounded;
 pub(crate) mod claim;
 pub(crate) mod contradiction;
 pub(crate) mod error;
@@ -32,8 +31,6 @@ use dalembert_model::read::closest;
 use dalembert_model::robot::{HAND, Robot};
 use dalembert_stamp::{Comment, Stamp};
 
-pub use crate::approximate::error::ToleranceError;
-use crate::approximate::error::{FOLLOWS, FRICTION, unbounded};
 use crate::emit::GeneratedFunction;
 use crate::emit::header;
 use crate::emit::module;
@@ -47,6 +44,8 @@ use crate::search::Effort;
 use crate::seeds::depends_on_coulomb;
 use crate::setup::{ParametersKey, input_hash};
 use crate::task::{Job, Prefer, Request};
+pub use crate::tolerance::refusals::ToleranceError;
+use crate::tolerance::refusals::{FOLLOWS, FRICTION, unbounded};
 use crate::verify::exact::prove;
 use crate::verify::measure::Emitted;
 use crate::verify::parameters::prove_base;

@@ -3,11 +3,11 @@
 use dalembert_model::outputs::{PayloadDependence, RuntimeParameter};
 
 use super::GenerateError;
-use crate::approximate::error::reads;
 use crate::function::Function;
 use crate::language::Language;
 use crate::seeds::Start;
 use crate::task::Job;
+use crate::tolerance::refusals::reads;
 use crate::words::Complaint;
 
 pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {

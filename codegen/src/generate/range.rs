@@ -7,12 +7,12 @@ use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, ProofField};
 
 use super::{GeneratedFunction, Request};
-use crate::bound::input_box::InputBox;
-use crate::bound::sensitivity::overflows;
 use crate::dag::{Node, Points};
 use crate::function::Argument;
 use crate::program::{Program, ScalarType};
 use crate::setup::Setup;
+use crate::tolerance::input_box::InputBox;
+use crate::tolerance::overflow::overflows;
 use crate::words::Complaint;
 
 pub(super) fn vanishing(setup: &Setup) -> Option<Exact> {

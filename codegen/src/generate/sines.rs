@@ -1,14 +1,14 @@
 //! Polynomials in place of sines, where they are asked for and no tolerance says how exact they are.
 
 use super::{GenerateError, GeneratedFunction, Job};
-use crate::bound::definite::is_definite;
-use crate::bound::input_box::InputBox;
 use crate::figures::bound_of;
 use crate::function::Function;
 use crate::program::{Program, ScalarType, has_inertia};
 use crate::setup::Setup;
 use crate::sincos::reach::OutOfReach;
 use crate::sincos::{self, AngleKernel, SinCos, Sines};
+use crate::tolerance::definite::is_definite;
+use crate::tolerance::reference::domain;
 use crate::words::Complaint;
 
 /// In each scalar all err by no more than [`SinCos::ERROR`], or else by no more than the least
@@ -78,7 +78,7 @@ fn check_inertia(
     scalar: ScalarType,
     sines: &[AngleKernel],
 ) -> Result<(), GenerateError> {
-    if !spoil_inertia(setup, &generated.program, scalar, sines) {
+    if !spoil_inertia(setup, &generated.program, sines) {
         return Ok(());
     }
     let errors = sines.iter().map(|own| own.errors.worst());
@@ -93,17 +93,10 @@ fn check_inertia(
 }
 
 /// True if exact sines keep D positive definite for certain, and these do not.
-fn spoil_inertia(
-    setup: &Setup,
-    program: &Program,
-    scalar: ScalarType,
-    sines: &[AngleKernel],
-) -> bool {
+fn spoil_inertia(setup: &Setup, program: &Program, sines: &[AngleKernel]) -> bool {
     // Of a joint that slides without an end, no box has all positions.
-    let Ok(limits) = InputBox::within(setup, Function::Inertia) else {
-        return false;
-    };
     has_inertia(program)
-        && !is_definite(program, scalar, sines, &limits)
-        && is_definite(program, scalar, &[], &limits)
+        && domain(setup, program).is_ok_and(|domain| {
+            !is_definite(&domain, program, sines, None) && is_definite(&domain, program, &[], None)
+        })
 }

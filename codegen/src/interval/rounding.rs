@@ -41,11 +41,3 @@ pub(crate) fn forward<C, I>(
     }
     Forward { values, own }
 }
-
-/// Rounding a number that is no larger than x moves it by at most this times u.
-pub(crate) fn binade(x: f64) -> f64 {
-    match x.is_normal() && x > 0.0 {
-        true => f64::from_bits(x.to_bits() & !((1 << 52) - 1)),
-        false => x,
-    }
-}

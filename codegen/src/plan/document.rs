@@ -6,9 +6,8 @@ use dalembert_model::number::Exact;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 
-use super::{Edited, Entry, Plan};
+use super::{Entry, Plan};
 use crate::claim::{Written, claimed, code};
-use crate::edits::Omission;
 use crate::function::{Argument, Function};
 use crate::language::read::{graph, input};
 use crate::program::{Counts, Input, Program, ScalarType};
@@ -76,12 +75,11 @@ fn refused(fault: Fault) -> Complaint {
 impl Entry {
     fn claimed(&self, constants: &mut Written) -> Claimed {
         let (exact, edited) = (&self.program, self.edited.as_ref());
-        let emitted = edited.map_or(exact, |edited| &edited.program);
+        let emitted = edited.unwrap_or(exact);
         let (scene, hash) = match &self.scene {
             Some(scene) => (Some(&*scene.name), scene.hash.clone()),
             None => (None, String::new()),
         };
-        let left_out = edited.map_or(&[][..], |edited| &edited.left_out).iter();
         let passes = self.passes.iter().map(|pass| {
             let own = pass.counts;
             let name = pass.name.to_owned();
@@ -97,9 +95,6 @@ impl Entry {
             rows: exact.rows.iter().map(|row| row + 1).collect(),
             scene: hash,
             load: (self.parameters.as_ref()).map(|own| (own.load, own.hash.clone())),
-            left_out: left_out
-                .map(|own| (own.words.clone(), own.operations, own.sincos))
-                .collect(),
         };
         Claimed {
             planned: Some(planned),
@@ -152,7 +147,7 @@ fn entry(own: &Claimed, constants: &[Exact]) -> Result<Entry, Complaint> {
     let emitted = own.program(constants).map_err(refused)?;
     let exact = own.exact(constants).map_err(refused)?;
     let program = program(&empty, exact.as_ref().unwrap_or(&emitted))?;
-    let edited = exact.map(|_| edited(&empty, &emitted, planned));
+    let edited = exact.map(|_| edited(&empty, &emitted));
     let edited = edited.transpose()?;
     Ok(Entry {
         start: Start::from_name(&planned.formulation)
@@ -214,27 +209,15 @@ fn program(
     }
 }
 
-/// Omissions go into documentation, in every language.
 fn edited(
     empty: &Program,
     emitted: &dalembert_checker::program::Program<Exact>,
-    planned: &Planned,
-) -> Result<Edited, Complaint> {
+) -> Result<Program, Complaint> {
     let program = program(empty, emitted)?;
-    if program.divides() {
-        return Err(complaint("a quotient, of which no bound is known"));
+    match program.divides() {
+        true => Err(complaint("a quotient, of which no bound is known")),
+        false => Ok(program),
     }
-    let left_out = planned.left_out.iter().map(|(words, operations, sincos)| {
-        let is_plain = !words.contains("*/") && !words.contains(char::is_control);
-        is_plain.then(|| Omission {
-            words: words.clone(),
-            operations: *operations,
-            sincos: *sincos,
-        })
-    });
-    let left_out = left_out.collect::<Option<_>>();
-    let left_out = left_out.ok_or_else(|| complaint("what was left out, in words of a comment"))?;
-    Ok(Edited { program, left_out })
 }
 
 fn pass((name, [mul, add, div, sincos]): &(String, [usize; 4])) -> Option<Pass> {

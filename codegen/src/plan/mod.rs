@@ -11,7 +11,6 @@
 mod document;
 pub mod file;
 
-use crate::edits::Omission;
 use crate::function::Function;
 use crate::program::{Program, ScalarType};
 use crate::search::Pass;
@@ -48,17 +47,9 @@ pub struct Entry {
     pub parameters: Option<ParametersKey>,
     /// The program.
     pub program: Program,
-    /// The variant to emit instead, where a scene has a tolerance.
-    pub edited: Option<Edited>,
-}
-
-/// A variant that a scene's tolerance admits. Whenever it is used, its bounds are found anew.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Edited {
-    /// The program to emit.
-    pub program: Program,
-    /// The values that were left out, for the documentation.
-    pub left_out: Vec<Omission>,
+    /// The program to emit instead, where a scene has a tolerance. Whenever it is used, its bounds are
+    /// found anew.
+    pub edited: Option<Program>,
 }
 
 /// Functions with the same results count as one, see [`is_same`].
@@ -87,7 +78,7 @@ impl Entry {
         let mut entry = self.clone();
         entry.program = entry.program.as_function(function)?;
         if let Some(edited) = &mut entry.edited {
-            edited.program = edited.program.as_function(function)?;
+            *edited = edited.as_function(function)?;
         }
         Some(entry)
     }

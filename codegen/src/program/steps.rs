@@ -113,12 +113,3 @@ impl Dag {
         Steps::new(self, Exact::clone, |input| *input)
     }
 }
-
-impl<C: Clone, I: Clone> Operand<C, I> {
-    pub(crate) fn moved(&self, place: &[usize]) -> Self {
-        match self {
-            Operand::Step(step) => Operand::Step(place.get(*step).copied().unwrap_or(usize::MAX)),
-            other => other.clone(),
-        }
-    }
-}

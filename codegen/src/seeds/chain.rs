@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use dalembert_model::equations::chain::composite::Composite;
-use dalembert_model::equations::chain::{Chain, Regrouping, Skeleton};
+use dalembert_model::equations::chain::{Chain, Skeleton};
 use dalembert_model::equations::matrix::{Vector, scaled};
 use dalembert_model::equations::regressor::{Column, LinkParameter, Probed};
 use dalembert_model::equations::{Arm, DhVariables, Formulation};
@@ -180,10 +180,6 @@ pub(crate) fn regrouped(task: Task<'_>, forms: &[Form], tuned: &Tuned) -> Vec<Se
         }
     }
     seeds
-}
-
-pub(crate) fn in_regrouping(task: Task<'_>, regrouping: &Regrouping<Exact>, form: Form) -> Dag {
-    merged(task, &Chain::new(&skeleton_for(task), regrouping), form)
 }
 
 pub(super) fn merged(task: Task<'_>, chain: &Chain<Exact>, form: Form) -> Dag {

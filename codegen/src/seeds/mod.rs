@@ -19,13 +19,13 @@ use dalembert_model::equations::Formulation;
 
 use crate::dag::Dag;
 use crate::program::Counts;
-pub(crate) use chain::{in_regrouping, regrouped};
+pub(crate) use chain::regrouped;
 pub use chain::{skeleton, skeleton_for, trace_chain};
 pub(crate) use descent::{Limit, tuned};
 pub use start::Start;
 pub(crate) use trace::depends_on_coulomb;
 pub use trace::trace;
-pub(crate) use tune::{Tuned, neighbours};
+pub(crate) use tune::Tuned;
 
 pub(crate) use dalembert_model::equations::chain::Form;
 

@@ -13,9 +13,8 @@ use dalembert_model::number::Exact;
 use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
-use super::{Form, MAX_QUICK_LINKS, skeleton_for};
+use super::Form;
 use crate::dag::signed;
-use crate::setup::Task;
 
 /// Regrouping through many different odd angles would multiply the monomials of constants.
 const MAX_TERMS: usize = 100;
@@ -164,25 +163,6 @@ impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
             self.attempt(regrouping);
         }
     }
-}
-
-pub(crate) fn neighbours(task: Task<'_>, regrouping: &Regrouping<Exact>) -> Vec<Regrouping<Exact>> {
-    let arm = skeleton_for(task);
-    let mut found: Vec<Regrouping<Exact>> = Vec::new();
-    if arm.links.len() > MAX_QUICK_LINKS {
-        return found;
-    }
-    for i in 0..arm.links.len() {
-        for link in alternatives(&arm, regrouping, i) {
-            let mut other = regrouping.clone();
-            other.links[i] = link;
-            let is_new = other != *regrouping && !found.contains(&other);
-            if is_new && !is_large(&Chain::new(&arm, &other)) {
-                found.push(other);
-            }
-        }
-    }
-    found
 }
 
 fn alternatives(

@@ -131,9 +131,6 @@ pub struct Planned {
     /// The number of entries of the load, and their hash, where parameters are arguments.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load: Option<(usize, String)>,
-    /// The values that a tolerance left out, in words, each with its operations and sines.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub left_out: Vec<(String, usize, usize)>,
 }
 
 /// The claim about a function under a tolerance: the exact program, and what errors are relative to.

@@ -32,6 +32,8 @@ mod compare;
 mod cost;
 #[cfg(feature = "certify")]
 mod derivatives;
+#[cfg(feature = "certify")]
+pub mod domain;
 #[cfg(feature = "claim")]
 mod fault;
 #[cfg(feature = "certify")]

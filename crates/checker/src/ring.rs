@@ -10,6 +10,7 @@ use crate::fault::Fault;
 use crate::identity::arm::Arm;
 use crate::identity::exact::Point;
 use crate::identity::setting::Setting;
+use crate::interval::sin_cos;
 use crate::polynomial::{Key, MAX_JOINTS, Polynomial, Variable, exponent};
 use crate::program::Operand;
 use crate::rounding::Ranges;
@@ -23,6 +24,8 @@ pub struct Ring {
     /// Sine, cosine and position of each joint, or what there is of them.
     positions: Vec<[Option<Polynomial>; 3]>,
     rates: [Vec<Polynomial>; 2],
+    /// The ranges of the positions, and the sign with which the angle before is taken off.
+    places: Vec<([f64; 2], f64)>,
     /// The range of each joint's angle φ; `None` where it goes all the way round, or
     /// stands for a position between two ends.
     pub angles: Vec<Option<[f64; 2]>>,
@@ -73,6 +76,7 @@ impl Ring {
         let mut ring = Ring {
             positions: Vec::new(),
             rates: Default::default(),
+            places: Vec::new(),
             angles: Vec::new(),
             units: Default::default(),
         };
@@ -81,6 +85,7 @@ impl Ring {
             let is_whole = position[1] - position[0] >= WHOLE_TURN;
             let angle = Some(position).filter(|_| moves(joint) && !is_whole);
             ring.angles.push(angle);
+            let mut sign = None;
             ring.positions.push(if setting.is_locked(joint) {
                 // A program of the scene has a number in its place.
                 [None, None, None]
@@ -88,10 +93,11 @@ impl Ring {
                 [None, None, Some(between(position, joint))]
             } else {
                 let before = joint.checked_sub(1).filter(|&own| is_whole && moves(own));
-                let sign = before.and_then(|before| arm.parallel([before, joint]));
+                sign = before.and_then(|before| arm.parallel([before, joint]));
                 let [sin, cos] = pair(joint, sign, work)?;
                 [Some(sin), Some(cos), None]
             });
+            ring.places.push((position, sign.unwrap_or(0.0)));
             for (which, variable) in RATES.into_iter().enumerate() {
                 let [low, high] = ranges[which + 1][joint];
                 let size = low.abs().max(high.abs());
@@ -102,6 +108,23 @@ impl Ring {
             }
         }
         Ok(ring)
+    }
+
+    /// Returns the positions at the variables' angles, rad and m: where the angle before is taken off,
+    /// as it is there.
+    pub fn positions(&self, angles: &[f64]) -> Vec<f64> {
+        let before = [0.0].into_iter().chain(angles.iter().copied());
+        let each = self
+            .places
+            .iter()
+            .zip(&self.positions)
+            .zip(angles.iter().zip(before));
+        each.map(|((([low, high], sign), own), (angle, before))| match own {
+            [.., Some(_)] => 0.5 * low + 0.5 * high + (0.5 * high - 0.5 * low) * sin_cos(*angle).1,
+            [None, ..] => *low,
+            _ => angle - sign * before,
+        })
+        .collect()
     }
 
     /// None for other operands, and for a joint that is locked.

@@ -93,14 +93,16 @@ impl Subject<'_> {
         )?;
         let fields = self.results();
         unless(fields.len() == count, "results that are not the function's")?;
-        let ranges = &self.ranges()?;
+        let places = &self.function.arguments;
+        let ranges = &self.setting.state_box(places, self.is_single)?;
         let work = self.work;
         let evaluated = (self.exact.steps.len() + count) * count;
         work.spend(evaluated, INTERVALS)?;
         let scales = self.scales(&fields, ranges)?;
         let ring = Ring::new(self.setting, ranges, work)?;
         let rounding = Rounding::new(self.read, self.is_single, ranges);
-        let emitted = Written::new(self.emitted, &ring, Some(&rounding), work)?;
+        let errors = |joint, is_sine| rounding.polynomial(joint, is_sine);
+        let emitted = Written::new(self.emitted, &ring, Some(&errors), work)?;
         let exact = Written::new(self.exact, &ring, None, work)?;
         let steps = self.read.program.steps.len();
         let size = |step: usize| {
@@ -204,43 +206,6 @@ impl Subject<'_> {
         each.fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the box: ranges of q, q̇ and q̈, of zero where they are no argument. Refuses a joint
-    /// that the file does not limit.
-    fn ranges(&self) -> Result<Ranges, Fault> {
-        let places = &self.function.arguments;
-        let is_bounded = places.iter().all(|place| *place < 3);
-        unless(is_bounded, "an argument that no box bounds")?;
-        let of_robot = |why: String| Fault::Robot("limits".into(), why);
-        let mut all: Ranges = vec![Vec::new(); ARGUMENTS.len()];
-        for place in 0..3 {
-            if !places.contains(&place) {
-                all[place].resize(self.setting.joints(), [0.0; 2]);
-                continue;
-            }
-            let name = ARGUMENTS[place].0;
-            let own = self.setting.ranges(name, f64::INFINITY).map_err(of_robot)?;
-            let own = own.unwrap_or_default();
-            if !own.iter().flatten().all(|end| end.abs() < MOST_RATE) {
-                let why = format!("a tolerance needs the range of `{name}` of every joint");
-                return Err(of_robot(why));
-            }
-            // The decimal, or the multiple of π, may be on either side of the double, and the end of
-            // a box in f32 on either side of a point.
-            let outward = |[low, high]: [f64; 2]| match (low == high, self.is_single) {
-                (true, _) if low == 0.0 => [low, high],
-                (true, true) => [(low as f32).next_down(), (high as f32).next_up()].map(f64::from),
-                _ => [low.next_down(), high.next_up()],
-            };
-            all[place] = own.into_iter().map(outward).collect();
-        }
-        let is_far = |(joint, range): (usize, &[f64; 2])| {
-            self.setting.turns_by(joint) && range.iter().any(|end| end.abs() >= FARTHEST)
-        };
-        let is_near = !all[0].iter().enumerate().any(is_far);
-        unless(is_near, "the sine of an angle beyond 1000 rad")?;
-        Ok(all)
-    }
-
     /// Returns T of each result.
     fn scales(&self, results: &[Entry], ranges: &Ranges) -> Result<Vec<f64>, Fault> {
         match self.own.relative_to.as_str() {
@@ -298,6 +263,44 @@ impl Subject<'_> {
             Ok(found.low.max(-found.high).max(0.0))
         };
         states.iter().enumerate().map(least).collect()
+    }
+}
+
+impl Setting<'_> {
+    /// Returns the box: ranges of q, q̇ and q̈, of zero where they are no argument. Refuses a joint
+    /// that the file does not limit.
+    pub(crate) fn state_box(&self, places: &[usize], is_single: bool) -> Result<Ranges, Fault> {
+        let is_bounded = places.iter().all(|place| *place < 3);
+        unless(is_bounded, "an argument that no box bounds")?;
+        let of_robot = |why: String| Fault::Robot("limits".into(), why);
+        let mut all: Ranges = vec![Vec::new(); ARGUMENTS.len()];
+        for place in 0..3 {
+            if !places.contains(&place) {
+                all[place].resize(self.joints(), [0.0; 2]);
+                continue;
+            }
+            let name = ARGUMENTS[place].0;
+            let own = self.ranges(name, f64::INFINITY).map_err(of_robot)?;
+            let own = own.unwrap_or_default();
+            if !own.iter().flatten().all(|end| end.abs() < MOST_RATE) {
+                let why = format!("a tolerance needs the range of `{name}` of every joint");
+                return Err(of_robot(why));
+            }
+            // The decimal, or the multiple of π, may be on either side of the double, and the end of
+            // a box in f32 on either side of a point.
+            let outward = |[low, high]: [f64; 2]| match (low == high, is_single) {
+                (true, _) if low == 0.0 => [low, high],
+                (true, true) => [(low as f32).next_down(), (high as f32).next_up()].map(f64::from),
+                _ => [low.next_down(), high.next_up()],
+            };
+            all[place] = own.into_iter().map(outward).collect();
+        }
+        let is_far = |(joint, range): (usize, &[f64; 2])| {
+            self.turns_by(joint) && range.iter().any(|end| end.abs() >= FARTHEST)
+        };
+        let is_near = !all[0].iter().enumerate().any(is_far);
+        unless(is_near, "the sine of an angle beyond 1000 rad")?;
+        Ok(all)
     }
 }
 

@@ -6,7 +6,6 @@ use crate::interval::Interval;
 use crate::polynomial::{Polynomial, Variable};
 use crate::program::{Operand, Program};
 use crate::ring::Ring;
-use crate::rounding::Rounding;
 use crate::work::Work;
 
 /// The most terms that are alive at once: 32 bytes each.
@@ -34,28 +33,31 @@ pub(crate) fn at(program: &Program<Exact>, given: &[Vec<f64>]) -> Option<Vec<Int
     program.run(leaf, apply, |own: Interval| -own)
 }
 
+/// The largest error of a joint's sine, or else of its cosine; none where it is exact.
+pub(crate) type Errors<'w> = &'w dyn Fn(usize, bool) -> Option<f64>;
+
 /// A program whose steps and results are polynomials. Sines by polynomials have an error that is a
 /// variable.
 pub(crate) struct Written<'w> {
     ring: &'w Ring,
-    sines: Option<&'w Rounding<'w>>,
-    /// The value of each step, as long as another one needs it; all if sines are given.
+    errors: Option<Errors<'w>>,
+    /// The value of each step, as long as another one needs it; all if errors are given.
     steps: Vec<Option<Polynomial>>,
     pub(crate) outputs: Vec<Polynomial>,
 }
 
 impl<'w> Written<'w> {
-    /// Writes a program out. Steps are kept if sines are given.
+    /// Writes a program out. Steps are kept if errors of sines are given.
     pub(crate) fn new(
         program: &Program<Exact>,
         ring: &'w Ring,
-        sines: Option<&'w Rounding<'w>>,
+        errors: Option<Errors<'w>>,
         work: &Work,
     ) -> Result<Written<'w>, Fault> {
         let mut left = uses(program);
         let mut own = Written {
             ring,
-            sines,
+            errors,
             steps: vec![None; left.len()],
             outputs: Vec::new(),
         };
@@ -77,7 +79,7 @@ impl<'w> Written<'w> {
             for operand in operands {
                 if let Operand::Step(step) = operand {
                     left[*step] -= 1;
-                    if left[*step] == 0 && sines.is_none() {
+                    if left[*step] == 0 && errors.is_none() {
                         alive -= own.steps[*step].take().map_or(0, |own| own.terms.len());
                     }
                 }
@@ -118,7 +120,7 @@ impl<'w> Written<'w> {
             }
             Operand::Sine(joint, is_sine) => {
                 let value = self.ring.leaf(own)?;
-                let error = self.sines.and_then(|own| own.polynomial(*joint, *is_sine));
+                let error = self.errors.and_then(|own| own(*joint, *is_sine));
                 let variable = [Variable::EvenError, Variable::OddError][usize::from(*is_sine)];
                 Some(match error {
                     Some(error) => value.plus(&Polynomial::variable(variable, *joint, error)),

@@ -1,8 +1,8 @@
-//! The front of a trade-off as SVG: cost over certified error.
+//! The front of a trade-off as SVG: cost over the bound of the error.
 //!
 //! Each kind of variant (scalar and source of sines) has a colour, a line through its variants and its
 //! name at the end of the line. Marks are open for f64, full for f32, and faint where another variant
-//! is neither dearer nor worse. A whisker leads from the certified to the observed error. Decades
+//! is neither dearer nor worse. A whisker leads from the bound to the observed error. Decades
 //! without a variant are left out.
 
 use dalembert_codegen::ScalarType;
@@ -18,7 +18,7 @@ pub struct Dot {
     /// Operations, those of its sines included.
     pub cost: f64,
     /// The bound of the error.
-    pub certified: f64,
+    pub bound: f64,
     /// The largest error that was seen.
     pub observed: Option<f64>,
     /// True if another variant is neither dearer nor worse.
@@ -55,8 +55,8 @@ const BOTTOM: f64 = 344.0;
 pub fn svg(title: &str, relative_to: &str, dots: &[Dot]) -> String {
     let mut paper = Paper::new(SIZE, title, "tradeoff", STYLE);
     let observed: Vec<f64> = dots.iter().filter_map(|dot| dot.observed).collect();
-    let certified = dots.iter().map(|dot| dot.certified);
-    let across = Across::around(certified.chain(observed.iter().copied()));
+    let bound = dots.iter().map(|dot| dot.bound);
+    let across = Across::around(bound.chain(observed.iter().copied()));
     let up = Up::around(dots.iter().map(|dot| dot.cost));
     paper.text("i t", [LEFT, 20.0], title);
     let [double, single] = ScalarType::ALL.map(called);
@@ -70,13 +70,13 @@ pub fn svg(title: &str, relative_to: &str, dots: &[Dot]) -> String {
         true => "",
         false => "; whiskers: observed",
     };
-    let error = format!("certified error, relative to {relative_to}{whiskers}");
+    let error = format!("bound of the error, relative to {relative_to}{whiskers}");
     paper.text("i m", [0.5 * (LEFT + RIGHT), BOTTOM + 40.0], &error);
     let mut ends: Vec<([f64; 2], usize)> = Vec::new();
     for kind in 0..KINDS.len() {
         let mut variants: Vec<&Dot> = dots.iter().filter(|dot| dot.kind == kind).collect();
-        variants.sort_by(|a, b| a.certified.total_cmp(&b.certified));
-        let place = |dot: &&Dot| [across.place(dot.certified), up.place(dot.cost)];
+        variants.sort_by(|a, b| a.bound.total_cmp(&b.bound));
+        let place = |dot: &&Dot| [across.place(dot.bound), up.place(dot.cost)];
         let places: Vec<[f64; 2]> = variants.iter().map(place).collect();
         let Some(end) = places.last() else {
             continue;
@@ -244,7 +244,7 @@ mod tests {
             Dot {
                 kind: usize::from(scalar == ScalarType::F32) + 2 * usize::from(!is_called),
                 cost: number("mul") + number("add") + sines,
-                certified: number("certified"),
+                bound: number("bound"),
                 observed: cell("observed").parse().ok(),
                 dominated: cell("front") != "yes",
             }

@@ -1,7 +1,7 @@
 //! The report of generated code: operations, bounds under a tolerance, the proof, and, if
 //! everything is asked for, what the search did and what rounding costs.
 
-use dalembert_codegen::workspace::{Admitted, Certificate, Library, Proof, SEED, bound_of};
+use dalembert_codegen::workspace::{Admitted, Library, Proof, SEED, Variant, bound_of};
 use dalembert_codegen::{Function, Generated, GeneratedFunction, Request};
 use dalembert_model::robot::Robot;
 
@@ -36,7 +36,7 @@ pub fn report(robot: &Robot, request: &Request, generated: &Generated, detail: D
         }
     }
     let proved = match generated.functions.iter().any(|own| own.admitted.is_some()) {
-        true => "proved before anything was left out, and certified to stay within the tolerance",
+        true => "proved before anything was left out, and shown to stay within the tolerance",
         false => "proved equal to the equations of motion",
     };
     let read_back = match detail {
@@ -93,7 +93,7 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
     for refused in generated.functions.iter().filter_map(refused) {
         report.line(format!("\n{refused}"));
     }
-    // What a tolerance admits has its certificates.
+    // What a tolerance admits has its bounds.
     let has_tolerance = generated.functions.iter().any(|own| own.admitted.is_some());
     if let Some(own) = request.setup(robot).ok().filter(|_| !has_tolerance) {
         let states = affordable_states(robot.joints.len());
@@ -128,29 +128,18 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
 }
 
 fn tolerance(report: &mut Report, function: Function, admitted: &Admitted, ended: bool) {
-    for own in &admitted.certificates {
+    for own in &admitted.variants {
         let scalar = own.scalar;
-        let title = format!("{function} in {scalar}, certified");
+        let title = format!("{function} in {scalar}, shown");
         let table = Table::new(BOUNDS).with(bounds(own));
-        report.table(&format!("certified/{function}/{scalar}"), title, table);
+        report.table(&format!("shown/{function}/{scalar}"), title, table);
     }
-    let left_out = &admitted.left_out;
-    let rows = left_out.iter().map(|own| {
-        let pairs = match own.sincos {
-            0 => String::new(),
-            pairs => format!("+ {pairs} sincos"),
-        };
-        let sincos = Cell::of(pairs, own.sincos);
-        cells![own.words.as_str(), own.operations, sincos]
-    });
-    let title = "left out, and what putting it back costs";
-    let table = Table::new("what=|operations=|sincos=").with(rows);
-    report.table(&format!("left_out/{function}"), title, table);
-    if left_out.is_empty() {
+    if !admitted.is_other() {
         let why = match ended {
-            false => "no omission was found within the tolerance",
+            false => "no cheaper program was found within the tolerance",
             true => {
-                "the search was ended early, and the quick one found no omission within the tolerance"
+                "the search was ended early, and the quick one found no cheaper program within the \
+                 tolerance"
             }
         };
         report.line(format!("nothing was left out: {why}"));
@@ -160,15 +149,15 @@ fn tolerance(report: &mut Report, function: Function, admitted: &Admitted, ended
 /// The columns of [`bounds`].
 pub const BOUNDS: &str = "output|T|real|rounding|E";
 
-/// Returns the bounds of a certificate, output by output, relative to T.
-pub fn bounds(certificate: &Certificate) -> impl Iterator<Item = Vec<Cell>> {
-    let pairs = certificate.bounds.iter().zip(&certificate.scales);
+/// Returns the bounds of a variant, result by result, relative to T.
+pub fn bounds(variant: &Variant) -> impl Iterator<Item = Vec<Cell>> {
+    let pairs = variant.bounds.iter().zip(&variant.scales);
     pairs.enumerate().map(|(index, (own, &scale))| {
         let cell = |x: f64| Cell::of(bound_of(x, 4), x);
         cells![
-            certificate.emitted.entry(index),
+            variant.emitted.entry(index),
             Cell::of(bound_of(scale, 5), scale),
-            cell(own.model + own.sincos),
+            cell(own.real),
             cell(own.rounding),
             cell(own.total()),
         ]

@@ -1,4 +1,4 @@
-//! The cost of accuracy: variants of one function for several tolerances, each certified and run at
+//! The cost of accuracy: variants of one function for several tolerances, each with its bounds and run at
 //! states that try to refute it.
 //!
 //! From the smallest tolerance up: each search also starts from the program of the one before, which
@@ -6,8 +6,7 @@
 //! may still find less for one tolerance alone.
 
 use dalembert_codegen::workspace::{
-    Admitted, BoundEffort, Certificate, ErrorBudget, PruneSettings, TextError, bounded, each,
-    falsify,
+    Admitted, Budget, SearchEffort, TextError, ToleranceError, Variant, attempt, each,
 };
 use dalembert_codegen::{Counts, Effort, Program, ScalarType};
 
@@ -15,18 +14,14 @@ use dalembert_codegen::{Counts, Effort, Program, ScalarType};
 pub struct Point {
     /// Zero for the exact program.
     pub tolerance: f64,
-    /// The claim about it.
-    pub certificate: Certificate,
-    /// The number of values that were left out.
-    pub left_out: usize,
+    /// The text with its bounds.
+    pub variant: Variant,
     /// The largest E of an output.
-    pub certified: f64,
+    pub bound: f64,
     /// The largest error that was seen, if it was run at any state.
     pub observed: Option<f64>,
-    /// The bound of the error of operations and sines alone: of the code against its own program.
+    /// The part of rounding in the largest E.
     pub rounding: f64,
-    /// The largest such error that was seen; only code in f32 is run for it.
-    pub rounding_observed: Option<f64>,
     /// True if another one is neither dearer nor worse.
     pub dominated: bool,
     /// An error above E, in words: never, unless this program is wrong.
@@ -36,29 +31,29 @@ pub struct Point {
 impl Point {
     /// Returns the name of its text.
     pub fn name(&self) -> String {
-        let Certificate { scalar, sines, .. } = &self.certificate;
+        let Variant { scalar, sines, .. } = &self.variant;
         let by = if sines.is_empty() { "" } else { "-polynomials" };
         format!("{:e}-{scalar}{by}", self.tolerance)
     }
 
     /// Returns which kind of variant it is: scalar and sines.
     pub fn kind(&self) -> usize {
-        let polynomials = !self.certificate.sines.is_empty();
-        let is_single = self.certificate.scalar == ScalarType::F32;
+        let polynomials = !self.variant.sines.is_empty();
+        let is_single = self.variant.scalar == ScalarType::F32;
         2 * usize::from(polynomials) + usize::from(is_single)
     }
 
     /// Counts its operations, those of its sines included.
     pub fn counts(&self) -> Counts {
-        let kernels = self.certificate.sines.iter().map(|own| &own.kernel);
-        self.certificate.emitted.counts().with_kernels(kernels)
+        let kernels = self.variant.sines.iter().map(|own| &own.kernel);
+        self.variant.emitted.counts().with_kernels(kernels)
     }
 
     /// Returns its operations, those of its sines included.
     pub fn cost(&self) -> usize {
         let counts = self.counts();
-        let sines = match self.certificate.sines.is_empty() {
-            true => counts.sincos * called(self.certificate.scalar),
+        let sines = match self.variant.sines.is_empty() {
+            true => counts.sincos * called(self.variant.scalar),
             false => counts.trig_mul + counts.trig_add,
         };
         counts.operations() + sines
@@ -80,8 +75,8 @@ pub fn called(scalar: ScalarType) -> usize {
 pub fn mark(points: &mut [Point]) {
     // A narrower scalar is less of a cost, too.
     let cost = |point: &Point| {
-        let is_wide = point.certificate.scalar == ScalarType::F64;
-        ([usize::from(is_wide), point.cost()], point.certified)
+        let is_wide = point.variant.scalar == ScalarType::F64;
+        ([usize::from(is_wide), point.cost()], point.bound)
     };
     let all: Vec<([usize; 2], f64)> = points.iter().map(cost).collect();
     for (index, point) in points.iter_mut().enumerate() {
@@ -101,22 +96,47 @@ const SHARE: f64 = 1.0 / 16.0;
 /// The variants of one function, tolerance by tolerance.
 pub struct Ladder<'a> {
     samples: usize,
-    frame: &'a ErrorBudget<'a>,
-    settings: PruneSettings,
-    exact: Admitted,
+    budget: &'a Budget<'a>,
+    effort: SearchEffort,
+    exact: Vec<Variant>,
 }
 
 const CLIMBS: usize = 4;
 
 impl<'a> Ladder<'a> {
     /// Makes a ladder for a function in its box.
-    pub fn new(samples: usize, effort: Effort, frame: &'a ErrorBudget<'a>) -> Ladder<'a> {
-        Ladder {
-            samples,
-            frame,
-            settings: PruneSettings::of(effort),
-            exact: frame.unedited(&ScalarType::ALL, BoundEffort::CERTIFY),
+    ///
+    /// # Errors
+    /// The reason why no scalar's exact program has bounds.
+    pub fn new(
+        samples: usize,
+        effort: Effort,
+        budget: &'a Budget<'a>,
+    ) -> Result<Ladder<'a>, ToleranceError> {
+        // Bounds are as tight as what is allowed asks for: a first one tells what that may be.
+        let shown = |scalar: &ScalarType| {
+            let rough = budget.unedited(&[*scalar], &budget.all_allowed(1.0))?;
+            let most = rough
+                .variants
+                .iter()
+                .map(Variant::worst)
+                .fold(0.0, f64::max);
+            let fine = budget.unedited(&[*scalar], &budget.all_allowed(2.0 * most));
+            Ok(fine.unwrap_or(rough).variants)
+        };
+        let found = ScalarType::ALL.iter().map(shown);
+        let found: Vec<Result<Vec<Variant>, ToleranceError>> = found.collect();
+        if let Some(Err(why)) = found.iter().rfind(|own| own.is_err())
+            && found.iter().all(Result::is_err)
+        {
+            return Err(why.clone());
         }
+        Ok(Ladder {
+            samples,
+            budget,
+            effort: SearchEffort::of(effort),
+            exact: found.into_iter().flatten().flatten().collect(),
+        })
     }
 
     /// Returns the variants of all tolerances, which ascend; the exact program's first; `begin` hears the
@@ -136,13 +156,6 @@ impl<'a> Ladder<'a> {
         Ok(points)
     }
 
-    fn polynomials(&self, tolerance: f64, certificate: &Certificate) -> Option<Certificate> {
-        let tolerances = vec![tolerance; self.frame.scales.len()];
-        let frame = self.frame;
-        let found = frame.with_polynomials(certificate, &tolerances, BoundEffort::CERTIFY);
-        found.ok().filter(|found| !found.sines.is_empty())
-    }
-
     fn rung(
         &self,
         tolerance: f64,
@@ -150,110 +163,67 @@ impl<'a> Ladder<'a> {
         begin: &dyn Fn(&str),
     ) -> Result<Vec<Point>, TextError> {
         begin(&format!("tolerance {tolerance:e}"));
-        let exact = tolerance == 0.0;
-        let variants = match exact {
-            true => vec![self.exact.clone()],
+        let variants = match tolerance == 0.0 {
+            true => self.exact.clone(),
             false => self.variants(tolerance, before),
         };
         begin(&format!("attempts to refute {tolerance:e}"));
-        let mut certificates = Vec::new();
-        for variant in variants {
-            let left_out = variant.left_out.len();
-            for certificate in variant.certificates {
-                let polynomials = match exact {
-                    true => None,
-                    false => self.polynomials(tolerance, &certificate),
-                };
-                let both = [Some(certificate), polynomials].into_iter().flatten();
-                certificates.extend(both.map(|own| (left_out, own)));
-            }
-        }
-        let samples = self.samples;
-        // Of what the checker does not show there is no point.
-        let points = each(&certificates, |(left_out, own)| {
-            // Of the exact program the checker bounds rounding as finely as the search did.
-            let most = if exact { 16.0 * worst(own) } else { tolerance };
-            let shown = bounded(self.frame.setup, own, Some(most)).ok()?;
-            Some(point(samples, tolerance, *left_out, own, shown))
-        });
-        points.into_iter().flatten().collect()
+        let points = each(&variants, |own| self.point(tolerance, own));
+        points.into_iter().collect()
     }
 
     /// `before` is one that a smaller tolerance admits.
-    fn variants(&self, tolerance: f64, before: Option<&Point>) -> Vec<Admitted> {
-        let tolerances = vec![tolerance; self.frame.scales.len()];
-        let able = self.exact.certificates.iter();
-        let able: Vec<_> = able.filter(|c| worst(c) <= tolerance).collect();
-        let alike = able.iter().all(|c| worst(c) <= SHARE * tolerance);
-        let groups: Vec<Vec<ScalarType>> = match alike {
-            true => vec![able.iter().map(|c| c.scalar).collect()],
-            false => able.iter().map(|c| vec![c.scalar]).collect(),
+    fn variants(&self, tolerance: f64, before: Option<&Point>) -> Vec<Variant> {
+        let budget = self.budget;
+        let allowed = budget.all_allowed(tolerance);
+        let able = self.exact.iter().filter(|own| own.worst() <= tolerance);
+        let able: Vec<&Variant> = able.collect();
+        let alike = able.iter().all(|own| own.worst() <= SHARE * tolerance);
+        let groups: Vec<&[&Variant]> = match alike {
+            true => vec![&able],
+            false => able.chunks(1).collect(),
         };
-        let groups = groups.into_iter().filter(|scalars| !scalars.is_empty());
-        let from = before.map(|point| point.certificate.emitted.clone());
-        let from = from.filter(|program| program != self.frame.exact);
+        let from = before.map(|point| point.variant.emitted.clone());
+        let from = from.filter(|program| program != budget.exact);
         let from: Vec<Program> = from.into_iter().collect();
-        groups
-            .map(|scalars| {
-                let (frame, settings, effort) = (self.frame, &self.settings, BoundEffort::CERTIFY);
-                let found = frame.choose(&from, &tolerances, &scalars, settings, effort);
-                found.unwrap_or_else(|_| {
-                    let mut exact = self.exact.clone();
-                    exact.certificates.retain(|c| scalars.contains(&c.scalar));
-                    exact
-                })
-            })
-            .collect()
+        let mut all = Vec::new();
+        for group in groups.into_iter().filter(|group| !group.is_empty()) {
+            let exact = Admitted {
+                exact: budget.exact.clone(),
+                program: budget.exact.clone(),
+                variants: group.iter().map(|own| (*own).clone()).collect(),
+            };
+            let watch = Default::default();
+            let found = budget.choose(&from, exact.clone(), &allowed, &self.effort, watch);
+            let found = found.unwrap_or(exact);
+            for variant in found.variants {
+                let polynomials = budget.with_polynomials(&found.program, &variant, &allowed);
+                all.push(variant);
+                all.extend(polynomials.ok().filter(|own| !own.sines.is_empty()));
+            }
+        }
+        all
     }
-}
 
-fn point(
-    samples: usize,
-    tolerance: f64,
-    left_out: usize,
-    found: &Certificate,
-    certificate: Certificate,
-) -> Result<Point, TextError> {
-    let (observed, mut violation) = falsified(samples, &certificate)?;
-    let rounding = found.of_rounding();
-    let mut rounding_observed = None;
-    if certificate.scalar == ScalarType::F32 {
-        let (observed, other) = falsified(samples, &rounding)?;
-        rounding_observed = observed;
-        violation = violation.or(other);
+    fn point(&self, tolerance: f64, variant: &Variant) -> Result<Point, TextError> {
+        let found = attempt(self.budget.setup, variant, self.samples, CLIMBS, 1)?;
+        let largest = |own: Vec<f64>| own.into_iter().fold(0.0, f64::max);
+        let violation = found.violation.map(|(index, state)| {
+            format!(
+                "{} errs by more than its E of {:e}, as at {state:?}",
+                variant.emitted.entry(index),
+                variant.bounds[index].total()
+            )
+        });
+        let rounding = variant.bounds.iter().map(|own| own.rounding);
+        Ok(Point {
+            tolerance,
+            bound: variant.worst(),
+            rounding: rounding.fold(0.0, f64::max),
+            variant: variant.clone(),
+            observed: found.observed.map(largest),
+            dominated: false,
+            violation,
+        })
     }
-    Ok(Point {
-        tolerance,
-        left_out,
-        certified: worst(&certificate),
-        certificate,
-        observed,
-        rounding: worst(&rounding),
-        rounding_observed,
-        dominated: false,
-        violation,
-    })
-}
-
-fn falsified(
-    samples: usize,
-    certificate: &Certificate,
-) -> Result<(Option<f64>, Option<String>), TextError> {
-    let falsification = falsify(certificate, samples, CLIMBS, 1)?;
-    let largest = || falsification.observed.iter().copied().fold(0.0, f64::max);
-    let observed = (falsification.states > 0).then(largest);
-    let violation = falsification.violation.map(|(index, state)| {
-        format!(
-            "{} errs up to {:e}, which is more than its E of {:e}, as at {state:?}",
-            certificate.emitted.entry(index),
-            falsification.observed[index],
-            certificate.bounds[index].total()
-        )
-    });
-    Ok((observed, violation))
-}
-
-fn worst(certificate: &Certificate) -> f64 {
-    let totals = certificate.bounds.iter().map(|bound| bound.total());
-    totals.fold(0.0, f64::max)
 }

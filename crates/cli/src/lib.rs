@@ -97,7 +97,7 @@ enum Command {
     Certify(certify::CertifyArgs),
     /// Show how many operations each step of the generator saves
     Explain(explain::ExplainArgs),
-    /// Measure the cost of accuracy: certified error against number of operations
+    /// Measure the cost of accuracy: bounds of the error against numbers of operations
     Tradeoff(tradeoff::TradeoffArgs),
     /// Print shell completions: dalembert completions bash > ~/.local/share/bash-completion/completions/dalembert
     Completions {

@@ -8,8 +8,8 @@ use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
 use dalembert_codegen::workspace::{
-    self, Admitted, Certificate, Columns, Dag, Folding, Found, Job, Signature, cost, replay,
-    search, search_graphs, skeleton, trace, trace_chain, tune, tune::Tuned,
+    self, Admitted, Columns, Dag, Folding, Found, Job, Signature, Variant, cost, replay, search,
+    search_graphs, skeleton, trace, trace_chain, tune, tune::Tuned,
 };
 use dalembert_codegen::{Counts, Function, GenerateError, Program, Request, ScalarType, Start};
 
@@ -216,10 +216,10 @@ fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
 }
 
 pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> {
-    let row = |certificate: &Certificate| {
-        let (function, scalar) = (certificate.emitted.function, certificate.scalar);
-        let signature = Signature::of(&certificate.emitted, scalar);
-        let text = workspace::Code::parse(&certificate.text, &signature)
+    let row = |variant: &Variant| {
+        let (function, scalar) = (variant.emitted.function, variant.scalar);
+        let signature = Signature::of(&variant.emitted, scalar);
+        let text = workspace::Code::parse(&variant.text, &signature)
             .map_err(|error| GenerateError::Defect(function, Some(scalar), error.to_string()))?;
         Ok(Row {
             step: "tolerance",
@@ -227,7 +227,7 @@ pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> 
             code: Code::Emitted(Box::new(text), scalar),
         })
     };
-    admitted.certificates.iter().map(row).collect()
+    admitted.variants.iter().map(row).collect()
 }
 
 fn unexplained(function: Function) -> GenerateError {

@@ -1,8 +1,8 @@
-//! `dalembert tradeoff`: what accuracy costs, certified and observed.
+//! `dalembert tradeoff`: what accuracy costs, with bounds and with what is observed.
 
 use std::path::PathBuf;
 
-use dalembert_codegen::workspace::{ErrorBudget, SceneKey, Setup, claim_of, prove};
+use dalembert_codegen::workspace::{Budget, SceneKey, Setup, claim_of, prove};
 use dalembert_codegen::{Function, GenerateError, Program, Request, ScalarType};
 use dalembert_import::ChainArgs;
 use dalembert_model::scene::{Scale, Scene};
@@ -102,7 +102,7 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
             (svg, sealed(Comment::Xml, "dalembert tradeoff", &chart)),
         ];
         for point in &points {
-            let own = &point.certificate;
+            let own = &point.variant;
             let name = format!("variants/{}", point.name());
             let mut add = |ending: &str| files.add_in(folder, &format!("{name}.{ending}"));
             let [code, claim] = [add("rs")?, add("claim.json")?];
@@ -119,7 +119,7 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
         }
         done.notes.push(format!("wrote {}", folder.display()));
     }
-    let table = table.without("rounding|rounding observed");
+    let table = table.without("rounding");
     done.report.value("variants", table.json());
     done.report.rows(table);
     done.failed.extend(points.iter().filter_map(|point| {
@@ -163,21 +163,23 @@ fn climb(
     relative_to: Scale,
     tolerances: &[f64],
 ) -> Result<Vec<Point>, Failure> {
-    let frame = ErrorBudget::new(setup, exact, relative_to).map_err(|refusal| {
+    let refused = |refusal| {
         Failure::Input(format!(
             "error: {}: {refusal}\n  = help: give the limits in the robot file, or the box of a scene",
             args.robot.display()
         ))
-    })?;
+    };
+    let budget = Budget::new(setup, exact, relative_to).map_err(refused)?;
     // Every tolerance and the exact program: searched for, then falsified.
     terminal::bar().set_length(2 * (1 + tolerances.len() as u64));
-    let ladder = Ladder::new(args.samples as usize, request.effort, &frame);
+    let ladder = Ladder::new(args.samples as usize, request.effort, &budget);
+    let ladder = ladder.map_err(refused)?;
     let points = ladder.climb(tolerances, &terminal::step);
     points.map_err(|error| Failure::Check(format!("error: {error}")))
 }
 
 fn better(setup: &Setup, exact: &Program, points: &[Point]) -> Option<Program> {
-    let programs = points.iter().map(|point| &point.certificate.emitted);
+    let programs = points.iter().map(|point| &point.variant.emitted);
     let fewer = |own: &&Program| own.counts().operations() < exact.counts().operations();
     let mut fewer: Vec<&Program> = programs.filter(fewer).collect();
     fewer.sort_by_key(|own| own.counts().operations());
@@ -208,7 +210,7 @@ fn relative_to(args: &TradeoffArgs, scene: Option<&Scene>) -> Scale {
 
 fn table(points: &[Point]) -> Table {
     let mut table = Table::new(
-        "tolerance|scalar|sincos by=sines|mul|add|sincos|trig_mul|trig_add|left out=cuts|certified|observed|rounding|rounding observed|front",
+        "tolerance|scalar|sincos by=sines|mul|add|sincos|trig_mul|trig_add|bound|observed|rounding|front",
     );
     for own in points {
         let counts = own.counts();
@@ -217,24 +219,22 @@ fn table(points: &[Point]) -> Table {
             Some(seen) => Cell::power(seen, 2),
             None => Cell::of("–", Value::Null),
         };
-        let sines = match own.certificate.sines.is_empty() {
+        let sines = match own.variant.sines.is_empty() {
             true => Cell::from("libm"),
             false => Cell::of("poly", "polynomials"),
         };
         table.row(cells![
             Cell::of(format!("{:e}", own.tolerance), own.tolerance),
-            own.certificate.scalar.name(),
+            own.variant.scalar.name(),
             sines,
             counts.mul,
             counts.add,
             counts.sincos,
             counts.trig_mul,
             counts.trig_add,
-            own.left_out,
-            Cell::power(own.certified, 2),
+            Cell::power(own.bound, 2),
             seen(own.observed),
             Cell::power(own.rounding, 2),
-            seen(own.rounding_observed),
             if own.dominated { "" } else { "yes" },
         ]);
     }
@@ -249,7 +249,7 @@ fn drawn(title: &str, relative_to: Scale, points: &[Point]) -> String {
     let dots = points.iter().map(|own| Dot {
         kind: own.kind(),
         cost: own.cost() as f64,
-        certified: own.certified,
+        bound: own.bound,
         observed: own.observed,
         dominated: own.dominated,
     });

@@ -15,6 +15,7 @@ impl Search {
         let ranges: Vec<[f64; 2]> = self.ranges();
         let mut seed = SEED;
         let mut best = 0.0f64;
+        let mut top = Vec::new();
         for _ in 0..starts {
             let start = ranges.iter().map(|[low, high]| {
                 seed = seed
@@ -23,8 +24,13 @@ impl Search {
                 low + (high - low) * (seed >> 11) as f64 / (1u64 << 53) as f64
             });
             let start = start.collect();
-            best = best.max(self.climb_from(start));
+            let found = self.climb_from(start);
+            if found >= best {
+                best = found;
+                top.clone_from(&self.top);
+            }
         }
+        self.top = top;
         best
     }
 
@@ -33,7 +39,7 @@ impl Search {
         self.climb_from(self.above.clone())
     }
 
-    fn ranges(&self) -> Vec<[f64; 2]> {
+    pub(super) fn ranges(&self) -> Vec<[f64; 2]> {
         let levels = self.levels.iter();
         levels.map(|own| own.range.unwrap_or([-PI, PI])).collect()
     }
@@ -74,6 +80,7 @@ impl Search {
                 stride *= SHORTER;
             }
         }
+        self.top = angles;
         highest.max(0.0)
     }
 }

@@ -7,16 +7,17 @@
 /// The most velocities whose corners are tried: beyond, each product counts by itself.
 pub(super) const MOST_VELOCITIES: usize = 12;
 
-/// A factor of a group of terms: none, a product of velocities by its set, or any monomial.
+/// A factor of a group of terms: none, a product of velocities by its set or an entry of a matrix by
+/// its place, or any monomial.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Factor {
     One,
-    Velocities(u32),
+    Place(u32),
     Other,
 }
 
 /// Returns the least and the largest value at all corners; the sums are by set, and are lost.
-pub(super) fn corners(sums: &mut [f64]) -> [f64; 2] {
+pub fn corners(sums: &mut [f64]) -> [f64; 2] {
     let mut half = 1;
     while half < sums.len() {
         for both in sums.chunks_exact_mut(2 * half) {

@@ -18,15 +18,18 @@
 //! F(c) is shown to be small by the same means over the other angles. Cells where that fails are
 //! cut in three; a point where F is above B refutes it. Sums of sines and cosines of multiples
 //! (`terms`) are bounded by Σ √(Σ c²), over the phases of each multiple; so is W, times the square
-//! of the multiple.
+//! of the multiple. The same shows that a matrix is positive definite (`definite`).
 //!
 //! A climb (`climb`) finds what F reaches, and from where a bound was refuted it goes on.
 
 mod climb;
 mod corners;
+mod definite;
 mod search;
 mod terms;
 
+pub use self::corners::corners;
+pub use self::definite::is_definite;
 use self::search::{Search, Shown};
 use self::terms::Terms;
 use crate::polynomial::Polynomial;
@@ -39,6 +42,8 @@ const PURSE: u64 = 1_000_000_000;
 const PURSE_TIGHTER: u64 = 40_000_000;
 /// The starts of climbs.
 const STARTS: usize = 16;
+/// The starts of climbs before a wanted bound is decided.
+const DECISION_STARTS: usize = 8;
 /// Bounds relative to what is reached, where none is wanted, or the wanted one is refuted.
 const LOOSE: [f64; 5] = [1.5, 2.0, 4.0, 16.0, 256.0];
 /// Tighter ones, tried one after the other as long as they are shown.
@@ -49,6 +54,55 @@ const RETRIES: usize = 20;
 /// Bounds the largest magnitude without looking at any angle, by lengths over phases.
 pub fn length(polynomial: &Polynomial, ring: &Ring) -> f64 {
     Terms::new(polynomial, ring, 0.0).length()
+}
+
+/// The finding about a wanted bound of the largest magnitude.
+#[derive(Clone, Debug)]
+pub struct Decision {
+    /// `true` if the bound is shown.
+    pub is_shown: bool,
+    /// `true` if it is not refuted either: the multiplications did not do.
+    pub is_open: bool,
+    /// The size that is reached at these angles, one a joint: zero where none had to be looked at.
+    pub reached: f64,
+    /// The angles, rad; empty where none was looked at.
+    pub angles: Vec<f64>,
+}
+
+/// Decides whether the magnitude is at most `wanted`, by so many multiplications at most: if they do
+/// not do, it is not shown.
+pub fn decide(polynomial: &Polynomial, ring: &Ring, wanted: f64, purse: u64) -> Decision {
+    let terms = Terms::new(polynomial, ring, wanted);
+    let mut search = Search::new(&terms, ring);
+    let plain = search.plain_bound();
+    if search.is_constant() || !plain.is_finite() || plain <= wanted {
+        return Decision {
+            is_shown: plain <= wanted,
+            is_open: false,
+            reached: 0.0,
+            angles: Vec::new(),
+        };
+    }
+    search.steps = purse;
+    let mut reached = search.climb(DECISION_STARTS);
+    let [mut is_shown, mut is_open] = [false; 2];
+    if reached <= wanted {
+        match search.shows_all(wanted) {
+            Shown::Yes => is_shown = true,
+            Shown::Refuted => reached = search.climb_on(),
+            Shown::Unknown => is_open = true,
+        }
+    }
+    let mut angles = vec![0.0; ring.angles.len()];
+    for (level, angle) in search.levels.iter().zip(&search.top) {
+        angles[level.joint] = *angle;
+    }
+    Decision {
+        is_shown,
+        is_open,
+        reached,
+        angles,
+    }
 }
 
 /// Bounds the largest magnitude: by at most `wanted` if that can be shown, and then as tightly as

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::corners::{Factor, corners};
+use super::definite::exceeds;
 use super::terms::{Key, Terms, bits, group, multiple, without_phases};
 use crate::interval::sin_cos;
 use crate::ring::Ring;
@@ -18,16 +19,17 @@ const MEANS: usize = 9;
 
 /// One angle's turn: what its multiples are multiplied with, and where that is added to.
 pub(super) struct Level {
+    pub(super) joint: usize,
     pub(super) range: Option<[f64; 2]>,
-    degree: f64,
+    pub(super) degree: f64,
     /// The multiples and phases that there are.
     bases: Vec<(u32, bool)>,
     /// The base of each value, and its place among those of the next level.
-    moves: Vec<[u32; 2]>,
-    /// The end of each run of values that differ by phases, and the square of its multiple.
-    runs: Vec<(u32, f64)>,
+    pub(super) moves: Vec<[u32; 2]>,
+    /// The end of each run of values that differ by phases, the square of its multiple, and its group.
+    pub(super) runs: Vec<(u32, f64, u32)>,
     /// The values that depend on no angle that is left, with their factors.
-    constants: Vec<(u32, Factor)>,
+    pub(super) constants: Vec<(u32, Factor)>,
 }
 
 /// The finding about one B.
@@ -40,20 +42,34 @@ pub(super) enum Shown {
     Unknown,
 }
 
+/// The meaning of F behind the last level.
+#[derive(Clone, Copy)]
+pub(super) enum Aim {
+    /// The magnitude at the worst rates.
+    Magnitude,
+    /// What the least eigenvalue of a matrix of so many rows is below a bound of its magnitude.
+    Eigenvalue { size: usize, largest: f64 },
+}
+
 pub(super) struct Search {
+    pub(super) aim: Aim,
+    /// The loss in the last cell that is cut, if it is not a part of B.
+    pub(super) least_loss: Option<f64>,
     pub(super) levels: Vec<Level>,
     /// The values of each level, one state behind the other: the last ones are those of the state
     /// that is looked at.
-    columns: Vec<Vec<f64>>,
+    pub(super) columns: Vec<Vec<f64>>,
     /// The factor of each value behind the last level.
-    factors: Vec<Factor>,
+    pub(super) factors: Vec<Factor>,
     /// A bound of terms left out, and of what sums and sines lose in doubles.
     pub(super) slack: f64,
     pub(super) angles: Vec<f64>,
+    /// Where the last climb ended.
+    pub(super) top: Vec<f64>,
     /// Where F was last above a B.
     pub(super) above: Vec<f64>,
     pub(super) steps: u64,
-    corner: Vec<f64>,
+    pub(super) corner: Vec<f64>,
 }
 
 impl Search {
@@ -65,11 +81,14 @@ impl Search {
         let mut keys: Vec<Key> = terms.iter().map(|term| term.0).collect();
         let mut longest = keys.len() + own.factors.len() + 64;
         let mut search = Search {
+            aim: Aim::Magnitude,
+            least_loss: None,
             levels: Vec::new(),
             columns: vec![terms.iter().map(|term| term.1).collect()],
             factors: Vec::new(),
             slack: 0.0,
             angles: Vec::new(),
+            top: Vec::new(),
             above: Vec::new(),
             steps: 0,
             corner: vec![0.0; 1 << own.velocities],
@@ -87,7 +106,8 @@ impl Search {
             let same = |a: &Key, b: &Key| without_phases(*a) == without_phases(*b);
             let runs = keys.chunk_by(same).map(|run| {
                 end += run.len() as u32;
-                (end, f64::from(multiple(run[0], joint).0).powi(2))
+                let square = f64::from(multiple(run[0], joint).0).powi(2);
+                (end, square, group(run[0]) as u32)
             });
             let (constants, runs) = (constants.collect(), runs.collect());
             let mut next: Vec<Key> = keys.iter().map(|key| key & !bits(joint)).collect();
@@ -104,6 +124,7 @@ impl Search {
                 [base.unwrap_or(0) as u32, to.unwrap_or(0) as u32]
             };
             search.levels.push(Level {
+                joint,
                 range: ring.angles[joint],
                 degree: f64::from(degree),
                 moves: keys.iter().map(moved).collect(),
@@ -151,7 +172,7 @@ impl Search {
         let values = &column[column.len() - own.moves.len()..];
         let (mut most, mut bend) = (self.slack, own.degree.powi(2) * self.slack);
         let mut from = 0;
-        for &(end, square) in &own.runs {
+        for &(end, square, _) in &own.runs {
             let run = &values[from..end as usize];
             let length = match run {
                 [one] => one.abs(),
@@ -169,7 +190,7 @@ impl Search {
                 match factor {
                     Factor::One => sum += value,
                     Factor::Other => {}
-                    Factor::Velocities(set) => {
+                    Factor::Place(set) => {
                         self.corner[set as usize] += value;
                         apart += value.abs();
                     }
@@ -184,8 +205,17 @@ impl Search {
         (most * (1.0 + 1e-9), bend * (1.0 + 1e-9))
     }
 
-    /// Returns F where all angles are put in: at first by magnitudes, then at the worst corner.
-    fn is_at_most(&mut self, most: f64) -> bool {
+    /// Returns true if F is at most so much where all angles are put in: at first by magnitudes, then at the
+    /// worst corner.
+    pub(super) fn is_at_most(&mut self, most: f64) -> bool {
+        if let Aim::Eigenvalue { size, largest } = self.aim {
+            self.put_in_place();
+            return exceeds(
+                self.corner.clone(),
+                size,
+                (largest - most).next_up() + self.slack,
+            );
+        }
         let values = self.values(self.levels.len());
         let plain = values.iter().map(|own| own.abs()).sum::<f64>() + self.slack;
         plain <= most || self.worst() <= most
@@ -201,7 +231,7 @@ impl Search {
             match *factor {
                 Factor::One => sum += value,
                 Factor::Other => other += value.abs(),
-                Factor::Velocities(set) => self.corner[set as usize] += value,
+                Factor::Place(set) => self.corner[set as usize] += value,
             }
         }
         let [low, high] = corners(&mut self.corner);
@@ -280,8 +310,14 @@ impl Search {
             self.above.clone_from(&self.angles);
             return Shown::Refuted;
         }
-        let (crude, bend) = self.crude(level);
-        if crude <= most {
+        let (is_small, bend) = match self.aim {
+            Aim::Magnitude => {
+                let (crude, bend) = self.crude(level);
+                (crude <= most, bend)
+            }
+            Aim::Eigenvalue { size, largest } => self.crude_matrix(level, size, largest - most),
+        };
+        if is_small {
             return Shown::Yes;
         }
         if self.steps == 0 {
@@ -304,6 +340,7 @@ impl Search {
         let count = (0.5 * (high - low) / widest).ceil().clamp(1.0, MOST_CELLS);
         let half = (0.5 * (high - low) / count) * (1.0 + 1e-12) + 1e-15 * low.abs();
         let cell = |k: usize| (low + (high - low) * (k as f64 + 0.5) / count, half);
+        let least = self.least_loss.unwrap_or(LEAST_LOSS * most);
         let mut first = (0..count as usize).map(cell);
         let mut cells: Vec<(f64, f64)> = Vec::new();
         self.columns[level + 1].clear();
@@ -335,7 +372,7 @@ impl Search {
             match found {
                 Shown::Yes => continue,
                 Shown::Unknown => return Shown::Unknown,
-                Shown::Refuted if lost <= LEAST_LOSS * most => return Shown::Refuted,
+                Shown::Refuted if lost <= least => return Shown::Refuted,
                 Shown::Refuted => {}
             }
             if self.steps == 0 {

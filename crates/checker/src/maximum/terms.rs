@@ -179,7 +179,7 @@ fn factors(groups: &[Powers], ring: &Ring) -> (Vec<Factor>, usize) {
     let factor = |(group, product): (&Powers, &Option<Vec<usize>>)| match product {
         _ if *group == 0 => Factor::One,
         Some(list) if free <= MOST_VELOCITIES => {
-            Factor::Velocities(list.iter().fold(0, |all, joint| all ^ bit(joint)))
+            Factor::Place(list.iter().fold(0, |all, joint| all ^ bit(joint)))
         }
         _ => Factor::Other,
     };

@@ -1,0 +1,214 @@
+//! An attempt to refute a bound: the emitted text is run at corners and random states of the box, and
+//! climbs to where it errs most.
+//!
+//! The text runs in its scalar, polynomials for sines and all. Doubles of the exact program say where
+//! errors are large; how large they are there is found in 256 bits, so a violation is one.
+
+use super::input_box::InputBox;
+use super::sample::{climb, draw};
+use super::variant::Variant;
+use crate::function::Argument;
+use crate::interval::Interval;
+use crate::language::read::{Signature, TextError};
+use crate::program::{Code, ScalarType};
+use crate::random::Random;
+use crate::setup::Setup;
+use crate::states::JointState;
+use crate::verify::truth::Reference;
+
+/// States that are run at once: their columns stay in a processor's cache.
+const BLOCK: usize = 128;
+const MOVES: usize = 600;
+/// Of the climbs, those where rounding may cost most go on in the last bits of the state: moves, how
+/// many at once, and how far they go.
+const TOPS: usize = 6;
+const LAST_MOVES: usize = 1024;
+const NEIGHBOURS: usize = 16;
+const LAST: [f64; 4] = [1e-3, 1e-4, 1e-5, 3e-6];
+
+/// The largest errors that were seen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attempt {
+    /// Of each result, relative to its T; none at no state.
+    pub observed: Option<Vec<f64>>,
+    /// The first result that errs by more than its bound, and where.
+    pub violation: Option<(usize, JointState)>,
+}
+
+/// Runs a variant at so many states, and climbs so often for each result.
+///
+/// # Errors
+/// A text that cannot be read.
+pub fn attempt(
+    setup: &Setup,
+    variant: &Variant,
+    samples: usize,
+    climbs: usize,
+    seed: u64,
+) -> Result<Attempt, TextError> {
+    let signature = Signature::of(&variant.emitted, variant.scalar);
+    let run = Run {
+        variant,
+        emitted: Code::parse(&variant.text, &signature)?,
+        exact: variant.exact.in_doubles(),
+    };
+    let limits = &variant.limits;
+    let mut random = Random::new(seed);
+    let mut tops = vec![Vec::new(); variant.exact.dag.outputs.len()];
+    for first in (0..samples).step_by(BLOCK) {
+        let count = BLOCK.min(samples - first);
+        let states: Vec<JointState> = (0..count).map(|_| draw(limits, &mut random)).collect();
+        for (top, errors) in tops.iter_mut().zip(run.errors(&states)) {
+            let pairs = errors.into_iter().zip(states.iter().cloned());
+            let worst = pairs.max_by(|a, b| a.0.total_cmp(&b.0));
+            top.extend(worst);
+            top.sort_by(|a: &(f64, JointState), b| b.0.total_cmp(&a.0));
+            top.truncate(1);
+        }
+    }
+    for (output, top) in tops.iter_mut().enumerate() {
+        let mut climbed: Vec<(JointState, f64)> = Vec::new();
+        for round in 0..climbs {
+            let from = match (round, top.first()) {
+                (0, Some((_, state))) => state.clone(),
+                _ => draw(limits, &mut random),
+            };
+            let mut error = |state: &JointState| run.error(output, state);
+            let (state, _) = climb(limits, from, MOVES, &mut random, &mut error);
+            let mut cost = |state: &JointState| rounded(&run.emitted, output, state);
+            climbed.push(climb(limits, state.clone(), MOVES, &mut random, &mut cost));
+            top.push((run.error(output, &state), state));
+        }
+        climbed.sort_by(|a, b| b.1.total_cmp(&a.1));
+        climbed.truncate(TOPS);
+        let climbed = climbed.into_iter();
+        top.extend(climbed.map(|(state, _)| run.in_last_bits(output, state, &mut random)));
+    }
+    let reference = Reference::new(setup);
+    let mut found = Attempt {
+        observed: None,
+        violation: None,
+    };
+    for (output, top) in tops.iter().enumerate() {
+        let [scale, bound] = [variant.scales[output], variant.bounds[output].total()];
+        for (_, state) in top {
+            let state = held(state, variant.scalar, limits);
+            let truth = reference.run_program(&variant.exact, &state);
+            let error = truth.and_then(|own| {
+                let result = run.emitted.run_at(&state).get(output).copied();
+                Some(own.get(output)?.error(result.unwrap_or(f64::NAN)))
+            });
+            let error = error.unwrap_or(f64::INFINITY);
+            let error = if error == 0.0 { 0.0 } else { error / scale };
+            let observed = found.observed.get_or_insert_with(|| vec![0.0; tops.len()]);
+            observed[output] = observed[output].max(error);
+            if error > bound && found.violation.is_none() {
+                found.violation = Some((output, state));
+            }
+        }
+    }
+    Ok(found)
+}
+
+struct Run<'v> {
+    variant: &'v Variant,
+    emitted: Code,
+    exact: Code,
+}
+
+impl Run<'_> {
+    fn error(&self, output: usize, state: &JointState) -> f64 {
+        self.errors(std::slice::from_ref(state))[output][0]
+    }
+
+    /// Returns about how far the results are off, a column a result.
+    fn errors(&self, states: &[JointState]) -> Vec<Vec<f64>> {
+        let Variant { scalar, limits, .. } = self.variant;
+        let states: Vec<JointState> = states.iter().map(|s| held(s, *scalar, limits)).collect();
+        let exact = self.exact.run_at_many(&states);
+        let mut emitted = self.emitted.run_at_many(&states);
+        if emitted.len() != exact.len() {
+            // A text that reads what is not there, or returns too little.
+            emitted = vec![vec![f64::NAN; states.len()]; exact.len()];
+        }
+        let error = |(x, y): (&f64, &f64)| match x.is_finite() {
+            true => (x - y).abs(),
+            false => f64::INFINITY,
+        };
+        let columns = emitted.iter().zip(&exact);
+        columns
+            .map(|(x, y)| x.iter().zip(y).map(error).collect())
+            .collect()
+    }
+
+    /// Climbs by steps so small that what roundings have in common is all that changes.
+    fn in_last_bits(
+        &self,
+        output: usize,
+        from: JointState,
+        random: &mut Random,
+    ) -> (f64, JointState) {
+        let limits = &self.variant.limits;
+        let mut best = (0.0, from);
+        for step in 0..LAST_MOVES {
+            let reach = LAST[step % LAST.len()];
+            let each = (0..NEIGHBOURS).map(|k| nudged(limits, &best.1, reach, 1 + k % 3, random));
+            let states: Vec<JointState> = each.collect();
+            let errors = self.errors(&states);
+            for (error, state) in errors[output].iter().zip(states) {
+                if *error > best.0 {
+                    best = (*error, state);
+                }
+            }
+        }
+        best
+    }
+}
+
+/// First order, in units of u: the sum of |value·adjoint| over all operations.
+fn rounded(code: &Code, output: usize, state: &JointState) -> f64 {
+    let (values, mut adjoints) = (code.values_at(state), Vec::new());
+    let top = code.dag.outputs[output].node;
+    code.dag.adjoints(top, &values, &mut adjoints);
+    let operations = code.dag.operations().map(|(id, ..)| id as usize);
+    let errors = operations.take_while(|id| *id <= top as usize);
+    errors.map(|id| (values[id] * adjoints[id]).abs()).sum()
+}
+
+fn nudged(
+    limits: &InputBox,
+    state: &JointState,
+    reach: f64,
+    coordinates: usize,
+    random: &mut Random,
+) -> JointState {
+    let mut next = state.clone();
+    let n = state.q.len();
+    for _ in 0..coordinates {
+        let coordinate = random.below(3 * n);
+        let (argument, joint) = (Argument::STATE[coordinate / n], coordinate % n);
+        let range = limits.of_argument(argument)[joint];
+        let x = &mut next.entries_mut(argument)[joint];
+        *x = (*x + reach * range.width() * (random.unit() - 0.5)).clamp(range.low(), range.high());
+    }
+    next
+}
+
+pub(crate) fn held(state: &JointState, scalar: ScalarType, limits: &InputBox) -> JointState {
+    if scalar == ScalarType::F64 {
+        return state.clone();
+    }
+    let inside = |(&x, range): (&f64, &Interval)| {
+        let near = x as f32;
+        f64::from(match f64::from(near) {
+            read if read > range.high() => near.next_down(),
+            read if read < range.low() => near.next_up(),
+            _ => near,
+        })
+    };
+    JointState::new(|argument| {
+        let ranges = limits.of_argument(argument);
+        let entries = state.entries(argument).iter();
+        entries.zip(ranges).map(inside).collect()
+    })
+}

@@ -1,0 +1,340 @@
+//! A function under a tolerance: what each result may be off, and the cheapest variant of it.
+//!
+//! Rounding of the exact program is set aside first, and the search may use the rest. The checker
+//! bounds what comes out, text and all, and only that decides: what it refuses gives way to the next
+//! candidate, and in the end nothing is left out.
+
+use dalembert_model::scene::{Scale, Tolerance};
+
+use super::bounded::bounded;
+use super::definite;
+use super::input_box::InputBox;
+use super::overflow::overflows;
+use super::reference::Reference;
+use super::refusals::{ToleranceError, unbounded_by};
+use super::search::{self, SearchEffort, Target};
+use super::sines::{self, Slopes};
+use super::variant::{Admitted, Variant};
+use super::work::Meter;
+use super::{scale, shape};
+use crate::program::{Library, Program, ScalarType, has_inertia};
+use crate::setup::Setup;
+use crate::sincos::{AngleKernel, Sines};
+use crate::states::JointState;
+use crate::watch::{FunctionWatch, Part};
+use crate::words::{Complaint, complaint};
+
+/// Rounding of the exact program is set aside so many times: the variant is another program.
+const ASIDE: f64 = 2.0;
+/// The part of a result's tolerance that is not used: bounds are shown up to so little.
+const MARGIN: f64 = 3e-3;
+/// The candidates of a search that the checker is asked about.
+const CANDIDATES: usize = 6;
+/// The parts of what edits and rounding leave that polynomials for sines may use.
+const PARTS: [f64; 5] = [1.0, 0.5, 0.2, 0.05, 0.01];
+/// An error may be larger than what climbs reach by this part.
+const REACHED: f64 = 1e-3;
+const SUB_BOXES: usize = 256;
+
+/// A function, its box, and what errors are relative to.
+pub struct Budget<'a> {
+    /// The full model.
+    pub setup: &'a Setup,
+    /// The exact program.
+    pub exact: &'a Program,
+    /// Where bounds hold.
+    pub limits: InputBox,
+    /// T of each result, or just below.
+    pub scales: Vec<f64>,
+    /// The meaning of T.
+    pub relative_to: Scale,
+    reached: Vec<JointState>,
+    reference: Reference,
+    library: Library,
+    is_fused: bool,
+}
+
+/// The tolerance of each result, relative to T.
+pub struct Allowed {
+    each: Vec<f64>,
+    /// The tolerance of all, if it is not the scene's.
+    one: Option<f64>,
+}
+
+impl<'a> Budget<'a> {
+    /// Returns the box of a robot in its scene, and T over it.
+    ///
+    /// # Errors
+    /// [`ToleranceError::Refused`]: a function without bounds, a limit that is missing, or actuators
+    /// that are no measure of it.
+    pub fn new(
+        setup: &'a Setup,
+        exact: &'a Program,
+        relative_to: Scale,
+    ) -> Result<Budget<'a>, ToleranceError> {
+        unbounded_by(exact).map_or(Ok(()), |why| Err(ToleranceError::Refused(why)))?;
+        let limits = InputBox::within(setup, exact.function).map_err(ToleranceError::Refused)?;
+        let (scales, reached) = match relative_to {
+            Scale::Actuator => {
+                let scales = scale::actuator(setup.robot(), exact);
+                (scales.map_err(ToleranceError::Refused)?, Vec::new())
+            }
+            Scale::Range => scale::range(exact, &limits).into_iter().unzip(),
+        };
+        Ok(Budget {
+            reference: Reference::new(setup, exact).map_err(ToleranceError::Refused)?,
+            setup,
+            exact,
+            limits,
+            scales,
+            relative_to,
+            reached,
+            library: Library::Libm,
+            is_fused: false,
+        })
+    }
+
+    /// Returns the same for code that calls a library's sines, and fuses products or does not.
+    #[must_use]
+    pub fn emitting(self, library: Library, is_fused: bool) -> Budget<'a> {
+        Budget {
+            library,
+            is_fused,
+            ..self
+        }
+    }
+
+    /// Returns the tolerance of each result by a scene's.
+    pub fn allowed(&self, tolerance: &Tolerance) -> Allowed {
+        Allowed {
+            each: scale::tolerances(self.exact, tolerance),
+            one: None,
+        }
+    }
+
+    /// Returns one tolerance for all results.
+    pub fn all_allowed(&self, tolerance: f64) -> Allowed {
+        Allowed {
+            each: vec![tolerance; self.scales.len()],
+            one: Some(tolerance),
+        }
+    }
+
+    fn definite(&self) -> Result<(), ToleranceError> {
+        let domain = self.reference.domain();
+        if !has_inertia(self.exact) || definite::is_definite(domain, self.exact, &[], None) {
+            return Ok(());
+        }
+        let why = definite::complaint_about(self.exact, &self.limits);
+        let why = complaint(format!("the full model: {why}"));
+        Err(ToleranceError::Indefinite(why))
+    }
+
+    /// Returns a program as it is printed in a scalar, with the bounds that the checker finds.
+    ///
+    /// # Errors
+    /// [`ToleranceError::Above`] if the checker does not show that every result is within its
+    /// tolerance; [`ToleranceError::Overflow`]; [`ToleranceError::Indefinite`] if its D, if it has one,
+    /// is not shown to be positive definite.
+    pub fn shown(
+        &self,
+        program: &Program,
+        scalar: ScalarType,
+        sines: &[AngleKernel],
+        allowed: &Allowed,
+    ) -> Result<Variant, ToleranceError> {
+        let emitted = match self.is_fused {
+            true => program.fused(),
+            false => program.clone(),
+        };
+        let wider = scalar.of("", ", or choose a wider scalar");
+        // Bounds of rounding are of numbers that the scalar holds.
+        if let Some(first) = overflows(&emitted, scalar, sines, &self.limits, SUB_BOXES).first() {
+            return Err(ToleranceError::Overflow(complaint(format!(
+                "inside the box {first} in {scalar}, and no error is bounded of what overflows: \
+                 bound the box, choose other units{wider}"
+            ))));
+        }
+        let draft = Variant {
+            scalar,
+            limits: self.limits.clone(),
+            relative_to: self.relative_to,
+            reached: self.reached.clone(),
+            exact: self.exact.clone(),
+            emitted,
+            text: String::new(),
+            // Polynomials call nothing.
+            library: match sines {
+                [] => self.library,
+                _ => Library::Libm,
+            },
+            sines: sines.to_vec(),
+            scales: Vec::new(),
+            bounds: Vec::new(),
+        };
+        let found = bounded(self.setup, &draft.printed(), allowed.one);
+        let found = found.map_err(ToleranceError::Above)?;
+        let is_changed = found.emitted != *self.exact || !sines.is_empty();
+        if has_inertia(program) && is_changed {
+            let domain = self.reference.domain();
+            if !definite::is_definite(domain, program, sines, Some(&found)) {
+                let why = complaint("with its errors D cannot be shown to be positive definite");
+                return Err(ToleranceError::Indefinite(why));
+            }
+        }
+        Ok(found)
+    }
+
+    /// Returns a program in several scalars, as [`shown`](Self::shown).
+    ///
+    /// # Errors
+    /// As of the first scalar that is refused.
+    pub fn admitted(
+        &self,
+        program: &Program,
+        scalars: &[ScalarType],
+        allowed: &Allowed,
+    ) -> Result<Admitted, ToleranceError> {
+        let variants = scalars.iter();
+        let variants = variants.map(|&scalar| self.shown(program, scalar, &[], allowed));
+        Ok(Admitted {
+            variants: variants.collect::<Result<_, _>>()?,
+            exact: self.exact.clone(),
+            program: program.clone(),
+        })
+    }
+
+    /// Returns the exact program in several scalars. If it cannot be shown that its D, if it has one, is
+    /// positive definite, no variant's can.
+    ///
+    /// # Errors
+    /// As [`shown`](Self::shown).
+    pub fn unedited(
+        &self,
+        scalars: &[ScalarType],
+        allowed: &Allowed,
+    ) -> Result<Admitted, ToleranceError> {
+        self.definite()?;
+        self.admitted(self.exact, scalars, allowed)
+    }
+
+    /// Returns a plan's variant, as [`admitted`](Self::admitted): a plan is a text that anybody can edit.
+    ///
+    /// # Errors
+    /// A program that is not of the function, or reads what it may not; [`ToleranceError`].
+    pub(crate) fn planned(
+        &self,
+        program: &Program,
+        scalars: &[ScalarType],
+        allowed: &Allowed,
+    ) -> Result<Result<Admitted, ToleranceError>, Complaint> {
+        shape::check(self.setup, program, self.exact)?;
+        Ok(self.admitted(program, scalars, allowed))
+    }
+
+    /// Returns the cheapest variant found of which every result in every scalar is shown to be
+    /// within its tolerance: if none is found, `exact`, the variants of the exact program. `from` are
+    /// programs that others found for smaller tolerances: it is never dearer than they are.
+    ///
+    /// # Errors
+    /// [`ToleranceError::Refused`] beyond the work of the effort.
+    pub fn choose(
+        &self,
+        from: &[Program],
+        exact: Admitted,
+        allowed: &Allowed,
+        effort: &SearchEffort,
+        watch: FunctionWatch<'_>,
+    ) -> Result<Admitted, ToleranceError> {
+        let meter = Meter::new(effort.work);
+        let scalars: Vec<ScalarType> = exact.variants.iter().map(|own| own.scalar).collect();
+        let allowances = self.allowances(&exact, allowed);
+        let mut found = Vec::new();
+        if allowances.iter().any(|own| *own > 0.0) {
+            let target = Target {
+                setup: self.setup,
+                exact: self.exact,
+                reference: &self.reference,
+                limits: &self.limits,
+                allowances: &allowances,
+                effort,
+                watch,
+            };
+            found = search::programs(target, from);
+        }
+        if let Some(limit) = effort.work.filter(|_| meter.is_over()) {
+            let scene = self.setup.scene().map_or("", |scene| &scene.name);
+            return Err(ToleranceError::Refused(complaint(format!(
+                "the search for a program within the tolerance was stopped: it takes too long for \
+                 a compilation (more than {limit} units of work). Run `dalembert generate \
+                 ROBOT.toml --scene {scene} --effort thorough --save-plan` once: macro and build \
+                 script then take the program from its plan"
+            ))));
+        }
+        let mut found = found.iter().take(CANDIDATES).enumerate();
+        let shown = found.find_map(|(index, own)| {
+            watch.step(Part::Bounds, [index, CANDIDATES], Some(own.counts()));
+            self.admitted(own, &scalars, allowed).ok()
+        });
+        Ok(shown.unwrap_or(exact))
+    }
+
+    /// Returns a variant with polynomials for its sines: the cheapest that what edits and rounding leave
+    /// of the tolerances admits; as it is if it has no sines.
+    ///
+    /// # Errors
+    /// The reason why there are none.
+    pub fn with_polynomials(
+        &self,
+        program: &Program,
+        variant: &Variant,
+        allowed: &Allowed,
+    ) -> Result<Variant, Complaint> {
+        if program.trig().is_empty() {
+            return Ok(variant.clone());
+        }
+        // A bound is as large as is allowed: what is left is seen from what errors reach.
+        let reached = self.reference.reached(program)?;
+        let left = variant
+            .bounds
+            .iter()
+            .zip(&allowed.each)
+            .zip(&variant.scales);
+        let left = left.zip(reached).map(|(((own, t), scale), reached)| {
+            let rest = (t - 1.01 * own.rounding) * scale - reached * (1.0 + REACHED);
+            rest.max(0.0)
+        });
+        let left: Vec<f64> = left.collect();
+        let slopes = Slopes::new(program, &self.limits);
+        let scalar = variant.scalar;
+        let positions = self.limits.sine_positions(self.setup.robot(), scalar);
+        let mut last: Option<(Sines, Complaint)> = None;
+        for part in PARTS {
+            let allowances: Vec<f64> = left.iter().map(|own| own * part).collect();
+            let sines = sines::within(program, scalar, &positions, &allowances, &slopes);
+            let sines = match (sines, last) {
+                (Err(_), Some((_, why))) => return Err(why),
+                (sines, _) => sines?,
+            };
+            match self.shown(program, scalar, &sines, allowed) {
+                Ok(found) => return Ok(found),
+                Err(why) => last = Some((sines, complaint(why.to_string()))),
+            }
+        }
+        let why = last.map(|(_, why)| why);
+        Err(why.unwrap_or_else(|| complaint("no part of the tolerance is left")))
+    }
+
+    /// Returns what each result may be off in real numbers, in its unit.
+    fn allowances(&self, exact: &Admitted, allowed: &Allowed) -> Vec<f64> {
+        let left = |index: usize| {
+            let each = exact.variants.iter().map(|own| {
+                let rest =
+                    (1.0 - MARGIN) * allowed.each[index] - ASIDE * own.bounds[index].rounding;
+                rest * own.scales[index]
+            });
+            each.fold(f64::INFINITY, f64::min).max(0.0)
+        };
+        (0..self.scales.len()).map(left).collect()
+    }
+}

@@ -1,0 +1,64 @@
+//! The document about a variant, with which the checker compares its text.
+
+use dalembert_checker::claim::{Claim, Claimed, Tolerated};
+use dalembert_model::robot::{Placement, Robot, write};
+use dalembert_model::scene::{self, Scene};
+
+use super::variant::Variant;
+use crate::claim::{Written, code, of_setup};
+use crate::function::Argument;
+use crate::setup::Setup;
+
+/// Returns the claim about one text that a tolerance admitted.
+pub fn claim_of(robot: &Robot, source: &str, setup: &Setup, own: &Variant) -> Claim {
+    let mut constants = Written::default();
+    let function = Claimed {
+        tolerated: tolerated(own, &mut constants),
+        ..of_setup(&own.emitted, setup, &mut constants)
+    };
+    document(robot, source, setup, vec![function], constants)
+}
+
+pub(crate) fn document(
+    robot: &Robot,
+    source: &str,
+    setup: &Setup,
+    functions: Vec<Claimed>,
+    constants: Written,
+) -> Claim {
+    let is_tilted = |own: &Placement| own.rpy.iter().any(|own| own.quarter_turns().is_none());
+    let scene = setup
+        .scene()
+        .filter(|_| robot.payload_frame.as_ref().is_some_and(is_tilted));
+    let payload = scene.and_then(|scene| {
+        Some(Scene {
+            name: scene.name.clone(),
+            payload: Some(scene.carried(robot)?),
+            ..Scene::default()
+        })
+    });
+    let is_rounded = source.contains("placement") || payload.is_some();
+    let payload = payload.map_or_else(String::new, |own| format!("\n{}", scene::write(&own)));
+    Claim {
+        aligned: is_rounded.then(|| write(robot) + &payload),
+        notes: robot.notes.clone(),
+        ..constants.document(functions)
+    }
+}
+
+pub(crate) fn tolerated(first: &Variant, constants: &mut Written) -> Option<Tolerated> {
+    let program = &first.emitted;
+    let exact = Some(&first.exact).filter(|exact| *exact != program);
+    let [steps, returns] = exact.map_or_else(Default::default, |own| code(own, constants));
+    let is_given = |own: &Argument| program.arguments.contains(own);
+    let reached = first.reached.iter().map(|at| {
+        let given = Argument::STATE.iter().filter(|own| is_given(own));
+        given.flat_map(|own| at.entries(*own)).copied().collect()
+    });
+    Some(Tolerated {
+        steps,
+        returns,
+        relative_to: first.relative_to.word().to_owned(),
+        reached: reached.collect(),
+    })
+}

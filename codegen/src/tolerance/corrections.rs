@@ -1,0 +1,296 @@
+//! Constants corrected for what is left out: least squares over the errors at the samples.
+//!
+//! To first order a small change of each constant changes the errors by a column. Sums of squares of
+//! all rows put together, with random signs, into few (a count sketch) are what they are but for some
+//! per cent, if there are so many of these for each constant.
+
+use super::greedy::Greedy;
+use super::linear::{Factor, dot};
+use super::net::{Arg, State, Value};
+use crate::program::Operation;
+
+/// The rows of a sketch for ranking, which is also the least for corrections; and those for each
+/// constant: with fewer, corrections are too far off.
+const SKETCH: usize = 512;
+const SKETCH_EACH: usize = 40;
+/// A change of a constant by itself weighs as much as so many allowed errors.
+const INERTIA: f64 = 3.0;
+
+/// A constant that may change: of a step, or in a node's place.
+#[derive(Clone, Copy)]
+enum Place {
+    Arg(usize, usize),
+    Edit(usize),
+}
+
+/// A constant that may change: how it enters, and how much a change weighs by itself.
+pub(super) struct Unknown {
+    place: Place,
+    node: usize,
+    sign: f64,
+    other: Option<usize>,
+    inertia: f64,
+}
+
+/// A state, and what a small change of each of its constants does.
+pub(super) struct Frame {
+    pub(super) values: Vec<f64>,
+    pub(super) errors: Vec<f64>,
+    /// Of each result, by every node.
+    pub(super) adjoints: Vec<Vec<f64>>,
+    pub(super) unknowns: Vec<Unknown>,
+    columns: Vec<Vec<f64>>,
+    pub(super) weights: Vec<f64>,
+    /// For ranking, and for corrections.
+    pub(super) coarse: Sketched,
+    pub(super) fine: Sketched,
+}
+
+/// Columns put together into so many rows, and the normal equations of their least squares.
+pub(super) struct Sketched {
+    pub(super) size: usize,
+    columns: Vec<Vec<f64>>,
+    factor: Factor,
+    inverse: Vec<Vec<f64>>,
+}
+
+/// The errors that are left once constants are corrected.
+pub(super) struct Left {
+    pub(super) sum: f64,
+    pub(super) worst: f64,
+    pub(super) change: Vec<f64>,
+}
+
+impl Greedy<'_> {
+    fn sketch_size(&self, unknowns: usize) -> usize {
+        (SKETCH_EACH * unknowns).clamp(SKETCH, self.truth.len().max(SKETCH))
+    }
+
+    /// Returns the constants that may change.
+    fn unknowns(&self, state: &State, live: &[bool]) -> Vec<Unknown> {
+        let count = self.net.inputs.len();
+        let of = |node: usize| {
+            // A node's value, the sign of its derivative, and the node that it multiplies.
+            let (place, constant, sign, other) = match state.edits[node] {
+                Some(Value::Constant(c)) if c != 0.0 => (Place::Edit(node), c, 1.0, None),
+                Some(Value::Times(c, other)) if c.abs() != 1.0 => {
+                    (Place::Edit(node), c, 1.0, Some(other))
+                }
+                Some(_) => return None,
+                None if node < count => return None,
+                None => {
+                    let op = &state.ops[node - count];
+                    let (side, c, other) = match op.args {
+                        [Arg::Constant(c), Arg::Node(other)] => (0, c, other),
+                        [Arg::Node(other), Arg::Constant(c)] => (1, c, other),
+                        _ => return None,
+                    };
+                    let is_taken_off = op.operation == Operation::Sub && side == 1;
+                    let sign = if is_taken_off { -1.0 } else { 1.0 };
+                    let other = (op.operation == Operation::Mul).then_some(other);
+                    (Place::Arg(node - count, side), c, sign, other)
+                }
+            };
+            let inertia = INERTIA / constant.abs().max(1e-9);
+            Some(Unknown {
+                place,
+                node,
+                sign,
+                other,
+                inertia,
+            })
+        };
+        let live = (0..self.net.len()).filter(|&node| live[node]);
+        live.filter_map(of).collect()
+    }
+
+    /// Returns what a change of each constant does to the errors, and keeps the derivatives by all nodes
+    /// if they are asked for. Constants that change nothing leave the list.
+    fn jacobian(
+        &self,
+        state: &State,
+        values: &[f64],
+        unknowns: &mut Vec<Unknown>,
+        mut kept: Option<&mut Vec<Vec<f64>>>,
+    ) -> Vec<Vec<f64>> {
+        let m = self.samples.len();
+        let rows = self.truth.len();
+        let columns = unknowns.iter().map(|_| Vec::with_capacity(rows));
+        let mut columns: Vec<Vec<f64>> = columns.collect();
+        let mut adjoints = Vec::new();
+        for output in 0..self.net.outputs.len() {
+            self.net.adjoints(state, values, (output, m), &mut adjoints);
+            for (column, own) in columns.iter_mut().zip(&*unknowns) {
+                let adjoint = &adjoints[own.node * m..][..m];
+                match own.other {
+                    None => column.extend(adjoint.iter().map(|a| own.sign * a)),
+                    Some(other) => {
+                        let factors = &values[other * m..][..m];
+                        column.extend(adjoint.iter().zip(factors).map(|(a, x)| a * x));
+                    }
+                }
+            }
+            if let Some(kept) = &mut kept {
+                kept.push(std::mem::take(&mut adjoints));
+            }
+        }
+        let is_something = |column: &Vec<f64>| column.iter().any(|x| *x != 0.0);
+        let mut each = columns.iter();
+        unknowns.retain(|_| each.next().is_some_and(is_something));
+        columns.retain(is_something);
+        columns.iter_mut().for_each(|column| self.scale(column));
+        columns
+    }
+
+    pub(super) fn frame(&self, state: &State, live: &[bool]) -> Frame {
+        let values = self.run(state);
+        let errors = self.errors(&values);
+        let (mut unknowns, mut adjoints) = (self.unknowns(state, live), Vec::new());
+        let columns = self.jacobian(state, &values, &mut unknowns, Some(&mut adjoints));
+        // Where an error is large already, more counts more.
+        let weights = self.samples.blocks(&errors);
+        let weights: Vec<f64> = weights.iter().map(|own| 0.3 + own).collect();
+        let sketched = |size: usize| {
+            let each = columns.iter();
+            let sketched = each.map(|column| self.sketch(column, &weights, size));
+            let columns: Vec<Vec<f64>> = sketched.collect();
+            let factor = normal(&columns, &unknowns);
+            Sketched {
+                size,
+                inverse: factor.inverse(),
+                columns,
+                factor,
+            }
+        };
+        Frame {
+            coarse: sketched(SKETCH),
+            fine: sketched(self.sketch_size(unknowns.len())),
+            values,
+            errors,
+            adjoints,
+            unknowns,
+            columns,
+            weights,
+        }
+    }
+
+    /// Returns the constants that nothing reads, or that an edit at a node replaces.
+    pub(super) fn gone(frame: &Frame, live: &[bool], at: Option<usize>) -> Vec<usize> {
+        let is_gone = |place: &usize| {
+            let node = frame.unknowns[*place].node;
+            !live[node] || at == Some(node)
+        };
+        (0..frame.unknowns.len()).filter(is_gone).collect()
+    }
+
+    /// Returns the sum of squares of sketched errors that constants leave.
+    pub(super) fn squares(own: &Sketched, rows: &[f64], gone: &[usize]) -> f64 {
+        let right = own.columns.iter().map(|column| dot(column, rows));
+        let right: Vec<f64> = right.collect();
+        let left = gone.iter().map(|&k| dot(&own.inverse[k], &right));
+        let left = left.collect();
+        let taken = own.factor.forward(right);
+        let lost = Factor::new(gone.len(), |a, b| own.inverse[gone[a]][gone[b]]).forward(left);
+        dot(rows, rows) - dot(&taken, &taken) + dot(&lost, &lost)
+    }
+
+    /// Returns the errors that constants leave to first order, and their changes.
+    pub(super) fn left(&self, frame: &Frame, mut rows: Vec<f64>, gone: &[usize]) -> Left {
+        let fine = &frame.fine;
+        let own = self.sketch(&rows, &frame.weights, fine.size);
+        let right = fine.columns.iter().map(|column| dot(column, &own));
+        let mut change = fine.factor.solve(right.collect());
+        let small = Factor::new(gone.len(), |a, b| fine.inverse[gone[a]][gone[b]]);
+        let lost = small.solve(gone.iter().map(|&k| change[k]).collect());
+        for (&k, x) in gone.iter().zip(&lost) {
+            let pairs = change.iter_mut().zip(&fine.inverse[k]);
+            pairs.for_each(|(change, own)| *change -= x * own);
+        }
+        gone.iter().for_each(|&k| change[k] = 0.0);
+        for (column, x) in frame.columns.iter().zip(&change) {
+            if *x != 0.0 {
+                let pairs = rows.iter_mut().zip(column);
+                pairs.for_each(|(row, own)| *row -= x * own);
+            }
+        }
+        let (sum, worst) = self.summed(&self.samples.blocks(&rows));
+        Left { sum, worst, change }
+    }
+
+    /// Corrects constants so that the largest error is small: least squares again and again, weighed by
+    /// the errors (Lawson), by exact gradients and sketched squares. Returns the largest error.
+    pub(super) fn polish(&self, state: &mut State, rounds: usize) -> f64 {
+        let (mut live, block) = (Vec::new(), self.samples.block());
+        self.net.price(state, &mut live);
+        let mut best = (f64::INFINITY, state.clone());
+        let mut levels = vec![1.0; self.truth.len() / block];
+        for round in 0..=rounds {
+            let values = self.run(state);
+            let errors = self.errors(&values);
+            let blocks = self.samples.blocks(&errors);
+            let worst = blocks.iter().copied().fold(1e-300, f64::max);
+            if worst < best.0 {
+                best = (worst, state.clone());
+            }
+            if round == rounds {
+                break;
+            }
+            let pairs = levels.iter_mut().zip(&blocks);
+            pairs.for_each(|(level, own)| *level *= own / worst + 0.02);
+            let scale = levels.len() as f64 / levels.iter().sum::<f64>();
+            let each = levels.iter_mut();
+            each.for_each(|level| *level = (*level * scale).max(1e-4));
+            // Squares over sizes make a sum of squares a sum of sizes.
+            let weight = |row: usize| {
+                let share = errors[row].abs() / blocks[row / block].max(1e-12) + 0.05;
+                (levels[row / block] / share).sqrt()
+            };
+            let weights: Vec<f64> = (0..errors.len()).map(weight).collect();
+            let mut unknowns = self.unknowns(state, &live);
+            let mut columns = self.jacobian(state, &values, &mut unknowns, None);
+            for column in &mut columns {
+                let pairs = column.iter_mut().zip(&weights);
+                pairs.for_each(|(x, weight)| *x *= weight);
+            }
+            let rows = errors.iter().zip(&weights).map(|(e, w)| e * w);
+            let rows: Vec<f64> = rows.collect();
+            let right = columns.iter().map(|column| dot(column, &rows)).collect();
+            let ones = vec![1.0; levels.len()];
+            let size = self.sketch_size(unknowns.len());
+            let each = columns.iter();
+            let sketched = each.map(|column| self.sketch(column, &ones, size));
+            let sketched: Vec<Vec<f64>> = sketched.collect();
+            change(state, &unknowns, &normal(&sketched, &unknowns).solve(right));
+        }
+        *state = best.1;
+        best.0
+    }
+}
+
+/// Returns the factor of the normal equations of least squares, with a prior for each unknown.
+fn normal(columns: &[Vec<f64>], unknowns: &[Unknown]) -> Factor {
+    let prior = |a: usize, b: usize| match a == b {
+        true => unknowns[a].inertia.powi(2),
+        false => 0.0,
+    };
+    Factor::new(columns.len(), |a, b| {
+        dot(&columns[a], &columns[b]) + prior(a, b)
+    })
+}
+
+pub(super) fn change(state: &mut State, unknowns: &[Unknown], change: &[f64]) {
+    for (own, by) in unknowns.iter().zip(change) {
+        match own.place {
+            Place::Arg(step, side) => {
+                if let Arg::Constant(c) = &mut state.ops[step].args[side] {
+                    *c -= by;
+                }
+            }
+            Place::Edit(node) => {
+                if let Some(Value::Constant(c) | Value::Times(c, _)) = &mut state.edits[node] {
+                    *c -= by;
+                }
+            }
+        }
+    }
+}

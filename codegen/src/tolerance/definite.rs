@@ -1,0 +1,139 @@
+//! Whether D stays positive definite: forward dynamics divides by it.
+//!
+//! The entries of the *emitted* code are meant: its exact values, the errors of its sines, and what
+//! rounding may add to each. The engine shows it, by the same means as a bound.
+
+use dalembert_checker::domain::Domain;
+
+use super::input_box::InputBox;
+use super::reference;
+use super::variant::Variant;
+use crate::interval::Interval;
+use crate::program::Program;
+use crate::random::Random;
+use crate::sincos::AngleKernel;
+use crate::states::JointState;
+use crate::words::{Complaint, complaint};
+
+const SAMPLES: usize = 64;
+
+/// A pivot is negative for certain if it is so by this part of what it was subtracted from, far
+/// beyond what doubles lose.
+const CERTAIN: f64 = 1e-6;
+
+/// Returns true if D is shown to be positive definite, with these sines, and with the rounding that a variant
+/// was shown to have.
+pub(crate) fn is_definite(
+    domain: &Domain,
+    program: &Program,
+    sines: &[AngleKernel],
+    variant: Option<&Variant>,
+) -> bool {
+    let n = program.rows.len();
+    let Some(first) = start(program) else {
+        return false;
+    };
+    let entry = |i: usize, j: usize| first + i * n + j;
+    let error = |joint: usize, is_sine: bool| {
+        let own = sines.iter().find(|own| own.joint == joint)?;
+        Some(if is_sine {
+            own.errors.sin
+        } else {
+            own.errors.cos
+        })
+    };
+    let errors: Option<&dyn Fn(usize, bool) -> Option<f64>> = match sines {
+        [] => None,
+        _ => Some(&error),
+    };
+    let written = reference::read(program).ok();
+    let Some(written) = written.and_then(|own| domain.write(&own, errors).ok()) else {
+        return false;
+    };
+    let is_symmetric = |own: &(usize, usize)| {
+        program.dag.outputs[entry(own.0, own.1)] == program.dag.outputs[entry(own.1, own.0)]
+    };
+    let lower: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
+    let rounding = |own: usize| {
+        variant.map_or(0.0, |variant| {
+            variant.bounds[own].rounding * variant.scales[own]
+        })
+    };
+    let entries = lower.iter().map(|&(i, j)| written[entry(i, j)].clone());
+    let entries: Vec<_> = entries.collect();
+    let errors = lower.iter().map(|&(i, j)| rounding(entry(i, j)).next_up());
+    let errors: Vec<f64> = errors.collect();
+    lower.iter().all(is_symmetric) && domain.is_definite(&entries, &errors)
+}
+
+/// Returns why D of an exact program is not positive definite, or cannot be shown to be.
+pub(super) fn complaint_about(program: &Program, limits: &InputBox) -> Complaint {
+    complaint(match negative(program, limits) {
+        Some(row) => format!(
+            "D is not positive definite: at some position of the box a motion of joint {} and \
+             those after it has a negative kinetic energy, so a link that they move has an inertia \
+             that no body has: correct its `inertia`, `mass` or `com`",
+            program.rows[row] + 1
+        ),
+        None => {
+            "D could not be shown to be positive definite over the box: a link has no inertia, or \
+             almost none beside the others; or the box is too large"
+                .into()
+        }
+    })
+}
+
+fn negative(program: &Program, limits: &InputBox) -> Option<usize> {
+    let n = program.rows.len();
+    let first = start(program)?;
+    let entry = |i: usize, j: usize| first + i * n + j;
+    let code = program.in_doubles();
+    let mut random = Random::new(0x1d3f);
+    let drawn = (0..SAMPLES).map(|_| {
+        let of = |q: &Interval| q.low() + q.width() * random.unit();
+        limits.position.iter().map(of).collect()
+    });
+    let mut positions = std::iter::once(middle(limits)).chain(drawn);
+    positions.find_map(|q| {
+        let d = code.run_at(&JointState::at_rest(q));
+        let d = (0..n).map(|i| (0..n).map(|j| d[entry(i, j)]).collect());
+        negative_pivot(d.collect())
+    })
+}
+
+/// Eliminates from the last row on: D of the joints from the returned one on is not positive
+/// definite.
+fn negative_pivot(mut d: Vec<Vec<f64>>) -> Option<usize> {
+    let n = d.len();
+    let mut sizes: Vec<f64> = (0..n).map(|i| d[i][i].abs()).collect();
+    for last in (0..n).rev() {
+        let pivot = d[last][last];
+        let certain = CERTAIN * sizes[last];
+        if pivot < -certain {
+            return Some(last);
+        }
+        if pivot.is_nan() || pivot <= certain {
+            return None;
+        }
+        let row = d[last].clone();
+        for (i, above) in d.iter_mut().enumerate().take(last) {
+            let factor = above[last] / pivot;
+            sizes[i] += (factor * row[i]).abs();
+            for (entry, subtracted) in above.iter_mut().zip(&row).take(last) {
+                *entry -= factor * subtracted;
+            }
+        }
+    }
+    None
+}
+
+fn middle(limits: &InputBox) -> Vec<f64> {
+    limits.position.iter().map(|q| q.mid()).collect()
+}
+
+fn start(program: &Program) -> Option<usize> {
+    let quantities = program.function.quantities();
+    let place = quantities.iter().position(|own| own.facts().definite)?;
+    let before = quantities[..place].iter();
+    Some(before.map(|own| own.len(program.sizes())).sum())
+}

@@ -1,0 +1,219 @@
+//! The states for which a bound holds.
+
+use std::collections::BTreeMap;
+
+use dalembert_model::number::Rounded;
+use dalembert_model::robot::{Joint, JointKind, Limit, Position, Robot};
+
+use crate::function::{Argument, Function};
+use crate::interval::Interval;
+use crate::program::{Input, Program, ScalarType};
+use crate::setup::Setup;
+use crate::sincos::stated;
+use crate::words::{Complaint, complaint};
+
+/// Intervals of joint positions, velocities and accelerations, one a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InputBox {
+    /// q, rad or m.
+    pub position: Vec<Interval>,
+    /// q̇
+    pub velocity: Vec<Interval>,
+    /// q̈
+    pub acceleration: Vec<Interval>,
+}
+
+pub(super) fn missing(limits: impl IntoIterator<Item = (&'static str, Vec<usize>)>) -> Complaint {
+    let of = |(limit, joints): (&str, Vec<usize>)| {
+        let numbers: Vec<String> = joints.iter().map(|joint| (joint + 1).to_string()).collect();
+        let (joints, have) = match numbers.len() {
+            1 => ("joint", "has"),
+            _ => ("joints", "have"),
+        };
+        let numbers = numbers.join(", ");
+        format!("{joints} {numbers} {have} no limit `{limit}`")
+    };
+    let limits: Vec<String> = limits.into_iter().map(of).collect();
+    complaint(format!("a bound needs a box: {}", limits.join("; ")))
+}
+
+impl InputBox {
+    /// Returns the robot's limits. A revolute joint without limits of position may
+    /// stand anywhere: one turn.
+    ///
+    /// # Errors
+    /// A limit of motion that the robot does not have.
+    pub fn of(robot: &Robot) -> Result<InputBox, Complaint> {
+        InputBox::within(&Setup::whole(robot), Function::InverseDynamics)
+    }
+
+    /// Returns the states of a robot in its scene that a function reads: its box, or the robot's
+    /// limits. Locked joints stand still where they are, and a rate that is
+    /// zero, or not an argument, is zero.
+    ///
+    /// # Errors
+    /// As [`InputBox::of`].
+    pub fn within(setup: &Setup, function: Function) -> Result<InputBox, Complaint> {
+        let arguments = setup.arguments(function);
+        let mut limits = InputBox {
+            position: Vec::new(),
+            velocity: Vec::new(),
+            acceleration: Vec::new(),
+        };
+        let mut lacking: BTreeMap<&'static str, Vec<usize>> = BTreeMap::new();
+        for (joint, row) in setup.robot().joints.iter().enumerate() {
+            // Where a limit is missing, the box is not returned.
+            let mut or_missing = |found: Option<Interval>, limit: Limit| {
+                found.unwrap_or_else(|| {
+                    lacking.entry(limit.key()).or_default().push(joint);
+                    Interval::ZERO
+                })
+            };
+            if let Some(at) = setup.scene().and_then(|scene| scene.locked(joint)) {
+                limits.position.push(around(at));
+                limits.velocity.push(Interval::ZERO);
+                limits.acceleration.push(Interval::ZERO);
+                continue;
+            }
+            limits
+                .position
+                .push(or_missing(position(row), Limit::Position));
+            let mut rate = |argument, limit| {
+                if !arguments.contains(&argument) {
+                    return Interval::ZERO;
+                }
+                let most = row.limits.rate(limit).map(f64::nearest_rational);
+                or_missing(most.map(Interval::symmetric), limit)
+            };
+            let velocity = rate(Argument::Velocity, Limit::Velocity);
+            limits.velocity.push(velocity);
+            let acceleration = rate(Argument::Acceleration, Limit::Acceleration);
+            limits.acceleration.push(acceleration);
+        }
+        match lacking.is_empty() {
+            true => Ok(limits),
+            false => Err(missing(lacking.into_iter().rev())),
+        }
+    }
+
+    /// Returns the ranges of an argument; none of one that a box does not bound.
+    pub fn of_argument(&self, argument: Argument) -> &[Interval] {
+        match argument {
+            Argument::Position => &self.position,
+            Argument::Velocity => &self.velocity,
+            Argument::Acceleration => &self.acceleration,
+            _ => &[],
+        }
+    }
+
+    /// Returns the number of joints.
+    pub fn joints(&self) -> usize {
+        self.position.len()
+    }
+
+    /// Returns the positions over which sines must be good: those of the box, and [`stated`] angles
+    /// of a joint that [turns freely](turns_freely).
+    pub(crate) fn sine_positions(&self, robot: &Robot, scalar: ScalarType) -> Vec<Interval> {
+        let every = Interval::symmetric(stated(scalar));
+        let ranges = self.position.iter().enumerate();
+        let range = |(joint, range): (usize, &Interval)| match turns_freely(robot, joint) {
+            true => every,
+            false => *range,
+        };
+        ranges.map(range).collect()
+    }
+
+    pub(super) fn parts(&self, program: &Program, boxes: usize) -> Vec<InputBox> {
+        let joints: Vec<usize> = program.trig().iter().map(|trig| trig.joint).collect();
+        let mut joints = joints.iter().cycle();
+        let mut all = vec![self.clone()];
+        while all.len() * 2 <= boxes
+            && let Some(&joint) = joints.next()
+        {
+            let halves = |part: InputBox| {
+                part.position[joint].split().map(|half| {
+                    let mut part = part.clone();
+                    part.position[joint] = half;
+                    part
+                })
+            };
+            all = all.into_iter().flat_map(halves).collect();
+        }
+        all
+    }
+
+    /// Returns the values that an input takes.
+    pub fn input(&self, input: Input) -> Interval {
+        match input {
+            Input::Sin(joint) => self.position[joint].sin(),
+            Input::Cos(joint) => self.position[joint].cos(),
+            // Of what reads it no bound is known; this one is true.
+            Input::PerSpeed(_) => Interval::ALL,
+            Input::Entry(argument, joint) => {
+                let range = self.of_argument(argument).get(joint);
+                range.copied().unwrap_or(Interval::ALL)
+            }
+        }
+    }
+}
+
+/// Returns true if a joint may stand anywhere, however many turns: it has no limits. Everything
+/// reads its sine and cosine, so that what holds over one turn holds wherever those two are good.
+pub(crate) fn turns_freely(robot: &Robot, joint: usize) -> bool {
+    robot
+        .joints
+        .get(joint)
+        .is_some_and(|joint| joint.kind == JointKind::Revolute && joint.limits.position.is_none())
+}
+
+fn around(at: &Position) -> Interval {
+    let near = at.to_f64();
+    Interval::new(near.next_down(), near.next_up()).unwrap_or(Interval::point(near))
+}
+
+fn position(joint: &Joint) -> Option<Interval> {
+    match (&joint.limits.position, joint.kind) {
+        (Some([low, high]), _) => Interval::new(low.to_f64(), high.to_f64()),
+        (None, JointKind::Revolute) => Some(Interval::symmetric(std::f64::consts::PI)),
+        (None, JointKind::Prismatic) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tolerance::scale;
+    use dalembert_model::read::parse;
+
+    #[test]
+    fn limits_that_are_missing_and_limits_of_zero() {
+        let of = |limits: &str| {
+            let source = format!(
+                "name = \"arm\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n[[joint]]\n\
+                 kind = \"revolute\"\nmass = 1\ncom = [0, 0, 0]\ninertia = [1, 1, 1, 0, 0, 0]\n\
+                 limits = {{ {limits} }}\n"
+            );
+            parse(&source).unwrap().robot
+        };
+        let program = |function| Program::empty(function, 1);
+        let still = of("velocity = 0, acceleration = 0, torque = 0");
+        let at_rest = InputBox::of(&still).unwrap();
+        assert_eq!(at_rest.velocity, [Interval::ZERO]);
+        for (limits, function, words) in [
+            ("", Function::Gravity, "joint 1 has no limit `torque`"),
+            (
+                "torque = 0",
+                Function::Gravity,
+                "the limit `torque` of joint 1 is 0",
+            ),
+            (
+                "torque = 1, acceleration = 0",
+                Function::Inertia,
+                "the limit `acceleration` of joint 1 is 0",
+            ),
+        ] {
+            let error = scale::actuator(&of(limits), &program(function)).unwrap_err();
+            assert!(error.to_string().contains(words), "{limits}: {error}");
+        }
+    }
+}

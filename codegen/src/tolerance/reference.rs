@@ -1,0 +1,136 @@
+//! The exact program of a function over its box, as the checker sees it.
+
+use dalembert_checker::claim::Claim;
+use dalembert_checker::domain::Domain;
+use dalembert_checker::polynomial::Polynomial;
+use dalembert_model::robot::write;
+use dalembert_model::scene::{self, Scene};
+
+use super::definite;
+use crate::claim::{Written, claimed};
+use crate::program::{Program, has_inertia};
+use crate::setup::Setup;
+use crate::words::{Complaint, complaint};
+
+/// An error that climbs reach is so far below what is allowed that it may be within.
+const OPEN: f64 = 0.95;
+/// A state whose error is at least this part of what is allowed joins the samples.
+const LARGE: f64 = 0.97;
+
+pub(crate) struct Reference {
+    domain: Domain,
+    exact: Vec<Polynomial>,
+}
+
+/// The engine's finding about a program.
+pub(super) struct Verdict {
+    /// `true` if every result is shown to be as near as is allowed, or seems to be.
+    pub(super) is_within: bool,
+    /// The largest error that was found, relative to what is allowed.
+    pub(super) ratio: f64,
+    /// Positions where results are about as far off as they may be, or further.
+    pub(super) positions: Vec<Vec<f64>>,
+}
+
+/// Returns the file of a robot in its scene; gravity, payload and box are in the robot already.
+pub(super) fn source(setup: &Setup) -> (String, Option<String>) {
+    let scene = setup.scene().map(|scene| Scene {
+        gravity: None,
+        payload: None,
+        bounds: Default::default(),
+        ..scene.clone()
+    });
+    let table = scene.as_ref().map_or_else(String::new, scene::write);
+    let source = format!("{}\n{table}", write(setup.robot()));
+    (source, scene.map(|scene| scene.name))
+}
+
+/// Reads a program as the checker has it.
+pub(super) fn read(
+    program: &Program,
+) -> Result<dalembert_checker::program::Program<dalembert_checker::identity::exact::Exact>, Complaint>
+{
+    let refused = |fault: dalembert_checker::Fault| complaint(fault.to_string());
+    let mut constants = Written::default();
+    let own = claimed(program, None, &mut constants);
+    let Claim { constants, .. } = constants.document(Vec::new());
+    let document = Claim {
+        constants,
+        ..Claim::default()
+    };
+    let constants = document.constants(&Default::default()).map_err(refused)?;
+    own.program(&constants).map_err(refused)
+}
+
+impl Reference {
+    /// Writes an exact program out over the box of its robot.
+    ///
+    /// # Errors
+    /// A box or a program that the checker refuses.
+    pub(super) fn new(setup: &Setup, exact: &Program) -> Result<Reference, Complaint> {
+        let refused = |fault: dalembert_checker::Fault| complaint(fault.to_string());
+        let domain = domain(setup, exact)?;
+        let exact = domain.write(&read(exact)?, None).map_err(refused)?;
+        Ok(Reference { domain, exact })
+    }
+
+    /// Decides whether a program is as near to the exact one as is allowed, in real numbers.
+    pub(super) fn judge(&self, program: &Program, allowed: &[f64]) -> Verdict {
+        let mut verdict = Verdict {
+            is_within: true,
+            ratio: 0.0,
+            positions: Vec::new(),
+        };
+        let written = read(program).ok();
+        let written = written.and_then(|own| self.domain.write(&own, None).ok());
+        let Some(written) = written.filter(|own| own.len() == self.exact.len()) else {
+            verdict.is_within = false;
+            return verdict;
+        };
+        for ((own, exact), allowed) in written.iter().zip(&self.exact).zip(allowed) {
+            let difference = own.plus(&exact.negated());
+            let (found, position) = self.domain.decide(&difference, *allowed);
+            // What is neither shown nor refuted is for the checker, which may take longer.
+            verdict.is_within &= found.is_shown || found.is_open && found.reached <= OPEN * allowed;
+            verdict.ratio = verdict
+                .ratio
+                .max(found.reached / allowed.max(f64::MIN_POSITIVE));
+            if found.reached > LARGE * allowed && !position.is_empty() {
+                verdict.positions.push(position);
+            }
+        }
+        if verdict.is_within && has_inertia(program) {
+            verdict.is_within = definite::is_definite(&self.domain, program, &[], None);
+        }
+        verdict
+    }
+
+    /// Returns about how far off the results of a program are at most, in real numbers.
+    ///
+    /// # Errors
+    /// A program that the checker refuses.
+    pub(super) fn reached(&self, program: &Program) -> Result<Vec<f64>, Complaint> {
+        let written = self.domain.write(&read(program)?, None);
+        let written = written.map_err(|fault| complaint(fault.to_string()))?;
+        let each = written.iter().zip(&self.exact).map(|(own, exact)| {
+            let difference = own.plus(&exact.negated());
+            self.domain.decide(&difference, 0.0).0.reached
+        });
+        Ok(each.collect())
+    }
+
+    pub(super) fn domain(&self) -> &Domain {
+        &self.domain
+    }
+}
+
+/// Returns the box of a function's states.
+///
+/// # Errors
+/// A joint without limits, and what the checker does not know.
+pub(crate) fn domain(setup: &Setup, program: &Program) -> Result<Domain, Complaint> {
+    let (source, scene) = source(setup);
+    let arguments: Vec<&str> = program.arguments.iter().map(|own| own.name()).collect();
+    let domain = Domain::read(&source, scene.as_deref(), &arguments);
+    domain.map_err(|fault| complaint(fault.to_string()))
+}

@@ -1,0 +1,113 @@
+//! T: what errors are relative to, and how large they may be against it.
+
+use dalembert_model::number::{Rational, Rounded};
+use dalembert_model::robot::{Limit, Robot};
+use dalembert_model::scene::Tolerance;
+
+use super::input_box::{InputBox, missing};
+use super::sample::{climb, draw};
+use crate::function::ErrorScale;
+use crate::program::Program;
+use crate::random::Random;
+use crate::states::JointState;
+use crate::words::{Complaint, complaint};
+
+/// Returns the torque limits of the actuators. For an entry of D the inertia, for one
+/// of h_ikm the coefficient, that alone takes the whole limit at the largest
+/// rates, of the smaller of D_ik and D_ki: then D's scales are symmetric. So limits are above
+/// zero here, where a box may have rates of zero.
+///
+/// # Errors
+/// A joint without a limit that it needs, or with one of zero; a quantity of which torque limits
+/// are no measure.
+pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, Complaint> {
+    let read = |joint: usize, limit: Limit| {
+        let value = robot.joints.get(joint);
+        let value = value.and_then(|row| row.limits.rate(limit));
+        match value.map(f64::nearest_rational) {
+            Some(value) if value > 0.0 => Ok(value),
+            Some(_) => Err(complaint(format!(
+                "the limit `{}` of joint {} is 0: errors relative to the actuators need \
+                 one above 0; give that, or make them relative to the range",
+                limit.key(),
+                joint + 1
+            ))),
+            None => Err(missing([(limit.key(), vec![joint])])),
+        }
+    };
+    // Down, so that an error relative to it is rounded up.
+    let torque = |joint| -> Result<f64, Complaint> { Ok(read(joint, Limit::Torque)?.next_down()) };
+    let velocity = |joint| read(joint, Limit::Velocity);
+    let acceleration = |joint| read(joint, Limit::Acceleration);
+    let inertia =
+        |i, k| -> Result<f64, Complaint> { Ok((torque(i)? / acceleration(k)?).next_down()) };
+    let (rows, sizes) = (&program.rows, program.sizes());
+    let mut scales = Vec::new();
+    for quantity in program.function.quantities() {
+        for index in 0..quantity.len(sizes) {
+            let joints: Vec<usize> = quantity.joints(index, rows, sizes).collect();
+            scales.push(match (quantity.facts().scale, joints.as_slice()) {
+                (ErrorScale::Load, &[i]) => torque(i)?,
+                (ErrorScale::Inertia, &[i, k]) => inertia(i, k)?.min(inertia(k, i)?),
+                (ErrorScale::Coefficient, &[i, k, m]) => {
+                    let rates = (velocity(k)? * velocity(m)?).next_up();
+                    (torque(i)? / rates).next_down()
+                }
+                _ => {
+                    return Err(complaint(format!(
+                        "the actuators' limits are no measure of {}: make its errors relative to \
+                         the range",
+                        quantity.symbol()
+                    )));
+                }
+            });
+        }
+    }
+    Ok(scales)
+}
+
+/// An entry of D has the smaller one of its two joints'.
+pub(crate) fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
+    let (rows, sizes) = (&program.rows, program.sizes());
+    // Down: nothing is allowed that the decimal does not allow.
+    let of = |joint: usize| {
+        let value = tolerance.of(joint).map(f64::nearest_rational);
+        value.map_or(0.0, |value| {
+            let above = Rational::from_float(value)
+                .is_some_and(|exact| tolerance.of(joint).is_some_and(|wanted| exact > *wanted));
+            if above { value.next_down() } else { value }
+        })
+    };
+    // What is of no joint, such as an energy, is held to the strictest.
+    let strictest = rows.iter().copied().map(of).reduce(f64::min);
+    let mut all = Vec::new();
+    for quantity in program.function.quantities() {
+        for index in 0..quantity.len(sizes) {
+            let own = quantity.joints(index, rows, sizes).map(of);
+            all.push(own.reduce(f64::min).or(strictest).unwrap_or(0.0));
+        }
+    }
+    all
+}
+
+/// Returns a magnitude that each output attains, found by climbing from actual states:
+/// its largest over the box or just below, so an error relative to it is not
+/// understated; and the state at which it does. The checker finds T at that state.
+pub fn range(program: &Program, limits: &InputBox) -> Vec<(f64, JointState)> {
+    let exact = program.in_doubles();
+    let mut random = Random::new(0x7a46e);
+    let outputs = 0..program.dag.outputs.len();
+    let each = outputs.map(|output| {
+        let mut size = |state: &JointState| exact.run_at(state)[output].abs();
+        let (mut most, mut at) = (0.0f64, JointState::default());
+        for climbed in 0..12 {
+            let from = draw(limits, &mut random);
+            let (state, found) = climb(limits, from, 1500, &mut random, &mut size);
+            if found > most || climbed == 0 {
+                (most, at) = (found, state);
+            }
+        }
+        (most, at)
+    });
+    each.collect()
+}

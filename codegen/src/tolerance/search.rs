@@ -1,0 +1,405 @@
+//! The search for the cheapest program within what is allowed.
+//!
+//! From each start values leave the program as long as its errors at the samples are allowed
+//! ([`Greedy`]); then the engine decides over the box ([`Reference::judge`]). Where it refutes, the
+//! state joins the samples, and the search goes back to where those are within as well. At first a
+//! part of the allowances may be used, so that what goes in any case is gone before it gets tight;
+//! between the parts the program is simplified.
+//!
+//! The starts are the exact program, those that smaller tolerances led to, and those of smaller models
+//! ([`reduce`](super::reduce)). The best of them are tried again with other samples and a blurred ranking.
+
+use super::greedy::Greedy;
+use super::input_box::InputBox;
+use super::net::{State, cost};
+use super::reduce;
+use super::reference::Reference;
+use super::samples::Samples;
+use super::work::Meter;
+use crate::parallel;
+use crate::program::Program;
+use crate::random::Random;
+use crate::search::{Effort, search};
+use crate::setup::Setup;
+use crate::watch::{FunctionWatch, Part};
+
+/// The parts of the allowances, one after the other.
+const PARTS: [f64; 6] = [0.5, 0.8, 1.0, 1.0, 1.0, 1.0];
+/// The times that the engine decides about a part.
+const ROUNDS: usize = 10;
+/// How far beyond what is allowed an error counts, with what power the share that may be used at the
+/// samples gets smaller by that, and that share at least.
+const LEAST_RATIO: f64 = 1.01;
+const MOST_RATIO: f64 = 2.0;
+const CAUTION: f64 = 0.4;
+const LEAST_SHARE: f64 = 0.4;
+/// States that refuted a program stay among the samples, but only the last ones.
+const REFUTING: usize = 12;
+/// A start that ends so much above the best one is worse; after so many of them no other is tried.
+const WORSE: f64 = 1.02;
+const MOST_WORSE: usize = 2;
+/// Starts are not tried again beyond so much work.
+const MOST_AGAIN: u64 = 100_000_000;
+const NOISE: f64 = 0.3;
+const RETRY_NOISE: f64 = 0.6;
+const RETRIES: usize = 4;
+/// Programs of so many operations are tried again twice as often as long ones, shorter ones more often.
+const RETRIED: usize = 150;
+/// Corrections of all constants of a program before the engine decides.
+const POLISH: usize = 8;
+
+/// The effort of a search: counted, never timed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SearchEffort {
+    /// The sampled positions.
+    pub positions: usize,
+    /// The smaller models that are started from; none where work is limited.
+    pub models: usize,
+    /// The times that parts of what went are taken back and chosen anew.
+    pub retries: usize,
+    /// The times that the best starts are tried again.
+    pub again: u64,
+    /// How hard programs are simplified between the parts.
+    pub simplify: Effort,
+    /// Units of work at most, if there is a limit: what was found by then counts.
+    pub work: Option<u64>,
+}
+
+impl SearchEffort {
+    /// For who waits: seconds for a six-joint arm.
+    pub const QUICK: SearchEffort = SearchEffort {
+        positions: 24,
+        models: 0,
+        retries: 0,
+        again: 0,
+        simplify: Effort::Quick,
+        work: None,
+    };
+    /// For a report on several tolerances.
+    pub const REPORT: SearchEffort = SearchEffort {
+        models: 8,
+        retries: RETRIES,
+        again: 1,
+        ..SearchEffort::QUICK
+    };
+    /// The most: minutes for a six-joint arm.
+    pub const THOROUGH: SearchEffort = SearchEffort {
+        again: 10,
+        simplify: Effort::Thorough,
+        ..SearchEffort::REPORT
+    };
+
+    /// Returns that of a command that reports on variants.
+    pub fn of(effort: Effort) -> SearchEffort {
+        match effort {
+            Effort::Quick => SearchEffort::REPORT,
+            Effort::Thorough => SearchEffort::THOROUGH,
+        }
+    }
+}
+
+/// The function, and how far each result may be off.
+#[derive(Clone, Copy)]
+pub(super) struct Target<'a> {
+    pub(super) setup: &'a Setup,
+    pub(super) exact: &'a Program,
+    pub(super) reference: &'a Reference,
+    pub(super) limits: &'a InputBox,
+    /// In the results' units.
+    pub(super) allowances: &'a [f64],
+    pub(super) effort: &'a SearchEffort,
+    pub(super) watch: FunctionWatch<'a>,
+}
+
+/// Returns programs within the allowances that are cheaper than the exact one, the cheapest first.
+pub(super) fn programs(target: Target<'_>, from: &[Program]) -> Vec<Program> {
+    let effort = target.effort;
+    let mut starts = match effort.models {
+        0 => Vec::new(),
+        _ => reduce::programs(target),
+    };
+    starts.push(target.exact.clone());
+    starts.sort_by_key(cost);
+    // The programs of smaller tolerances are starts as near as any.
+    starts.splice(0..0, from.iter().cloned());
+    let mut run = Run {
+        target,
+        meter: Meter::new(effort.work),
+        found: Vec::new(),
+        rounds: [
+            0,
+            starts.len().div_ceil(SIDE_BY_SIDE) + effort.again as usize,
+        ],
+        spent: 0,
+    };
+    for own in from {
+        if cost(own) < cost(target.exact)
+            && target.reference.judge(own, target.allowances).is_within
+        {
+            run.found.push(own.clone());
+        }
+    }
+    let mut ranked: Vec<(usize, usize)> = Vec::new();
+    let mut worse = 0;
+    let places: Vec<usize> = (0..starts.len()).collect();
+    for places in places.chunks(SIDE_BY_SIDE) {
+        if run.is_over() || worse >= MOST_WORSE {
+            break;
+        }
+        let own: Vec<(&Program, u64)> = places.iter().map(|&place| (&starts[place], 0)).collect();
+        for (price, place) in run.tried(&own).into_iter().zip(places) {
+            let least = run.least();
+            ranked.push((price, *place));
+            let is_worse = price as f64 > WORSE * least as f64;
+            worse = if is_worse { worse + 1 } else { 0 };
+        }
+    }
+    ranked.sort_unstable();
+    for seed in 1..=effort.again {
+        if run.is_over() || run.found.is_empty() || run.spent > MOST_AGAIN {
+            break;
+        }
+        let best = ranked.iter().take(SIDE_BY_SIDE);
+        let own: Vec<(&Program, u64)> = best.map(|own| (&starts[own.1], seed)).collect();
+        run.tried(&own);
+    }
+    run.found
+}
+
+/// Starts that are tried beside each other, on any machine.
+const SIDE_BY_SIDE: usize = 2;
+
+struct Run<'a> {
+    target: Target<'a>,
+    meter: Meter,
+    /// The programs within the allowances, the cheapest first.
+    found: Vec<Program>,
+    rounds: [usize; 2],
+    /// The work of all starts.
+    spent: u64,
+}
+
+impl Run<'_> {
+    fn is_over(&self) -> bool {
+        self.meter.is_over() || self.target.watch.is_over()
+    }
+
+    fn least(&self) -> usize {
+        self.found.first().map_or(usize::MAX, cost)
+    }
+
+    /// Returns the cost of the best program from each start.
+    fn tried(&mut self, starts: &[(&Program, u64)]) -> Vec<usize> {
+        let best = self.found.first().map(Program::counts);
+        let rounds = [self.rounds[0], self.rounds[1].max(self.rounds[0] + 1)];
+        self.target.watch.step(Part::Omissions, rounds, best);
+        self.rounds[0] += 1;
+        let (target, meter) = (self.target, self.meter);
+        let of = |(start, seed): &(&Program, u64)| {
+            // A thread counts its work for itself.
+            let own = Meter::new(None);
+            (pruned(target, start, *seed, meter), own.done())
+        };
+        let found: Vec<(Vec<Program>, u64)> = match target.effort.work {
+            Some(_) => starts.iter().map(of).collect(),
+            None => parallel::each(starts, of),
+        };
+        self.spent += found.iter().map(|own| own.1).sum::<u64>();
+        let price = |found: &[Program]| found.iter().map(cost).min();
+        let prices = found.iter().map(|own| price(&own.0).unwrap_or(usize::MAX));
+        let prices = prices.collect();
+        for program in found.into_iter().flat_map(|own| own.0) {
+            if !self.found.contains(&program) {
+                self.found.push(program);
+            }
+        }
+        self.found.sort_by_key(cost);
+        prices
+    }
+}
+
+/// Returns the programs within the allowances that one start leads to.
+fn pruned(target: Target<'_>, start: &Program, seed: u64, meter: Meter) -> Vec<Program> {
+    let Target {
+        exact,
+        limits,
+        effort,
+        ..
+    } = target;
+    let mut samples = Samples::new(exact, limits, effort.positions, 7 + seed);
+    let mut descent = Descent {
+        target,
+        meter,
+        random: Random::new(0xabcd ^ seed),
+        noise: if seed == 0 { 0.0 } else { NOISE },
+        share: 1.0,
+    };
+    let (mut now, mut all) = (start.clone(), Vec::new());
+    if cost(start) < cost(exact) && descent.judge(start, 1.0).is_within {
+        all.push(start.clone());
+    }
+    for part in PARTS {
+        if descent.is_over() {
+            break;
+        }
+        let is_exact = now == *exact;
+        if part < 1.0 && !is_exact && !descent.judge(&now, part).is_within {
+            continue;
+        }
+        let old = samples.positions.len();
+        let old = old.saturating_sub(2 * effort.positions + REFUTING);
+        samples
+            .positions
+            .drain(effort.positions..effort.positions + old);
+        match descent.descend(&now, &mut samples, part) {
+            Some(found) => {
+                let found = simplified(&found, effort.simplify);
+                if cost(&found) >= cost(&now) {
+                    break;
+                }
+                if cost(&found) < cost(exact) {
+                    all.push(found.clone());
+                }
+                now = found;
+            }
+            None if part < 1.0 => {}
+            None => break,
+        }
+    }
+    all
+}
+
+struct Descent<'a> {
+    target: Target<'a>,
+    meter: Meter,
+    random: Random,
+    noise: f64,
+    /// The share of what is allowed that errors may use at the samples.
+    share: f64,
+}
+
+impl Descent<'_> {
+    fn allowances(&self, part: f64) -> Vec<f64> {
+        let each = self.target.allowances.iter();
+        each.map(|own| part * own).collect()
+    }
+
+    fn is_over(&self) -> bool {
+        self.meter.is_over() || self.target.watch.is_over()
+    }
+
+    fn judge(&self, program: &Program, part: f64) -> super::reference::Verdict {
+        let target = self.target;
+        target.reference.judge(program, &self.allowances(part))
+    }
+
+    /// Edits a program until it is as cheap as the engine admits with a part of the allowances; none if
+    /// nothing goes, or nothing that is within.
+    fn descend(&mut self, start: &Program, samples: &mut Samples, part: f64) -> Option<Program> {
+        let (exact, is_exact) = (self.target.exact, *start == *self.target.exact);
+        let allowances = self.allowances(part * self.share);
+        let mut greedy = Greedy::new(exact, start, allowances, samples.clone(), self.noise);
+        let mut history = vec![greedy.net.unedited()];
+        for _ in 0..ROUNDS {
+            let (meter, watch) = (self.meter, self.target.watch);
+            let is_over = || meter.is_over() || watch.is_over();
+            greedy.drop_all(&mut history, &mut self.random, &is_over);
+            if history.len() == 1 && is_exact {
+                return None;
+            }
+            let mut state = history[history.len() - 1].clone();
+            greedy.finish(&mut state, POLISH);
+            let program = greedy.net.rebuilt(&state);
+            let verdict = self.judge(&program, part);
+            if verdict.is_within {
+                let found = match part < 1.0 {
+                    true => program,
+                    false => self.tried_again(&mut greedy, state, program),
+                };
+                return (cost(&found) < cost(start)).then_some(found);
+            }
+            if self.is_over() {
+                return None;
+            }
+            // Samples miss what the engine finds: the more they do, the less may be used there.
+            let ratio = libm::pow(verdict.ratio.clamp(LEAST_RATIO, MOST_RATIO), CAUTION);
+            self.share = (self.share / ratio).max(LEAST_SHARE);
+            greedy.samples.positions.extend(verdict.positions);
+            *samples = greedy.samples.clone();
+            greedy.allow(self.allowances(part * self.share));
+            greedy.resample();
+            // Back to the last state that is within at the new samples as well.
+            let (mut low, mut high) = (0, history.len());
+            while high - low > 1 {
+                let middle = (low + high) / 2;
+                let mut trial = history[middle].clone();
+                if greedy.polish(&mut trial, 1) <= 1.0 {
+                    history[middle] = trial;
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            history.truncate(low + 1);
+            if low == 0 && !is_exact && greedy.polish(&mut history[0], POLISH) > 1.0 {
+                return None;
+            }
+        }
+        None
+    }
+}
+
+impl Descent<'_> {
+    /// Takes parts of the edits back at random, and chooses anew.
+    fn tried_again(
+        &mut self,
+        greedy: &mut Greedy<'_>,
+        mut state: State,
+        mut program: Program,
+    ) -> Program {
+        let mut live = Vec::new();
+        let least = self.target.effort.retries;
+        let more = least * RETRIED / (1 + cost(&program));
+        for round in 0..least + more {
+            if self.is_over() {
+                break;
+            }
+            let mut trial = state.clone();
+            let part = 0.05 + 0.3 * self.random.unit();
+            for edit in &mut trial.edits {
+                if self.random.unit() < part {
+                    *edit = None;
+                }
+            }
+            greedy.noise = if round % 3 == 0 { 0.0 } else { RETRY_NOISE };
+            greedy.polish(&mut trial, 1);
+            let mut history = vec![trial];
+            let (meter, watch) = (self.meter, self.target.watch);
+            let is_over = || meter.is_over() || watch.is_over();
+            greedy.drop_all(&mut history, &mut self.random, &is_over);
+            let Some(mut trial) = history.pop() else {
+                break;
+            };
+            greedy.finish(&mut trial, POLISH / 2);
+            let [own, least] = [&trial, &state].map(|own| greedy.net.price(own, &mut live));
+            if own > least || trial.edits == state.edits {
+                continue;
+            }
+            let other = greedy.net.rebuilt(&trial);
+            if self.judge(&other, 1.0).is_within {
+                (state, program) = (trial, other);
+            }
+        }
+        program
+    }
+}
+
+fn simplified(program: &Program, effort: Effort) -> Program {
+    let limits = |operations| effort.limits(operations);
+    let seeds = [program.dag.clone()];
+    let found = search(&seeds, &[], &limits, &|_| true, &|_, _| true);
+    found.map_or_else(
+        || program.clone(),
+        |found| program.with_graph(&found.graph.without_vain_steps()),
+    )
+}

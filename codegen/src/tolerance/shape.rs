@@ -1,0 +1,78 @@
+//! A plan's variant fits the scene: the function, arguments and results of the robot in its
+//! scene, and nothing read that they do not have.
+//!
+//! Everything after this may take for granted that there are as many results as the function has,
+//! so as many as scales, and that every input is an argument's entry that the function may read.
+
+use dalembert_model::robot::JointKind;
+
+use crate::function::Argument;
+use crate::program::{Input, Program};
+use crate::setup::Setup;
+use crate::words::{Complaint, complaint};
+
+pub(super) fn check(setup: &Setup, program: &Program, emitted: &Program) -> Result<(), Complaint> {
+    let function = emitted.function;
+    let signature = [
+        ("function", program.function == function),
+        ("number of joints", program.joints == setup.joints()),
+        ("list of rows", program.rows == setup.rows()),
+        (
+            "list of arguments",
+            program.arguments == setup.arguments(function),
+        ),
+        (
+            "number of results",
+            program.dag.outputs.len() == function.outputs(setup.sizes(function)),
+        ),
+    ];
+    if let Some((what, _)) = signature.into_iter().find(|(_, same)| !same) {
+        return Err(complaint(format!(
+            "the {what} of the plan's variant is not that of the function in this scene"
+        )));
+    }
+    let mut inputs = program.dag.inputs();
+    inputs.try_for_each(|input| match wrong(setup, emitted, *input) {
+        None => Ok(()),
+        Some(why) => Err(complaint(format!(
+            "the plan's variant reads `{}`: {why}",
+            input.name()
+        ))),
+    })
+}
+
+fn wrong(setup: &Setup, emitted: &Program, input: Input) -> Option<&'static str> {
+    let of = |joint: usize, kind: Option<JointKind>| match setup.robot().joints.get(joint) {
+        None => Some("the robot has no such joint"),
+        Some(_) if setup.lock(joint).is_some() => {
+            Some("the joint is locked: its entries may not be read")
+        }
+        Some(row) => match (kind, row.kind) {
+            (Some(JointKind::Revolute), JointKind::Prismatic) => {
+                Some("the joint slides: it has no sine or cosine")
+            }
+            (Some(JointKind::Prismatic), JointKind::Revolute) => {
+                Some("the joint turns: only its sine and cosine may be read")
+            }
+            _ => None,
+        },
+    };
+    let (argument, wrong) = match input {
+        Input::Sin(joint) | Input::Cos(joint) => {
+            let wrong = of(joint, Some(JointKind::Revolute));
+            (Argument::Position, wrong)
+        }
+        // It rounds more than is bounded.
+        Input::PerSpeed(_) => {
+            let why = "no bound is known of what Coulomb friction reads of speeds";
+            (Argument::Velocity, Some(why))
+        }
+        Input::Entry(argument, joint) => {
+            let slides = argument == Argument::Position;
+            let kind = slides.then_some(JointKind::Prismatic);
+            (argument, of(joint, kind))
+        }
+    };
+    let missing = !emitted.arguments.contains(&argument);
+    wrong.or(missing.then_some("the function has no such argument in this scene"))
+}

@@ -1,0 +1,171 @@
+//! Polynomials for sines, as exact as a function's tolerance needs.
+//!
+//! An error of a sine counts with the largest derivative of each result by it at sampled states: the
+//! engine decides afterwards. First all sines get the same error, the largest that is allowed; then
+//! those of one range are made cheaper together as long as the allowances hold, the range that saves
+//! most first.
+//!
+//! Angles of one range keep one kernel: the same operations on several numbers
+//! run side by side. For a PUMA's four angles, kernels of their own took four
+//! operations of 88 less and a twentieth more time.
+
+use super::input_box::InputBox;
+use super::net::Net;
+use super::samples::Samples;
+use crate::interval::Interval;
+use crate::program::{Input, Pair, Program, ScalarType};
+use crate::sincos::choose::{Candidates, Choice};
+use crate::sincos::{self, AngleKernel, Sines};
+use crate::words::{Complaint, complaint};
+
+const POSITIONS: usize = 64;
+const SEED: u64 = 0x51e5;
+
+/// The largest derivatives of the results by the sines and cosines, at sampled states.
+pub(super) struct Slopes {
+    inputs: Vec<Input>,
+    /// Of each result by each input.
+    sizes: Vec<Vec<f64>>,
+}
+
+impl Slopes {
+    pub(super) fn new(program: &Program, limits: &InputBox) -> Slopes {
+        let samples = Samples::new(program, limits, POSITIONS, SEED);
+        let net = Net::new(program);
+        let (m, state) = (samples.len(), net.unedited());
+        let values = net.run(&state, &net.columns(&samples), m);
+        let outputs = 0..net.outputs.len();
+        let sizes = outputs.map(|output| {
+            let mut adjoints = Vec::new();
+            net.adjoints(&state, &values, (output, m), &mut adjoints);
+            samples.coefficients(&mut adjoints);
+            let columns = adjoints.chunks_exact(m.max(1)).take(net.inputs.len());
+            let largest = |column| samples.blocks(column).into_iter().fold(0.0, f64::max);
+            columns.map(largest).collect()
+        });
+        Slopes {
+            sizes: sizes.collect(),
+            inputs: net.inputs.clone(),
+        }
+    }
+
+    /// Returns what errors of sines and of cosines cost each result.
+    fn costs(&self, error: impl Fn(Input) -> f64) -> Vec<f64> {
+        let errors: Vec<f64> = self.inputs.iter().map(|input| error(*input)).collect();
+        let cost = |sizes: &Vec<f64>| sizes.iter().zip(&errors).map(|(x, e)| x * e).sum();
+        self.sizes.iter().map(cost).collect()
+    }
+
+    fn of(&self, sines: &[AngleKernel]) -> Vec<f64> {
+        self.costs(|input| {
+            let own = sines.iter().find(|own| input.angle() == Some(own.joint));
+            own.map_or(0.0, |own| match input {
+                Input::Sin(_) => own.errors.sin,
+                _ => own.errors.cos,
+            })
+        })
+    }
+}
+
+/// Returns the cheapest polynomials found with which sines and cosines cost no output
+/// more than its allowance, in its unit. No sines without angles: nothing is needed then.
+///
+/// # Errors
+/// An angle whose sine cannot be had as exactly.
+pub(super) fn within(
+    program: &Program,
+    scalar: ScalarType,
+    positions: &[Interval],
+    allowances: &[f64],
+    slopes: &Slopes,
+) -> Result<Sines, Complaint> {
+    let error = uniform(allowances, slopes);
+    let near = |error| {
+        let sines = sincos::polynomials(program, scalar, positions, error);
+        sines.map_err(|miss| complaint(miss.to_string()))
+    };
+    let mut sines = near(error)?;
+    let admitted = |sines: &[AngleKernel]| {
+        let costs = slopes.of(sines);
+        let mut pairs = costs.iter().zip(allowances);
+        pairs.all(|(cost, allowed)| cost <= allowed)
+    };
+    // A larger error costs more than in proportion: with half of it they fit.
+    if !admitted(&sines) {
+        sines = near(error / 2.0)?;
+    }
+    let groups = groups(program, scalar, positions, error);
+    loop {
+        let mut best: Option<(usize, Sines)> = None;
+        for (members, front) in &groups {
+            let Some(now) = members.first().map(|&m| sines[m].kernel.operations()) else {
+                continue;
+            };
+            let mut cheaper = front.iter().filter(|c| c.kernel.operations() < now);
+            let Some(choice) = cheaper.next_back() else {
+                continue;
+            };
+            let saved = members.len() * (now - choice.kernel.operations());
+            if best.as_ref().is_some_and(|(most, _)| *most >= saved) {
+                continue;
+            }
+            let mut other = sines.clone();
+            for &member in members {
+                other[member] = taken(&sines[member], choice);
+            }
+            if admitted(&other) {
+                best = Some((saved, other));
+            }
+        }
+        match best {
+            Some((_, better)) => sines = better,
+            None => return Ok(sines),
+        }
+    }
+}
+
+fn uniform(allowances: &[f64], slopes: &Slopes) -> f64 {
+    let costs = slopes.costs(|input| f64::from(u8::from(input.angle().is_some())));
+    let pairs = costs.iter().zip(allowances).filter(|own| *own.0 > 0.0);
+    let least = pairs.map(|(cost, allowed)| allowed / cost);
+    least.fold(0.1, f64::min).max(0.0)
+}
+
+fn groups(
+    program: &Program,
+    scalar: ScalarType,
+    positions: &[Interval],
+    error: f64,
+) -> Vec<(Vec<usize>, Vec<Choice>)> {
+    let key = |trig: &Pair| {
+        let range = sincos::range_of(trig.joint, positions);
+        (range, trig.need)
+    };
+    let all = program.trig();
+    let mut groups: Vec<(Vec<usize>, Vec<Choice>)> = Vec::new();
+    for (index, trig) in all.iter().enumerate() {
+        let same = |(members, _): &&mut (Vec<usize>, Vec<Choice>)| {
+            let first = members.first().and_then(|&first| all.get(first));
+            first.is_some_and(|first| key(first) == key(trig))
+        };
+        match groups.iter_mut().find(same) {
+            Some((members, _)) => members.push(index),
+            None => {
+                let candidates = Candidates::new(trig.need, scalar, key(trig).0);
+                groups.push((vec![index], candidates.front(error * MAX, error)));
+            }
+        }
+    }
+    groups
+}
+
+const MAX: f64 = 1e4;
+
+fn taken(old: &AngleKernel, choice: &Choice) -> AngleKernel {
+    AngleKernel {
+        form: choice.form.to_string(),
+        kernel: choice.kernel.clone(),
+        errors: choice.errors,
+        ..*old
+    }
+}

@@ -1,0 +1,112 @@
+//! A program in the place of an exact one, as it is printed in a scalar, with its bounds.
+
+use dalembert_model::robot::Robot;
+use dalembert_model::scene::Scale;
+
+use super::input_box::{InputBox, turns_freely};
+use crate::interval::Interval;
+use crate::language::function;
+use crate::program::{Library, Program, ScalarType};
+use crate::sincos::Sines;
+use crate::states::JointState;
+use crate::verify::exact::prove_same;
+
+/// A bound of |emitted code in its scalar − full model| / T over the box.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bound {
+    /// The part of what differs in real numbers: what was left out, and polynomials for sines.
+    pub real: f64,
+    /// The part of operations, constants, and sines that are called.
+    pub rounding: f64,
+}
+
+impl Bound {
+    /// Returns E
+    pub fn total(self) -> f64 {
+        let sum = self.real + self.rounding;
+        if sum == 0.0 { 0.0 } else { sum.next_up() }
+    }
+}
+
+/// A function under a tolerance, in one scalar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variant {
+    /// The scalar of the emitted code.
+    pub scalar: ScalarType,
+    /// Where the bounds hold.
+    pub limits: InputBox,
+    /// The meaning of T.
+    pub relative_to: Scale,
+    /// If that is the range, states at which the results reach it.
+    pub reached: Vec<JointState>,
+    /// The exact program.
+    pub exact: Program,
+    /// The program that is emitted, with exact constants.
+    pub emitted: Program,
+    /// The function as printed.
+    pub text: String,
+    /// The library of sines that are called.
+    pub library: Library,
+    /// The polynomials for its sines; none if they are called.
+    pub sines: Sines,
+    /// T of each result, in its unit.
+    pub scales: Vec<f64>,
+    /// E of each result.
+    pub bounds: Vec<Bound>,
+}
+
+impl Variant {
+    /// Returns the positions of a joint of this robot for which it holds; `None` for all. If a
+    /// joint [turns freely](turns_freely), one turn is bounded and its sine reaches further.
+    pub fn positions(&self, robot: &Robot, joint: usize) -> Option<Interval> {
+        if !turns_freely(robot, joint) {
+            return self.limits.position.get(joint).copied();
+        }
+        let mut sines = self.sines.iter();
+        sines
+            .find(|sine| sine.joint == joint)
+            .map(|sine| sine.range)
+    }
+
+    /// Returns the same with the text of its program.
+    #[must_use]
+    pub fn printed(self) -> Variant {
+        let (emitted, library) = (&self.emitted, self.library);
+        let code = emitted.code(self.scalar, library, &self.sines);
+        let text = function::write(emitted, &code, library, &[]);
+        Variant { text, ..self }
+    }
+
+    /// Returns the largest E.
+    pub fn worst(&self) -> f64 {
+        let totals = self.bounds.iter().map(|bound| bound.total());
+        totals.fold(0.0, f64::max)
+    }
+
+    /// Returns E·T of each result.
+    pub(crate) fn errors(&self) -> Vec<f64> {
+        let pairs = self.bounds.iter().zip(&self.scales);
+        // Up: the product of two doubles is one of the two next to it.
+        pairs
+            .map(|(bound, scale)| (bound.total() * scale).next_up())
+            .collect()
+    }
+}
+
+/// The variants of a function that meet their tolerance.
+#[derive(Clone, Debug)]
+pub struct Admitted {
+    /// The exact program.
+    pub exact: Program,
+    /// The program to emit, before its products are fused.
+    pub program: Program,
+    /// One a scalar, as they were asked for.
+    pub variants: Vec<Variant>,
+}
+
+impl Admitted {
+    /// Returns true if it is another function than the exact program.
+    pub fn is_other(&self) -> bool {
+        self.exact != self.program && prove_same(&self.exact, &self.program).is_err()
+    }
+}

@@ -1,0 +1,68 @@
+//! The box of a function's states: programs as polynomials over it.
+
+use crate::fault::Fault;
+use crate::identity::exact::Exact;
+use crate::identity::robot;
+pub use crate::maximum::corners;
+use crate::maximum::{self, Decision};
+use crate::polynomial::Polynomial;
+use crate::program::{Program, argument};
+use crate::ring::Ring;
+use crate::work::Work;
+use crate::written::Written;
+
+/// The multiplications for a decision.
+const PURSE: u64 = 50_000_000;
+
+/// The states of a robot, in a scene or by itself, that a function takes.
+pub struct Domain {
+    ring: Ring,
+}
+
+impl Domain {
+    /// Reads a robot file; the function has these arguments.
+    ///
+    /// # Errors
+    /// A robot file, a scene or an argument that is not known; a joint without limits.
+    pub fn read(source: &str, scene: Option<&str>, arguments: &[&str]) -> Result<Domain, Fault> {
+        let of_robot = |why: String| Fault::Robot("file".into(), why);
+        let file = robot::read(source).map_err(of_robot)?;
+        let setting = file.setting(scene).map_err(of_robot)?;
+        let places: Option<Vec<usize>> = arguments.iter().map(|own| argument(own)).collect();
+        let places = places.ok_or_else(|| Fault::Claim("an argument that is not known".into()))?;
+        let ranges = setting.state_box(&places, false)?;
+        let ring = Ring::new(&setting, &ranges, &Work::default())?;
+        Ok(Domain { ring })
+    }
+
+    /// Returns the results of a program. The errors of sines, or else of cosines, of a joint are
+    /// variables.
+    ///
+    /// # Errors
+    /// A program that divides, or has more terms than are written out.
+    pub fn write(
+        &self,
+        program: &Program<Exact>,
+        errors: Option<&dyn Fn(usize, bool) -> Option<f64>>,
+    ) -> Result<Vec<Polynomial>, Fault> {
+        let written = Written::new(program, &self.ring, errors, &Work::default())?;
+        Ok(written.outputs)
+    }
+
+    /// Decides whether a magnitude is at most `wanted`, and returns a position where it is large; empty if
+    /// none had to be looked at.
+    pub fn decide(&self, own: &Polynomial, wanted: f64) -> (Decision, Vec<f64>) {
+        let found = maximum::decide(own, &self.ring, wanted, PURSE);
+        let position = match found.angles.is_empty() {
+            true => Vec::new(),
+            false => self.ring.positions(&found.angles),
+        };
+        (found, position)
+    }
+
+    /// Returns true if a symmetric matrix is shown to be positive definite at every state; its lower
+    /// triangle is given row by row, and how far each entry may be off.
+    pub fn is_definite(&self, entries: &[Polynomial], errors: &[f64]) -> bool {
+        maximum::is_definite(entries, errors, &self.ring)
+    }
+}
