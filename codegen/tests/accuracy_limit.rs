@@ -4,8 +4,11 @@
 use std::ops::Range;
 
 use dalembert_codegen::workspace::{Rounding, Runtime, Setup, seeded};
-use dalembert_codegen::{Function, GeneratedFunction, ScalarType};
+use dalembert_codegen::{Function, GeneratedFunction, Request, ScalarType, Start, generate};
+use dalembert_model::equations::Formulation;
+use dalembert_model::number::Rational;
 
+use crate::support::draw::robots;
 use crate::support::{Case, daily_and_campaign, largest, source};
 
 const TORQUES: &str = "inverse_dynamics";
@@ -30,6 +33,7 @@ fn heavier(source: &str, factor: f64) -> String {
 daily_and_campaign! {
     neighbours_cost_about_the_same: (0..2), (2..6);
     heavy_rotors_cost_few_digits: (&ROTORS[..2]), (&ROTORS[2..]);
+    rotors_of_random_arms_cost_few_digits: (0x40..0x43), (0x43..0x4c);
 }
 
 fn neighbours_cost_about_the_same(places: Range<usize>) {
@@ -96,6 +100,35 @@ fn the_estimate_is_what_is_observed() {
             (0.3..3.0).contains(&ratio),
             "{name}: estimated {estimate}, observed {observed}"
         );
+    }
+}
+
+/// Armatures from 0 to 1e6 kg m², or kg.
+fn rotors_of_random_arms_cost_few_digits(seeds: Range<u64>) {
+    const ARMATURES: [i64; 6] = [0, 0, 1, 100, 10_000, 1_000_000];
+    let drawn = robots(12, 0x40).filter(|(seed, ..)| seeds.contains(seed));
+    for (seed, mut robot, mut draw) in drawn.filter(|(_, robot, _)| robot.joints.len() <= 4) {
+        for joint in &mut robot.joints {
+            let armature = ARMATURES[draw.0.below(ARMATURES.len())];
+            joint.armature = Rational::from_integer(armature.into());
+        }
+        let error = |start: Start| {
+            let request = Request {
+                scalars: vec![ScalarType::F64],
+                start,
+                ..Request::new(&[Function::ForwardDynamics])
+            };
+            let program = generate(&robot, &request)
+                .unwrap()
+                .functions
+                .remove(0)
+                .program;
+            Rounding::estimate(&Setup::whole(&robot), &program).worst()
+        };
+        let own = error(Start::Auto);
+        let textbook = error(Start::Only(Formulation::NewtonEulerLink));
+        let most = 4.0 * textbook.max(4.0);
+        assert!(own <= most, "seed {seed}: {own} u, not {most}");
     }
 }
 

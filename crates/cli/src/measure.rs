@@ -157,6 +157,20 @@ impl Bench {
         }
     }
 
+    /// Measures every quantity of a function: each entry relative to the largest of all, which `scales`
+    /// have.
+    pub fn measure_by_largest(
+        &self,
+        code: &Code<'_>,
+        states: &[JointState],
+        scales: &[JointState],
+    ) -> Vec<Worst> {
+        let mut samples = self.samples(code.function, code.scalar, states, scales);
+        let largest = samples.sizes.iter().copied().fold(0.0, f64::max);
+        samples.sizes.fill(largest);
+        self.compare(code, &samples)
+    }
+
     /// Measures every quantity of a function; `scales` are the states that sizes are taken from.
     pub fn measure(
         &self,

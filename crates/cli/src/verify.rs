@@ -167,7 +167,7 @@ fn rounding(states: usize, rows: &[Row], done: &mut Done) {
     let mut table = Table::new(heads);
     for row in rows {
         // What a row is not held to stands in brackets.
-        let cell = |error: f64, other: Held| match row.held == other {
+        let cell = |error: f64, others: &[Held]| match others.contains(&row.held) {
             true => Cell::of(format!("({error:.1})"), error),
             false => Cell::units(error),
         };
@@ -179,8 +179,8 @@ fn rounding(states: usize, rows: &[Row], done: &mut Done) {
                 worst.function.to_string(),
                 worst.quantity.symbol(),
                 worst.scalar.name(),
-                cell(worst.vector, Held::Entries),
-                cell(worst.entry, Held::Vector),
+                cell(worst.vector, &[Held::Entries, Held::Weight]),
+                cell(worst.entry, &[Held::Vector]),
                 Cell::json(worst.condition),
                 held,
                 verdict,

@@ -40,6 +40,17 @@ fn planted_faults_are_found() {
     assert!(mass > 2.0 * right.max(20.0), "{mass}");
 }
 
+/// A joint that feels no weight has next to no load there, as the difference of others' weights.
+#[test]
+fn entries_next_to_zero_count_relative_to_the_weight() {
+    let source = include_str!("../../../codegen/tests/data/rprpr.toml");
+    let robot = read::parse(source).unwrap().robot;
+    let request = Request::new(&[Function::InverseDynamics]);
+    let rows = torques(&robot, &request, STATES).unwrap();
+    let tiny = rows.into_iter().filter(|row| row.case == "tiny");
+    all_good(&tiny.collect::<Vec<Row>>());
+}
+
 #[test]
 fn no_number_fails_inside_the_limits() {
     let robot = support::robot("planar2r");

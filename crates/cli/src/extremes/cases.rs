@@ -61,7 +61,7 @@ pub enum Motion {
 /// A row of the table.
 pub type Case = (&'static str, Held, Change, Motion);
 
-use Held::{Both, Entries, Vector};
+use Held::{Both, Entries, Vector, Weight};
 use Motion::{Angles, Balanced, Inside, Stretched, Times, WristSingular};
 
 /// The extremes that torques are measured at.
@@ -77,7 +77,7 @@ pub const CASES: [Case; 31] = [
     ("accelerations 1e6", Both, Change::None, Times([1.0, 1.0, 1e6])),
     ("wrist singular", Both, Change::None, WristSingular),
     ("stretched", Both, Change::None, Stretched),
-    ("tiny", Entries, Change::None, Times([1e-8; 3])),
+    ("tiny", Weight, Change::None, Times([1e-8; 3])),
     ("tiny, no gravity", Entries, Change::Weightless, Times([1.0, 1e-8, 1e-8])),
     ("static near balance", Entries, Change::None, Balanced),
     ("mass ratio 1e-9", Vector, Change::Masses(-9), Inside),

@@ -25,6 +25,9 @@ pub enum Held {
     Vector,
     /// [`ENTRY`]: next to zero torque, an error relative to the vector says nothing.
     Entries,
+    /// [`ENTRY`], relative to the weight of the arm: a joint that feels none has a load next to zero, as
+    /// the difference of others' weights.
+    Weight,
 }
 
 /// The outcome of a row.
@@ -65,7 +68,7 @@ impl Row {
     fn new(case: &'static str, held: Held, worst: Result<Worst, GenerateError>) -> Row {
         let verdict = match &worst {
             Ok(worst) => {
-                let vector = worst.vector <= VECTOR || held == Held::Entries;
+                let vector = worst.vector <= VECTOR || matches!(held, Held::Entries | Held::Weight);
                 let entry = worst.entry <= ENTRY || held == Held::Vector;
                 match vector && entry {
                     true => Verdict::Good,
@@ -104,7 +107,13 @@ fn measured<'e>(
     [states, scales]: [&[JointState]; 2],
 ) -> impl Iterator<Item = Row> {
     functions
-        .flat_map(move |emitted| bench.measure(&Code::emitted(emitted), states, scales))
+        .flat_map(move |emitted| {
+            let code = Code::emitted(emitted);
+            match held {
+                Held::Weight => bench.measure_by_largest(&code, states, scales),
+                _ => bench.measure(&code, states, scales),
+            }
+        })
         .map(move |worst| Row::new(case, held, Ok(worst)))
 }
 
