@@ -205,7 +205,7 @@ campaigns! {
     puma_at_a_thousandth: "puma560", 1e-3;
     stanford_at_a_hundredth: "stanford", 1e-2;
     ur10_at_a_tenth: "ur10", 1e-1;
-    panda_at_a_hundredth: "panda", 1e-2;
+    panda_at_a_billionth: "panda", 1e-9;
 }
 
 fn in_drawn_limits(mut robot: Robot, draw: &mut Draw) -> Robot {

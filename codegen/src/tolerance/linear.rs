@@ -1,7 +1,10 @@
 //! Least squares over columns, with a prior for each unknown.
 
+use super::work;
+
 /// Returns a·b in eight sums side by side: a fixed order, which runs in vectors.
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    work::count(a.len() / work::UNIT);
     let mut sums = [0.0; 8];
     let (x, y) = (a.chunks_exact(8), b.chunks_exact(8));
     let rest = x.remainder().iter().zip(y.remainder());

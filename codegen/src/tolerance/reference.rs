@@ -6,7 +6,7 @@ use dalembert_checker::polynomial::Polynomial;
 use dalembert_model::robot::write;
 use dalembert_model::scene::{self, Scene};
 
-use super::definite;
+use super::{definite, work};
 use crate::claim::{Written, claimed};
 use crate::program::{Program, has_inertia};
 use crate::setup::Setup;
@@ -90,6 +90,7 @@ impl Reference {
         for ((own, exact), allowed) in written.iter().zip(&self.exact).zip(allowed) {
             let difference = own.plus(&exact.negated());
             let (found, position) = self.domain.decide(&difference, *allowed);
+            work::count(found.steps as usize / work::UNIT);
             // What is neither shown nor refuted is for the checker, which may take longer.
             verdict.is_within &= found.is_shown || found.is_open && found.reached <= OPEN * allowed;
             verdict.ratio = verdict

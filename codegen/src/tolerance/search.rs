@@ -27,9 +27,10 @@ use crate::watch::{FunctionWatch, Part};
 const PARTS: [f64; 6] = [0.5, 0.8, 1.0, 1.0, 1.0, 1.0];
 /// The times that the engine decides about a part.
 const ROUNDS: usize = 10;
-/// How far beyond what is allowed an error counts, with what power the share that may be used at the
-/// samples gets smaller by that, and that share at least.
-const LEAST_RATIO: f64 = 1.01;
+/// In so many rounds all may be used at the samples; then with this power of the excess, which counts
+/// from and up to a factor, the share gets smaller, down to the least.
+const BOLD: usize = 5;
+const LEAST_RATIO: f64 = 1.1;
 const MOST_RATIO: f64 = 2.0;
 const CAUTION: f64 = 0.4;
 const LEAST_SHARE: f64 = 0.4;
@@ -300,7 +301,7 @@ impl Descent<'_> {
         let allowances = self.allowances(part * self.share);
         let mut greedy = Greedy::new(exact, start, allowances, samples.clone(), self.noise);
         let mut history = vec![greedy.net.unedited()];
-        for _ in 0..ROUNDS {
+        for round in 0..ROUNDS {
             let (meter, watch) = (self.meter, self.target.watch);
             let is_over = || meter.is_over() || watch.is_over();
             greedy.drop_all(&mut history, &mut self.random, &is_over);
@@ -322,8 +323,10 @@ impl Descent<'_> {
                 return None;
             }
             // Samples miss what the engine finds: the more they do, the less may be used there.
-            let ratio = libm::pow(verdict.ratio.clamp(LEAST_RATIO, MOST_RATIO), CAUTION);
-            self.share = (self.share / ratio).max(LEAST_SHARE);
+            if round >= BOLD {
+                let ratio = libm::pow(verdict.ratio.clamp(LEAST_RATIO, MOST_RATIO), CAUTION);
+                self.share = (self.share / ratio).max(LEAST_SHARE);
+            }
             greedy.samples.positions.extend(verdict.positions);
             *samples = greedy.samples.clone();
             greedy.allow(self.allowances(part * self.share));

@@ -1,6 +1,6 @@
 //! Work counted, for who cannot wait.
 //!
-//! A unit is 64 products and sums of a program at samples: some hundredths of a microsecond. Units
+//! A unit is 64 products and sums: some hundredths of a microsecond. Units
 //! are counted where the time goes and never timed, so that a limit ends a search at the same place
 //! on every machine. A thread counts its own.
 

@@ -30,7 +30,8 @@ use terms::Terms;
 
 const SEED: u64 = 0x5eed;
 
-const POSITIONS: usize = 96;
+/// Sampled positions of an arm of up to six joints, and of a longer one.
+const POSITIONS: [usize; 2] = [48, 96];
 
 /// The parts of the allowances that tried models use: the rest is for pruning.
 const USES: [f64; 8] = [0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.8, 0.93];
@@ -38,7 +39,8 @@ const USES: [f64; 8] = [0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.8, 0.93];
 /// From the model that leaves most of the allowances to the smallest; empty for a function that is
 /// not linear in the links' moments, or where nothing may go.
 pub(super) fn programs(target: Target<'_>) -> Vec<Program> {
-    let samples = Samples::new(target.exact, target.limits, POSITIONS, SEED);
+    let positions = POSITIONS[usize::from(target.limits.joints() > 6)];
+    let samples = Samples::new(target.exact, target.limits, positions, SEED);
     let terms = Terms::new(target, samples);
     let Some(terms) = terms.filter(|terms| !terms.outputs.is_empty()) else {
         return Vec::new();

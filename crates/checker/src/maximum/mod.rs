@@ -65,6 +65,8 @@ pub struct Decision {
     pub is_open: bool,
     /// The size that is reached at these angles, one a joint: zero where none had to be looked at.
     pub reached: f64,
+    /// The multiplications that it took.
+    pub steps: u64,
     /// The angles, rad; empty where none was looked at.
     pub angles: Vec<f64>,
 }
@@ -80,6 +82,7 @@ pub fn decide(polynomial: &Polynomial, ring: &Ring, wanted: f64, purse: u64) -> 
             is_shown: plain <= wanted,
             is_open: false,
             reached: 0.0,
+            steps: 0,
             angles: Vec::new(),
         };
     }
@@ -100,6 +103,7 @@ pub fn decide(polynomial: &Polynomial, ring: &Ring, wanted: f64, purse: u64) -> 
     Decision {
         is_shown,
         is_open,
+        steps: purse - search.steps,
         reached,
         angles,
     }
