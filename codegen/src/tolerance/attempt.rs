@@ -19,7 +19,7 @@ use crate::verify::truth::Reference;
 /// States that are run at once: their columns stay in a processor's cache.
 const BLOCK: usize = 128;
 const MOVES: usize = 600;
-/// Of the climbs, those where rounding may cost most go on in the last bits of the state: moves, how
+/// The climbs to where rounding may cost most go on in the last bits of the state: moves, how
 /// many at once, and how far they go.
 const TOPS: usize = 6;
 const LAST_MOVES: usize = 1024;
@@ -29,7 +29,7 @@ const LAST: [f64; 4] = [1e-3, 1e-4, 1e-5, 3e-6];
 /// The largest errors that were seen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attempt {
-    /// Of each result, relative to its T; none at no state.
+    /// One a result, relative to its T; none at no state.
     pub observed: Option<Vec<f64>>,
     /// The first result that errs by more than its bound, and where.
     pub violation: Option<(usize, JointState)>,

@@ -36,7 +36,7 @@ pub(super) struct Unknown {
 pub(super) struct Frame {
     pub(super) values: Vec<f64>,
     pub(super) errors: Vec<f64>,
-    /// Of each result, by every node.
+    /// The derivatives of each result by every node.
     pub(super) adjoints: Vec<Vec<f64>>,
     pub(super) unknowns: Vec<Unknown>,
     columns: Vec<Vec<f64>>,

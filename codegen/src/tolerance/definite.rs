@@ -1,4 +1,4 @@
-//! Whether D stays positive definite: forward dynamics divides by it.
+//! D stays positive definite: forward dynamics divides by it.
 //!
 //! The entries of the *emitted* code are meant: its exact values, the errors of its sines, and what
 //! rounding may add to each. The engine shows it, by the same means as a bound.

@@ -17,7 +17,7 @@ pub enum ToleranceError {
     Refused(Complaint),
     /// The full model's D cannot be shown to be positive definite.
     Indefinite(Complaint),
-    /// What is computed inside the box may be more than the scalar holds.
+    /// A value inside the box may be more than the scalar holds.
     Overflow(Complaint),
     /// Already what sines and rounding cost cannot be shown to be less.
     Above(Complaint),

@@ -24,7 +24,7 @@ const SEED: u64 = 0x51e5;
 /// The largest derivatives of the results by the sines and cosines, at sampled states.
 pub(super) struct Slopes {
     inputs: Vec<Input>,
-    /// Of each result by each input.
+    /// One a result and input.
     sizes: Vec<Vec<f64>>,
 }
 

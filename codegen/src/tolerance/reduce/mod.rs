@@ -7,7 +7,7 @@
 //!
 //! 1. [`terms`]: a column for each moment, armature and viscous friction of each link,
 //!    at sampled positions and all motions there
-//! 2. [`path`]: backward elimination. What least squares would miss least goes, weighed
+//! 2. [`path`]: backward elimination. The parameter that least squares would miss least goes, weighed
 //!    by the operations it saves, as long as the largest error can be fitted to be within
 //!    the allowances ([`fit`])
 //! 3. [`build`]: an exact search for the program of a model

@@ -1,4 +1,4 @@
-//! Whether a symmetric matrix of polynomials is positive definite over the box.
+//! A symmetric matrix of polynomials that is positive definite over the box.
 //!
 //! With Λ at least |A| everywhere, λ the least eigenvalue of A at a state and v its unit vector, F =
 //! Λ − vᵀAv is a trigonometric polynomial with 0 ≤ F ≤ 2Λ, and F = Λ − λ there: what is said of F in

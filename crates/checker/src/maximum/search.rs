@@ -47,7 +47,7 @@ pub(super) enum Shown {
 pub(super) enum Aim {
     /// The magnitude at the worst rates.
     Magnitude,
-    /// What the least eigenvalue of a matrix of so many rows is below a bound of its magnitude.
+    /// A bound of a matrix's magnitude, less its least eigenvalue; it has so many rows.
     Eigenvalue { size: usize, largest: f64 },
 }
 
