@@ -19,7 +19,7 @@ use super::work::Meter;
 use super::{scale, shape};
 use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::setup::Setup;
-use crate::sincos::{AngleKernel, Sines};
+use crate::sincos::AngleKernel;
 use crate::states::JointState;
 use crate::watch::{FunctionWatch, Part};
 use crate::words::{Complaint, complaint};
@@ -94,7 +94,7 @@ impl<'a> Budget<'a> {
         })
     }
 
-    /// Returns the same for code that calls a library's sines, and fuses products or does not.
+    /// Returns the budget of code that calls a library's sines, and fuses products or does not.
     #[must_use]
     pub fn emitting(self, library: Library, is_fused: bool) -> Budget<'a> {
         Budget {
@@ -308,24 +308,23 @@ impl<'a> Budget<'a> {
         let slopes = Slopes::new(program, &self.limits);
         let scalar = variant.scalar;
         let positions = self.limits.sine_positions(self.setup.robot(), scalar);
-        let mut last: Option<(Sines, Complaint)> = None;
+        let mut last: Option<Complaint> = None;
         for part in PARTS {
             let allowances: Vec<f64> = left.iter().map(|own| own * part).collect();
             let sines = sines::within(program, scalar, &positions, &allowances, &slopes);
             let sines = match (sines, last) {
-                (Err(_), Some((_, why))) => return Err(why),
+                (Err(_), Some(why)) => return Err(why),
                 (sines, _) => sines?,
             };
             match self.shown(program, scalar, &sines, allowed) {
                 Ok(found) => return Ok(found),
-                Err(why) => last = Some((sines, complaint(why.to_string()))),
+                Err(why) => last = Some(complaint(why.to_string())),
             }
         }
-        let why = last.map(|(_, why)| why);
-        Err(why.unwrap_or_else(|| complaint("no part of the tolerance is left")))
+        Err(last.unwrap_or_else(|| complaint("no part of the tolerance is left")))
     }
 
-    /// Returns what each result may be off in real numbers, in its unit.
+    /// Returns the error in real numbers that each result may have, in its unit.
     fn allowances(&self, exact: &Admitted, allowed: &Allowed) -> Vec<f64> {
         let left = |index: usize| {
             let each = exact.variants.iter().map(|own| {

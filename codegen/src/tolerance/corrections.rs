@@ -104,7 +104,7 @@ impl Greedy<'_> {
         live.filter_map(of).collect()
     }
 
-    /// Returns what a change of each constant does to the errors, and keeps the derivatives by all nodes
+    /// Returns the change of the errors by each constant, and keeps the derivatives by all nodes
     /// if they are asked for. Constants that change nothing leave the list.
     fn jacobian(
         &self,

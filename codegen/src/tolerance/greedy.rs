@@ -37,7 +37,7 @@ pub(super) struct Greedy<'a> {
     inputs: Vec<f64>,
     pub(super) truth: Vec<f64>,
     buckets: Vec<(usize, f64)>,
-    /// How much the ranking is blurred.
+    /// The share by which the ranking is blurred.
     pub(super) noise: f64,
 }
 

@@ -9,7 +9,7 @@ use crate::interval::rounding::{Forward, forward};
 use crate::program::{Input, Program, ScalarType};
 use crate::sincos::AngleKernel;
 
-/// Returns what is to be said of each such step. The intervals contain the computed values, not only the
+/// Returns a sentence on each such step. The intervals contain the computed values, not only the
 /// exact ones; sines are libm's where there are no polynomials for them.
 pub(crate) fn overflows(
     program: &Program,

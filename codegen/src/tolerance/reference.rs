@@ -1,6 +1,5 @@
 //! The exact program of a function over its box, as the checker sees it.
 
-use dalembert_checker::claim::Claim;
 use dalembert_checker::domain::Domain;
 use dalembert_checker::polynomial::Polynomial;
 use dalembert_model::robot::write;
@@ -53,11 +52,7 @@ pub(super) fn read(
     let refused = |fault: dalembert_checker::Fault| complaint(fault.to_string());
     let mut constants = Written::default();
     let own = claimed(program, None, &mut constants);
-    let Claim { constants, .. } = constants.document(Vec::new());
-    let document = Claim {
-        constants,
-        ..Claim::default()
-    };
+    let document = constants.document(Vec::new());
     let constants = document.constants(&Default::default()).map_err(refused)?;
     own.program(&constants).map_err(refused)
 }

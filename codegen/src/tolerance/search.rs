@@ -60,7 +60,7 @@ pub struct SearchEffort {
     pub retries: usize,
     /// The times that the best starts are tried again.
     pub again: u64,
-    /// How hard programs are simplified between the parts.
+    /// The effort of simplifying between the parts.
     pub simplify: Effort,
     /// Units of work at most, if there is a limit: what was found by then counts.
     pub work: Option<u64>,
@@ -133,13 +133,6 @@ pub(super) fn programs(target: Target<'_>, from: &[Program]) -> Vec<Program> {
         ],
         spent: 0,
     };
-    for own in from {
-        if cost(own) < cost(target.exact)
-            && target.reference.judge(own, target.allowances).is_within
-        {
-            run.found.push(own.clone());
-        }
-    }
     let mut ranked: Vec<(usize, usize)> = Vec::new();
     let mut worse = 0;
     let places: Vec<usize> = (0..starts.len()).collect();
@@ -350,9 +343,7 @@ impl Descent<'_> {
         }
         None
     }
-}
 
-impl Descent<'_> {
     /// Takes parts of the edits back at random, and chooses anew.
     fn tried_again(
         &mut self,

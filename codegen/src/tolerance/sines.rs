@@ -49,7 +49,7 @@ impl Slopes {
         }
     }
 
-    /// Returns what errors of sines and of cosines cost each result.
+    /// Returns the error of each result by errors of sines and of cosines.
     fn costs(&self, error: impl Fn(Input) -> f64) -> Vec<f64> {
         let errors: Vec<f64> = self.inputs.iter().map(|input| error(*input)).collect();
         let cost = |sizes: &Vec<f64>| sizes.iter().zip(&errors).map(|(x, e)| x * e).sum();

@@ -68,7 +68,7 @@ impl Variant {
             .map(|sine| sine.range)
     }
 
-    /// Returns the same with the text of its program.
+    /// Returns the variant with the text of its program.
     #[must_use]
     pub fn printed(self) -> Variant {
         let (emitted, library) = (&self.emitted, self.library);

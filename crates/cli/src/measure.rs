@@ -96,6 +96,14 @@ pub struct Bench {
     underflow: f64,
 }
 
+impl Samples {
+    /// Lets the errors of all entries count relative to the largest entry.
+    pub fn relative_to_largest(&mut self) {
+        let largest = self.sizes.iter().copied().fold(0.0, f64::max);
+        self.sizes.fill(largest);
+    }
+}
+
 impl Bench {
     /// Prepares the measurement of a robot's functions.
     pub fn new(robot: Setup) -> Bench {
@@ -155,20 +163,6 @@ impl Bench {
             sizes,
             states,
         }
-    }
-
-    /// Measures every quantity of a function: each entry relative to the largest of all, which `scales`
-    /// have.
-    pub fn measure_by_largest(
-        &self,
-        code: &Code<'_>,
-        states: &[JointState],
-        scales: &[JointState],
-    ) -> Vec<Worst> {
-        let mut samples = self.samples(code.function, code.scalar, states, scales);
-        let largest = samples.sizes.iter().copied().fold(0.0, f64::max);
-        samples.sizes.fill(largest);
-        self.compare(code, &samples)
     }
 
     /// Measures every quantity of a function; `scales` are the states that sizes are taken from.

@@ -18,9 +18,7 @@ impl Search {
         let mut top = Vec::new();
         for _ in 0..starts {
             let start = ranges.iter().map(|[low, high]| {
-                seed = seed
-                    .wrapping_mul(6_364_136_223_846_793_005)
-                    .wrapping_add(1_442_695_040_888_963_407);
+                next(&mut seed);
                 low + (high - low) * (seed >> 11) as f64 / (1u64 << 53) as f64
             });
             let start = start.collect();
@@ -83,4 +81,11 @@ impl Search {
         self.top = angles;
         highest.max(0.0)
     }
+}
+
+/// Draws the next number: its upper 53 bits are random.
+pub(super) fn next(seed: &mut u64) {
+    *seed = seed
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1_442_695_040_888_963_407);
 }

@@ -6,6 +6,7 @@
 //! factorisation of A − t: if it runs through in doubles, the matrix is positive but for (n + 1)·u
 //! times its trace, of which four times as much is taken off.
 
+use super::climb::next;
 use super::corners::Factor;
 use super::search::{Aim, Search, Shown};
 use super::terms::{Key, Terms, group};
@@ -122,9 +123,7 @@ impl Search {
         let (mut seed, mut least) = (SEED, largest);
         for _ in 0..SAMPLES {
             for (level, [low, high]) in ranges.iter().enumerate() {
-                seed = seed
-                    .wrapping_mul(6_364_136_223_846_793_005)
-                    .wrapping_add(1_442_695_040_888_963_407);
+                next(&mut seed);
                 let part = (seed >> 11) as f64 / (1u64 << 53) as f64;
                 self.fix(level, low + (high - low) * part);
             }

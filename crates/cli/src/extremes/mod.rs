@@ -109,10 +109,11 @@ fn measured<'e>(
     functions
         .flat_map(move |emitted| {
             let code = Code::emitted(emitted);
-            match held {
-                Held::Weight => bench.measure_by_largest(&code, states, scales),
-                _ => bench.measure(&code, states, scales),
+            let mut samples = bench.samples(code.function, code.scalar, states, scales);
+            if held == Held::Weight {
+                samples.relative_to_largest();
             }
+            bench.compare(&code, &samples)
         })
         .map(move |worst| Row::new(case, held, Ok(worst)))
 }
