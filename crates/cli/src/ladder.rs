@@ -206,7 +206,8 @@ impl<'a> Ladder<'a> {
     }
 
     fn point(&self, tolerance: f64, variant: &Variant) -> Result<Point, TextError> {
-        let found = attempt(self.budget.setup, variant, self.samples, CLIMBS, 1)?;
+        let climbs = if self.samples == 0 { 0 } else { CLIMBS };
+        let found = attempt(self.budget.setup, variant, self.samples, climbs, 1)?;
         let largest = |own: Vec<f64>| own.into_iter().fold(0.0, f64::max);
         let violation = found.violation.map(|(index, state)| {
             format!(
