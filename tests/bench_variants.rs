@@ -28,7 +28,7 @@ fn the_bench_of_sines_is_up_to_date() {
     let program = &generated.functions[0].program;
 
     let setup = Setup::whole(&robot);
-    let budget = Budget::new(&setup, program, Scale::Actuator).unwrap();
+    let budget = Budget::new(&setup, program, None, Scale::Actuator).unwrap();
     let allowed = budget.all_allowed(TOLERANCE);
     let scalar = ScalarType::F64;
     let called = budget.shown(program, scalar, &[], &allowed).unwrap();

@@ -351,6 +351,39 @@ payload = { mass = 1.5 | payload = { mass = 1.4 | mass of the payload: [1.5] in 
     }
 }
 
+/// A function is bounded over the bodies of the range, and T is what one of them reaches.
+#[test]
+fn payloads_of_a_range() {
+    let scene = r#"
+[scene.s]
+box = { velocity = [1, 1], acceleration = [1, 1], payload = { mass = [0, 2], radius = 0.1 } }
+tolerance = { value = 5e-2, relative_to = "range" }
+"#;
+    let robot = source("planar2r", scene);
+    let asked = "outputs: inverse_dynamics; scene: s; parameters: payload; scalar: f64";
+    let own = &Certified::of(&robot, Some("s"), asked)[0];
+    own.is_shown(2, "payload");
+    let report = own.report().unwrap();
+    let (body, is_default) = report.payloads.unwrap();
+    assert_eq!(
+        (body.mass, body.radius, is_default),
+        ([0.0, 2.0], 0.1, false)
+    );
+    for [from, to, words] in rows(
+        "
+radius = 0.1 | radius = 0.09 | `reached`: expected a state of the box for each result
+mass = [0, 2] | mass = [3, 2] | expected `mass = [low, high]`
+mass = [0, 2], radius = 0.1 | mass = [0, 2] | missing field `radius`
+",
+    ) {
+        assert!(robot.contains(&from), "{from}");
+        let mut other = own.clone();
+        other.robot = robot.replacen(&from, &to, 1);
+        let why = other.refusal().unwrap();
+        assert!(why.contains(&words), "{why}");
+    }
+}
+
 const CHANGES: &str = "
 ·+· → ·-· … ·-· → ·+· … ·*· → ·+· … ·*· → ·/· … ·/· → ·*· … ; → ·+ 0.0; … ; → ·* 1.0;
 t1· → t2· … t1; → t2; … s1 → s2 … c1 → s1 … q[0] → q[1] … qd[0] → qd[1] … qd → q

@@ -16,7 +16,6 @@ planar2r | | inverse_dynamics; parameters: payload; formulation: lagrange_euler 
 planar2r | | inverse_dynamics; parameters: payload; batch: on | batches in Rust take arguments with an entry a joint, and payload is none
 planar2r | gravity = [0, -2, 0] | gravity; parameters: gravity | the scene `test` says what gravity is
 planar2r | | inverse_dynamics; sincos: polynomial; sincos_error: 1e-10 | f32 polynomials reach … for q1 in [-π, π], not 1e-10: use `sincos_error: … `scalar: f64` or `sincos: libm`
-planar2r | ROUGH | inverse_dynamics; parameters: payload | a tolerance needs ranges, and a box has none for `load`: leave `payload` out of the parameters
 planar2r | ROUGH | inverse_dynamics; parameters: gravity | a box has none for `g`: leave `gravity` out of the parameters
 planar2r | ROUGH | forward_dynamics | `forward_dynamics` … give the tolerance to `inverse_dynamics`
 planar2r | ROUGH | inertia_inverse | `inertia_inverse` … give the tolerance to `inverse_dynamics`

@@ -10,6 +10,7 @@ use dalembert_codegen::workspace::{
 };
 use dalembert_codegen::{Function, GenerateError, Program, Request, ScalarType, generate};
 use dalembert_model::number::{Angle, Exact, Rational};
+use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::read::parse;
 use dalembert_model::robot::{JointKind, Position, Robot};
 use dalembert_model::scalar::Scalar;
@@ -39,7 +40,7 @@ impl Subject {
     }
 
     fn budget(&self) -> Budget<'_> {
-        Budget::new(&self.setup, &self.program, Scale::Range).unwrap()
+        Budget::new(&self.setup, &self.program, None, Scale::Range).unwrap()
     }
 
     fn variant(&self, program: &Program, scalar: ScalarType, tolerance: f64) -> Variant {
@@ -164,6 +165,35 @@ fn a_joint_without_limits_turns_on() {
         turning.limits.position[0] = held;
         let found = attempt(&setup, &turning, 4000, 2, 7).unwrap();
         assert_eq!(found.violation, None);
+    }
+}
+
+/// A payload that is an argument: bounds hold for every body of its range, and not far beyond.
+#[test]
+fn payloads_are_bounded_over_their_range() {
+    let scene = r#"
+[scene.s]
+box = { velocity = [2, 2, 2], acceleration = [9, 9, 9], payload = { mass = [0, 2], radius = 0.2 } }
+tolerance = { value = 0.1, relative_to = "range" }
+"#;
+    let reading = support::reading_with("planar3r", scene);
+    let request = Request {
+        parameters: vec![RuntimeParameter::Payload],
+        scene: reading.scenes.last().cloned(),
+        ..Request::new(&[Function::InverseDynamics])
+    };
+    let setup = request.setup(&reading.robot).unwrap();
+    let generated = generate(&reading.robot, &request).unwrap();
+    let admitted = generated.functions[1].admitted.clone().unwrap();
+    assert!(admitted.is_other());
+    for variant in &admitted.variants {
+        let found = attempt(&setup, variant, 2000, 4, 5).unwrap();
+        assert_eq!(found.violation, None);
+        assert!(variant.worst() < 0.1 && largest(&found.observed.unwrap()) > 0.02);
+        let mut heavier = variant.clone();
+        heavier.limits.payload.as_mut().unwrap().mass[1] = 60.0;
+        let found = attempt(&setup, &heavier, 2000, 4, 5).unwrap();
+        assert!(found.violation.is_some());
     }
 }
 

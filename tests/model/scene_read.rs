@@ -66,7 +66,7 @@ lock = { 2 = "1/3" }
 gravity = [0, 0, -1.62]
 velocity = "zero"
 payload = { mass = "1/3", com = [0, 0, 0.05], inertia = [0.01, 0.01, 0.01, 0, 0, 0] }
-box = { position = [[-1, 1], [0, 0.5], ["-pi/2", "90deg"]], velocity = [2, 1, 3] }
+box = { position = [[-1, 1], [0, 0.5], ["-pi/2", "90deg"]], velocity = [2, 1, 3], payload = { mass = [0, "1/3"], radius = 0.1 } }
 tolerance = { value = [1e-3, 1, 0.1], relative_to = "actuator" }
 scalar = "f32"
 
@@ -95,6 +95,9 @@ scalar = "f64"
     assert_eq!(pick.scalar, Some(Float::F32));
     assert_eq!(pick.bounds.velocity.as_ref().map(Vec::len), Some(3));
     assert_eq!(pick.bounds.acceleration, None);
+    let payloads = pick.bounds.payload.as_ref().expect("has a range");
+    assert_eq!(payloads.mass, [ratio(0, 1), ratio(1, 3)]);
+    assert_eq!(payloads.radius, ratio(1, 10));
 
     let angle = Position::Angle(Angle::PiTimes(ratio(1, 6)));
     assert_eq!(hold.locked(2), Some(&angle));
@@ -132,6 +135,10 @@ box = { position = [[-1, 1], [-2, -0.6], [0, 1]] } | joint 2 (boom) is never in
 box = { position = [[-1, 1], [-2, -0.6], [0, 1]] } | this range: its limits are -0.5 to 0.5
 box = { velocity = [1, 1] } | 2 entries, but the robot has 3 joints
 box = { speed = [1, 1, 1] } | unknown key `speed`
+box = { payload = { mass = [2, 1], radius = 0.1 } } | the range of its mass is empty or negative
+box = { payload = { mass = [0, 1], radius = -0.1 } } | its radius is negative
+box = { payload = { mass = [0, 1] } } | payload has no `radius`
+box = { payload = { mass = 1, radius = 1 } } | expected an array of 2
 tolerance = { value = 0, relative_to = "range" } | above zero
 tolerance = { value = [1, 1], relative_to = "range" } | 2 tolerances
 tolerance = { value = 1e-3 } | has no `relative_to`

@@ -1,10 +1,13 @@
 //! What a tolerance left of a function, in the words of its documentation.
 
+use dalembert_checker::certify::Body;
+
 use super::scale;
 use crate::figures::{at_least, bound as up, inside};
 use crate::function::Argument;
 use crate::interval::Interval;
 use crate::setup::Setup;
+use crate::tolerance::input_box::payloads;
 use crate::tolerance::variant::{Admitted, Variant};
 
 pub(super) fn describe(admitted: &Admitted, variant: &Variant, setup: &Setup) -> Vec<String> {
@@ -66,7 +69,12 @@ pub(super) fn held(
 
 fn states(variant: &Variant, setup: &Setup) -> Vec<String> {
     let limits = &variant.limits;
-    let columns = &variant.emitted.arguments;
+    let arguments = variant.emitted.arguments.iter();
+    let columns: Vec<Argument> = arguments
+        .filter(|own| Argument::STATE.contains(own))
+        .copied()
+        .collect();
+    let columns = &columns;
     let names: Vec<&str> = columns.iter().map(|argument| argument.symbol()).collect();
     let mut lines = vec![
         format!("| joint | {} |", names.join(" | ")),
@@ -81,5 +89,23 @@ fn states(variant: &Variant, setup: &Setup) -> Vec<String> {
         let ranges: Vec<String> = columns.iter().map(range).collect();
         lines.push(format!("| {} | {} |", joint + 1, ranges.join(" | ")));
     }
+    if variant.load.is_some() {
+        lines.push(String::new());
+        lines.push(payloads_of(setup));
+    }
     lines
+}
+
+fn payloads_of(setup: &Setup) -> String {
+    let given = setup.robot().payload_range.as_ref();
+    let Body { mass, radius } = payloads(setup);
+    let [low, high] = mass;
+    let default = if given.is_none() {
+        " (no range is given)"
+    } else {
+        ""
+    };
+    format!(
+        "Payloads: {low} to {high} kg, all of it within {radius} m of the origin of its frame{default}."
+    )
 }

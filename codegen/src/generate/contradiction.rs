@@ -11,7 +11,6 @@ use crate::random::Random;
 use crate::setup::Setup;
 use crate::states::JointState;
 use crate::tolerance::attempt::held;
-use crate::tolerance::sample::draw;
 use crate::verify::measure::Emitted;
 use crate::verify::truth::Reference;
 
@@ -77,8 +76,10 @@ fn tolerated(
         return Err(GenerateError::Defect(function, Some(scalar), why.into()));
     };
     let mut random = Random::new(SEED);
+    let loading = claim.loading().ok().flatten();
     for _ in 0..STATES {
-        let state = held(&draw(&claim.limits, &mut random), scalar, &claim.limits);
+        let drawn = claim.draw(loading.as_ref(), &mut random);
+        let state = held(&drawn, scalar, &claim.limits);
         let truth = reference.run(generated.function, &state);
         let results = emitted.run(&state).into_iter();
         let results = results.chain(std::iter::repeat(f64::NAN));

@@ -7,7 +7,7 @@ use crate::function::Function;
 use crate::language::Language;
 use crate::seeds::Start;
 use crate::task::Job;
-use crate::tolerance::refusals::reads;
+use crate::tolerance::refusals::{is_bounded, reads};
 use crate::words::Complaint;
 
 pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
@@ -22,9 +22,11 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
     if job.tolerance().is_some() {
         let mut functions = request.functions.iter();
         let taking = functions.find_map(|&function| {
-            let mut taken = request.parameters.iter();
-            let parameter = taken.find(|&&parameter| function.depends_on(parameter))?;
-            Some((function, parameter.argument()))
+            let taken = request.parameters.iter();
+            let mut taken = taken.filter(|parameter| function.depends_on(**parameter));
+            let argument =
+                taken.find_map(|own| Some(own.argument()).filter(|own| !is_bounded(*own)));
+            Some((function, argument?))
         });
         if let Some((function, argument)) = taking {
             let why = reads(argument);

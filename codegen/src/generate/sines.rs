@@ -96,7 +96,7 @@ fn check_inertia(
 fn spoil_inertia(setup: &Setup, program: &Program, sines: &[AngleKernel]) -> bool {
     // Of a joint that slides without an end, no box has all positions.
     has_inertia(program)
-        && domain(setup, program).is_ok_and(|domain| {
+        && domain(setup, program, None).is_ok_and(|domain| {
             !is_definite(&domain, program, sines, None) && is_definite(&domain, program, &[], None)
         })
 }

@@ -4,6 +4,7 @@
 //! How hard to look is a matter of the request's effort, as for the exact
 //! programs: little while a compiler waits, minutes for a plan.
 
+use crate::function::Function;
 use crate::generate::{GenerateError, GeneratedFunction, Job};
 use crate::program::{Program, ScalarType};
 use crate::search::Effort;
@@ -20,13 +21,20 @@ pub(super) fn tolerate(
     job: &Job<'_>,
     functions: &mut [GeneratedFunction],
 ) -> Result<Vec<ScalarType>, GenerateError> {
+    let (loads, functions): (Vec<_>, Vec<_>) = functions
+        .iter_mut()
+        .partition(|own| own.function == Function::Load);
     let programs: Vec<&Program> = functions.iter().map(|f| &f.program).collect();
-    let Some(all) = admitted(job, &programs)? else {
+    let load = loads.first().map(|own| &own.program);
+    let Some(all) = admitted(job, &programs, load)? else {
         return Ok(job.request.scalars.clone());
     };
+    for load in loads {
+        load.program = job.finished(&load.program);
+    }
     let variants = all.first().map_or(&[][..], |own| &own.variants).iter();
     let scalars = variants.map(|variant| variant.scalar).collect();
-    for (function, admitted) in functions.iter_mut().zip(all) {
+    for (function, admitted) in functions.into_iter().zip(all) {
         function.program = job.finished(&admitted.program);
         let sines = admitted.variants.iter().filter(|own| !own.sines.is_empty());
         function.sines = sines.map(|own| (own.scalar, own.sines.clone())).collect();
@@ -35,10 +43,12 @@ pub(super) fn tolerate(
     Ok(scalars)
 }
 
-/// Returns the variants that the scene's tolerance admits; `None` if it has no tolerance.
+/// Returns the variants that the scene's tolerance admits; `None` if it has no tolerance. `load` makes
+/// the load of a payload, if that is an argument.
 pub fn admitted(
     job: &Job<'_>,
     programs: &[&Program],
+    load: Option<&Program>,
 ) -> Result<Option<Vec<Admitted>>, GenerateError> {
     let request = job.request;
     let Some(tolerance) = job.tolerance() else {
@@ -58,7 +68,7 @@ pub fn admitted(
     }
     let mut budgets = Vec::new();
     for program in programs {
-        let budget = Budget::new(job.setup, program, tolerance.relative_to);
+        let budget = Budget::new(job.setup, program, load, tolerance.relative_to);
         let budget = budget.map_err(|why| GenerateError::Tolerance(program.function, why))?;
         budgets.push(budget.emitting(request.library(), request.fma));
     }

@@ -5,7 +5,7 @@
 //! errors are large; how large they are there is found in 256 bits, so a violation is one.
 
 use super::input_box::InputBox;
-use super::sample::{climb, draw};
+use super::sample::climb;
 use super::variant::Variant;
 use crate::function::Argument;
 use crate::interval::Interval;
@@ -52,12 +52,14 @@ pub fn attempt(
         emitted: Code::parse(&variant.text, &signature)?,
         exact: variant.exact.in_doubles(),
     };
+    let loading = variant.loading()?;
+    let draw = |random: &mut Random| variant.draw(loading.as_ref(), random);
     let limits = &variant.limits;
     let mut random = Random::new(seed);
     let mut tops = vec![Vec::new(); variant.exact.dag.outputs.len()];
     for first in (0..samples).step_by(BLOCK) {
         let count = BLOCK.min(samples - first);
-        let states: Vec<JointState> = (0..count).map(|_| draw(limits, &mut random)).collect();
+        let states: Vec<JointState> = (0..count).map(|_| draw(&mut random)).collect();
         for (top, errors) in tops.iter_mut().zip(run.errors(&states)) {
             let pairs = errors.into_iter().zip(states.iter().cloned());
             let worst = pairs.max_by(|a, b| a.0.total_cmp(&b.0));
@@ -71,7 +73,7 @@ pub fn attempt(
         for round in 0..climbs {
             let from = match (round, top.first()) {
                 (0, Some((_, state))) => state.clone(),
-                _ => draw(limits, &mut random),
+                _ => draw(&mut random),
             };
             let mut error = |state: &JointState| run.error(output, state);
             let (state, _) = climb(limits, from, MOVES, &mut random, &mut error);
@@ -206,9 +208,14 @@ pub(crate) fn held(state: &JointState, scalar: ScalarType, limits: &InputBox) ->
             _ => near,
         })
     };
-    JointState::new(|argument| {
+    let held = JointState::new(|argument| {
         let ranges = limits.of_argument(argument);
         let entries = state.entries(argument).iter();
         entries.zip(ranges).map(inside).collect()
-    })
+    });
+    JointState {
+        load: state.load.clone(),
+        payload: state.payload.clone(),
+        ..held
+    }
 }

@@ -28,8 +28,9 @@ pub(super) fn bounded(
         tolerance,
         worst: None,
     };
-    let report = certify(&own.text, &claim, &source, &demand);
-    let line = report.map(|report| report.lines.into_iter().next());
+    let report = certify(&own.with_load(), &claim, &source, &demand);
+    let name = own.emitted.function.name();
+    let line = report.map(|report| report.lines.into_iter().find(|line| line.name == name));
     let found = line.and_then(|line| {
         let none = || Fault::Claim("there is no function".into());
         line.ok_or_else(none)?.result

@@ -17,6 +17,8 @@ use super::sines::{self, Slopes};
 use super::variant::{Admitted, Variant};
 use super::work::Meter;
 use super::{scale, shape};
+use crate::function::Argument;
+use crate::interval::Interval;
 use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::setup::Setup;
 use crate::sincos::AngleKernel;
@@ -49,6 +51,8 @@ pub struct Budget<'a> {
     /// The meaning of T.
     pub relative_to: Scale,
     reached: Vec<JointState>,
+    /// The function that makes the load, where a payload is an argument of this one.
+    load: Option<&'a Program>,
     reference: Reference,
     library: Library,
     is_fused: bool,
@@ -62,7 +66,8 @@ pub struct Allowed {
 }
 
 impl<'a> Budget<'a> {
-    /// Returns the box of a robot in its scene, and T over it.
+    /// Returns the box of a robot in its scene, and T over it. `load` makes the load of a payload, if
+    /// that is an argument.
     ///
     /// # Errors
     /// [`ToleranceError::Refused`]: a function without bounds, a limit that is missing, or actuators
@@ -70,21 +75,29 @@ impl<'a> Budget<'a> {
     pub fn new(
         setup: &'a Setup,
         exact: &'a Program,
+        load: Option<&'a Program>,
         relative_to: Scale,
     ) -> Result<Budget<'a>, ToleranceError> {
         unbounded_by(exact).map_or(Ok(()), |why| Err(ToleranceError::Refused(why)))?;
-        let limits = InputBox::within(setup, exact.function).map_err(ToleranceError::Refused)?;
+        let mut limits =
+            InputBox::within(setup, exact.function).map_err(ToleranceError::Refused)?;
+        let load = load.filter(|_| exact.arguments.contains(&Argument::Load));
+        let reference = Reference::new(setup, exact, load).map_err(ToleranceError::Refused)?;
+        let ranges = reference.domain().load().iter();
+        let range = ranges.map(|own| Interval::new(own[0], own[1]).unwrap_or(Interval::ALL));
+        limits.load = range.collect();
         let (scales, reached) = match relative_to {
             Scale::Actuator => {
                 let scales = scale::actuator(setup.robot(), exact);
                 (scales.map_err(ToleranceError::Refused)?, Vec::new())
             }
-            Scale::Range => scale::range(exact, &limits).into_iter().unzip(),
+            Scale::Range => scale::range(exact, load, &limits).into_iter().unzip(),
         };
         Ok(Budget {
-            reference: Reference::new(setup, exact).map_err(ToleranceError::Refused)?,
+            reference,
             setup,
             exact,
+            load,
             limits,
             scales,
             relative_to,
@@ -121,8 +134,8 @@ impl<'a> Budget<'a> {
     }
 
     fn definite(&self) -> Result<(), ToleranceError> {
-        let domain = self.reference.domain();
-        if !has_inertia(self.exact) || definite::is_definite(domain, self.exact, &[], None) {
+        let none = vec![0.0; self.scales.len()];
+        if !has_inertia(self.exact) || self.reference.is_definite(self.exact, &[], None, &none) {
             return Ok(());
         }
         let why = definite::complaint_about(self.exact, &self.limits);
@@ -163,6 +176,10 @@ impl<'a> Budget<'a> {
             exact: self.exact.clone(),
             emitted,
             text: String::new(),
+            load: self.load.map(|load| match self.is_fused {
+                true => load.fused(),
+                false => load.clone(),
+            }),
             // Polynomials call nothing.
             library: match sines {
                 [] => self.library,
@@ -176,8 +193,10 @@ impl<'a> Budget<'a> {
         let found = found.map_err(ToleranceError::Above)?;
         let is_changed = found.emitted != *self.exact || !sines.is_empty();
         if has_inertia(program) && is_changed {
-            let domain = self.reference.domain();
-            if !definite::is_definite(domain, program, sines, Some(&found)) {
+            let each = found.bounds.iter().zip(&found.scales);
+            let rounding: Vec<f64> = each.map(|(own, scale)| own.rounding * scale).collect();
+            let (reference, all) = (&self.reference, found.errors());
+            if !reference.is_definite(program, sines, Some(&rounding), &all) {
                 let why = complaint("with its errors D cannot be shown to be positive definite");
                 return Err(ToleranceError::Indefinite(why));
             }

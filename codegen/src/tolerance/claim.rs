@@ -12,11 +12,14 @@ use crate::setup::Setup;
 /// Returns the claim about one text that a tolerance admitted.
 pub fn claim_of(robot: &Robot, source: &str, setup: &Setup, own: &Variant) -> Claim {
     let mut constants = Written::default();
-    let function = Claimed {
+    let load = own.load.iter();
+    let load = load.map(|load| of_setup(load, setup, &mut constants));
+    let mut functions: Vec<Claimed> = load.collect();
+    functions.push(Claimed {
         tolerated: tolerated(own, &mut constants),
         ..of_setup(&own.emitted, setup, &mut constants)
-    };
-    document(robot, source, setup, vec![function], constants)
+    });
+    document(robot, source, setup, functions, constants)
 }
 
 pub(crate) fn document(
@@ -53,7 +56,10 @@ pub(crate) fn tolerated(first: &Variant, constants: &mut Written) -> Option<Tole
     let is_given = |own: &Argument| program.arguments.contains(own);
     let reached = first.reached.iter().map(|at| {
         let given = Argument::STATE.iter().filter(|own| is_given(own));
-        given.flat_map(|own| at.entries(*own)).copied().collect()
+        // Of the payload, which is a point, where that is.
+        let point = at.payload.iter().skip(1).take(3);
+        let given = given.flat_map(|own| at.entries(*own)).chain(point);
+        given.copied().collect()
     });
     Some(Tolerated {
         steps,

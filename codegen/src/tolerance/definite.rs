@@ -7,7 +7,6 @@ use dalembert_checker::domain::Domain;
 
 use super::input_box::InputBox;
 use super::reference;
-use super::variant::Variant;
 use crate::interval::Interval;
 use crate::program::Program;
 use crate::random::Random;
@@ -21,13 +20,13 @@ const SAMPLES: usize = 64;
 /// beyond what doubles lose.
 const CERTAIN: f64 = 1e-6;
 
-/// Returns true if D is shown to be positive definite, with these sines, and with the rounding that a variant
-/// was shown to have.
+/// Returns true if D is shown to be positive definite, with these sines, where each result may be so far
+/// off beside.
 pub(crate) fn is_definite(
     domain: &Domain,
     program: &Program,
     sines: &[AngleKernel],
-    variant: Option<&Variant>,
+    off: Option<&[f64]>,
 ) -> bool {
     let n = program.rows.len();
     let Some(first) = start(program) else {
@@ -54,14 +53,10 @@ pub(crate) fn is_definite(
         program.dag.outputs[entry(own.0, own.1)] == program.dag.outputs[entry(own.1, own.0)]
     };
     let lower: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
-    let rounding = |own: usize| {
-        variant.map_or(0.0, |variant| {
-            variant.bounds[own].rounding * variant.scales[own]
-        })
-    };
+    let off = |own: usize| off.map_or(0.0, |off| off[own]);
     let entries = lower.iter().map(|&(i, j)| written[entry(i, j)].clone());
     let entries: Vec<_> = entries.collect();
-    let errors = lower.iter().map(|&(i, j)| rounding(entry(i, j)).next_up());
+    let errors = lower.iter().map(|&(i, j)| off(entry(i, j)).next_up());
     let errors: Vec<f64> = errors.collect();
     lower.iter().all(is_symmetric) && domain.is_definite(&entries, &errors)
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use dalembert_checker::certify::Body;
 use dalembert_model::number::Rounded;
 use dalembert_model::robot::{Joint, JointKind, Limit, Position, Robot};
 
@@ -12,7 +13,7 @@ use crate::setup::Setup;
 use crate::sincos::stated;
 use crate::words::{Complaint, complaint};
 
-/// Intervals of joint positions, velocities and accelerations, one a joint.
+/// Intervals of joint positions, velocities and accelerations, one a joint, and of a load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputBox {
     /// q, rad or m.
@@ -21,6 +22,10 @@ pub struct InputBox {
     pub velocity: Vec<Interval>,
     /// q̈
     pub acceleration: Vec<Interval>,
+    /// The bodies that a payload may be, where it is an argument.
+    pub payload: Option<Body>,
+    /// The entries of the load that it makes; [`Budget`](super::budget::Budget) knows them.
+    pub load: Vec<Interval>,
 }
 
 pub(super) fn missing(limits: impl IntoIterator<Item = (&'static str, Vec<usize>)>) -> Complaint {
@@ -35,6 +40,15 @@ pub(super) fn missing(limits: impl IntoIterator<Item = (&'static str, Vec<usize>
     };
     let limits: Vec<String> = limits.into_iter().map(of).collect();
     complaint(format!("a bound needs a box: {}", limits.join("; ")))
+}
+
+/// Returns the bodies that a payload may be.
+pub(crate) fn payloads(setup: &Setup) -> Body {
+    let given = setup.robot().payload_range.as_ref();
+    given.map_or_else(Body::default, |own| Body {
+        mass: own.mass.each_ref().map(f64::nearest_rational),
+        radius: f64::nearest_rational(&own.radius),
+    })
 }
 
 impl InputBox {
@@ -59,6 +73,8 @@ impl InputBox {
             position: Vec::new(),
             velocity: Vec::new(),
             acceleration: Vec::new(),
+            payload: arguments.contains(&Argument::Load).then(|| payloads(setup)),
+            load: Vec::new(),
         };
         let mut lacking: BTreeMap<&'static str, Vec<usize>> = BTreeMap::new();
         for (joint, row) in setup.robot().joints.iter().enumerate() {
@@ -102,6 +118,7 @@ impl InputBox {
             Argument::Position => &self.position,
             Argument::Velocity => &self.velocity,
             Argument::Acceleration => &self.acceleration,
+            Argument::Load => &self.load,
             _ => &[],
         }
     }

@@ -7,8 +7,10 @@ use dalembert_model::scene::{self, Scene};
 
 use super::{definite, work};
 use crate::claim::{Written, claimed};
+use crate::function::Argument;
 use crate::program::{Program, has_inertia};
 use crate::setup::Setup;
+use crate::sincos::AngleKernel;
 use crate::words::{Complaint, complaint};
 
 /// An error that climbs reach is so far below what is allowed that it may be within.
@@ -19,6 +21,8 @@ const LARGE: f64 = 0.97;
 pub(crate) struct Reference {
     domain: Domain,
     exact: Vec<Polynomial>,
+    /// The exact program, if its D depends on a payload.
+    loaded: Option<Program>,
 }
 
 /// The engine's finding about a program.
@@ -62,11 +66,20 @@ impl Reference {
     ///
     /// # Errors
     /// A box or a program that the checker refuses.
-    pub(super) fn new(setup: &Setup, exact: &Program) -> Result<Reference, Complaint> {
+    pub(super) fn new(
+        setup: &Setup,
+        exact: &Program,
+        load: Option<&Program>,
+    ) -> Result<Reference, Complaint> {
         let refused = |fault: dalembert_checker::Fault| complaint(fault.to_string());
-        let domain = domain(setup, exact)?;
+        let domain = domain(setup, exact, load)?;
+        let is_definite = has_inertia(exact).then(|| exact.clone());
         let exact = domain.write(&read(exact)?, None).map_err(refused)?;
-        Ok(Reference { domain, exact })
+        Ok(Reference {
+            domain,
+            exact,
+            loaded: is_definite.filter(|own| own.arguments.contains(&Argument::Load)),
+        })
     }
 
     /// Decides whether a program is as near to the exact one as is allowed, in real numbers.
@@ -95,10 +108,32 @@ impl Reference {
                 verdict.positions.push(position);
             }
         }
-        if verdict.is_within && has_inertia(program) {
+        // With a payload all errors count, which the checker bounds.
+        if verdict.is_within && has_inertia(program) && self.loaded.is_none() {
             verdict.is_within = definite::is_definite(&self.domain, program, &[], None);
         }
         verdict
+    }
+
+    /// Returns true if D of a program is shown to be positive definite, with these sines. Its entries
+    /// have errors of rounding, if they are known; all errors together are at most these.
+    ///
+    /// A payload only adds to D, but the box of its numbers has some that no body has: so it is the exact
+    /// D without a payload that counts, with all errors.
+    pub(super) fn is_definite(
+        &self,
+        program: &Program,
+        sines: &[AngleKernel],
+        rounding: Option<&[f64]>,
+        all: &[f64],
+    ) -> bool {
+        match &self.loaded {
+            Some(exact) => {
+                let domain = self.domain.without_payload();
+                definite::is_definite(domain, exact, &[], Some(all))
+            }
+            None => definite::is_definite(&self.domain, program, sines, rounding),
+        }
     }
 
     /// Returns about how far off the results of a program are at most, in real numbers.
@@ -124,9 +159,14 @@ impl Reference {
 ///
 /// # Errors
 /// A joint without limits, and what the checker does not know.
-pub(crate) fn domain(setup: &Setup, program: &Program) -> Result<Domain, Complaint> {
+pub(crate) fn domain(
+    setup: &Setup,
+    program: &Program,
+    load: Option<&Program>,
+) -> Result<Domain, Complaint> {
     let (source, scene) = source(setup);
     let arguments: Vec<&str> = program.arguments.iter().map(|own| own.name()).collect();
-    let domain = Domain::read(&source, scene.as_deref(), &arguments);
+    let load = load.map(read).transpose()?;
+    let domain = Domain::read(&source, scene.as_deref(), &arguments, load.as_ref());
     domain.map_err(|fault| complaint(fault.to_string()))
 }

@@ -39,7 +39,7 @@ pub(crate) fn unbounded(function: Function) -> Option<Complaint> {
         return Some(no_bound(DIVIDES));
     }
     let mut arguments = function.arguments().into_iter();
-    let other = arguments.find(|argument| !Argument::STATE.contains(argument));
+    let other = arguments.find(|argument| !is_bounded(*argument));
     other.map(reads)
 }
 
@@ -52,19 +52,22 @@ pub(super) fn unbounded_by(program: &Program) -> Option<Complaint> {
     friction.or_else(|| unbounded(program.function))
 }
 
+/// Returns true for an argument that a box has ranges for.
+pub(crate) fn is_bounded(argument: Argument) -> bool {
+    Argument::STATE.contains(&argument) || argument == Argument::Load
+}
+
 pub(crate) fn reads(argument: Argument) -> Complaint {
     let why = format!(
         "a tolerance needs ranges, and a box has none for `{}`",
         argument.name()
     );
-    let parameter = match argument {
-        Argument::Gravity => "gravity",
-        Argument::Load => "payload",
-        _ => return no_bound(&why),
-    };
-    complaint(format!(
-        "{why}: leave `{parameter}` out of the parameters, or give its value in the scene"
-    ))
+    match argument {
+        Argument::Gravity => complaint(format!(
+            "{why}: leave `gravity` out of the parameters, or give its value in the scene"
+        )),
+        _ => no_bound(&why),
+    }
 }
 
 /// Returns the reason why a variant is not shown, by the checker's words.

@@ -24,10 +24,14 @@ pub fn draw(limits: &InputBox, random: &mut Random) -> JointState {
             _ => x.high(),
         },
     };
-    JointState::new(|argument| {
+    let mut state = JointState::new(|argument| {
         let ranges = limits.of_argument(argument).iter();
         ranges.map(|&range| entry(argument, range)).collect()
-    })
+    });
+    if let Some(body) = limits.payload {
+        state.payload = body.draw(&mut || random.unit());
+    }
+    state
 }
 
 fn quarter(x: Interval, random: &mut Random) -> f64 {

@@ -23,7 +23,10 @@ pub(super) struct Samples {
     rates: [Vec<(usize, f64)>; 2],
     /// The places of each two velocities.
     pairs: Vec<(usize, usize)>,
+    /// Behind the joints' positions the load.
     pub(super) positions: Vec<Vec<f64>>,
+    loads: Vec<Interval>,
+    random: Random,
 }
 
 impl Samples {
@@ -37,10 +40,25 @@ impl Samples {
         let velocities: Vec<(usize, f64)> = of(Argument::Velocity, &limits.velocity);
         let v = velocities.len();
         let pairs = (0..v).flat_map(|k| (k + 1..v).map(move |l| (k, l)));
-        Samples {
+        let mut samples = Samples {
             pairs: pairs.collect(),
             rates: [velocities, of(Argument::Acceleration, &limits.acceleration)],
-            positions: (0..count).map(|_| draw(limits, &mut random).q).collect(),
+            positions: Vec::new(),
+            loads: limits.load.clone(),
+            random: random.clone(),
+        };
+        let drawn: Vec<_> = (0..count).map(|_| draw(limits, &mut random).q).collect();
+        samples.add(drawn);
+        samples
+    }
+
+    /// Adds positions; each gets a load, of which every number is at one end of its range.
+    pub(super) fn add(&mut self, positions: impl IntoIterator<Item = Vec<f64>>) {
+        for mut position in positions {
+            let random = &mut self.random;
+            let end = |own: &Interval| [own.low(), own.high()][random.below(2)];
+            position.extend(self.loads.iter().map(end));
+            self.positions.push(position);
         }
     }
 
@@ -65,6 +83,9 @@ impl Samples {
                 Input::Sin(joint) => all.resize(from + m, libm::sin(q[joint])),
                 Input::Cos(joint) => all.resize(from + m, libm::cos(q[joint])),
                 Input::Entry(Argument::Position, joint) => all.resize(from + m, q[joint]),
+                Input::Entry(Argument::Load, index) => {
+                    all.resize(from + m, q[q.len() - self.loads.len() + index]);
+                }
                 Input::Entry(argument, joint) => {
                     all.resize(from + m, 0.0);
                     self.rate(argument, joint, &mut all[from..]);

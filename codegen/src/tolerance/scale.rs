@@ -1,5 +1,6 @@
 //! T: what errors are relative to, and how large they may be against it.
 
+use dalembert_checker::certify::Body;
 use dalembert_model::number::{Rational, Rounded};
 use dalembert_model::robot::{Limit, Robot};
 use dalembert_model::scene::Tolerance;
@@ -11,6 +12,10 @@ use crate::program::Program;
 use crate::random::Random;
 use crate::states::JointState;
 use crate::words::{Complaint, complaint};
+
+/// The points that a payload is put to, after each climb, and how far they stay inside its radius.
+const POINTS: usize = 40;
+const INSIDE: f64 = 1.0 - 1e-9;
 
 /// Returns the torque limits of the actuators. For an entry of D the inertia, for one
 /// of h_ikm the coefficient, that alone takes the whole limit at the largest
@@ -93,16 +98,41 @@ pub(crate) fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
 /// Returns a magnitude that each output attains, found by climbing from actual states:
 /// its largest over the box or just below, so an error relative to it is not
 /// understated; and the state at which it does. The checker finds T at that state.
-pub fn range(program: &Program, limits: &InputBox) -> Vec<(f64, JointState)> {
-    let exact = program.in_doubles();
+///
+/// A payload is a point of the largest mass: results are linear in its moments of all degrees, and all
+/// bodies are between such points.
+pub fn range(
+    program: &Program,
+    load: Option<&Program>,
+    limits: &InputBox,
+) -> Vec<(f64, JointState)> {
+    let (exact, load) = (program.in_doubles(), load.map(Program::in_doubles));
+    let put = |state: &mut JointState, random: &mut Random| {
+        if let (Some(load), Some(Body { mass, radius })) = (&load, limits.payload) {
+            let at = [(); 3].map(|()| 2.0 * random.unit() - 1.0);
+            let length = at.iter().map(|x| x * x).sum::<f64>().sqrt().max(0.1);
+            let point = at.map(|x| INSIDE * radius * x / length);
+            state.payload = [&[mass[1]][..], &point, &[0.0; 6]].concat();
+            state.load = load.run_at(state);
+        }
+    };
     let mut random = Random::new(0x7a46e);
     let outputs = 0..program.dag.outputs.len();
     let each = outputs.map(|output| {
         let mut size = |state: &JointState| exact.run_at(state)[output].abs();
         let (mut most, mut at) = (0.0f64, JointState::default());
         for climbed in 0..12 {
-            let from = draw(limits, &mut random);
-            let (state, found) = climb(limits, from, 1500, &mut random, &mut size);
+            let mut from = draw(limits, &mut random);
+            put(&mut from, &mut random);
+            let (mut state, mut found) = climb(limits, from, 1500, &mut random, &mut size);
+            for _ in 0..limits.payload.map_or(0, |_| POINTS) {
+                let mut next = state.clone();
+                put(&mut next, &mut random);
+                let own = size(&next);
+                if own > found {
+                    (state, found) = (next, own);
+                }
+            }
             if found > most || climbed == 0 {
                 (most, at) = (found, state);
             }

@@ -320,7 +320,7 @@ impl Descent<'_> {
                 let ratio = libm::pow(verdict.ratio.clamp(LEAST_RATIO, MOST_RATIO), CAUTION);
                 self.share = (self.share / ratio).max(LEAST_SHARE);
             }
-            greedy.samples.positions.extend(verdict.positions);
+            greedy.samples.add(verdict.positions);
             *samples = greedy.samples.clone();
             greedy.allow(self.allowances(part * self.share));
             greedy.resample();

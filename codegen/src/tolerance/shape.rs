@@ -67,6 +67,11 @@ fn wrong(setup: &Setup, emitted: &Program, input: Input) -> Option<&'static str>
             let why = "no bound is known of what Coulomb friction reads of speeds";
             (Argument::Velocity, Some(why))
         }
+        Input::Entry(Argument::Load, index) => {
+            let length = Argument::Load.length(setup.sizes(emitted.function));
+            let wrong = (index >= length).then_some("the load has no such number");
+            (Argument::Load, wrong)
+        }
         Input::Entry(argument, joint) => {
             let slides = argument == Argument::Position;
             let kind = slides.then_some(JointKind::Prismatic);

@@ -4,9 +4,12 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scale;
 
 use super::input_box::{InputBox, turns_freely};
+use super::sample::draw;
 use crate::interval::Interval;
 use crate::language::function;
-use crate::program::{Library, Program, ScalarType};
+use crate::language::read::{Signature, TextError};
+use crate::program::{Code, Library, Program, ScalarType};
+use crate::random::Random;
 use crate::sincos::Sines;
 use crate::states::JointState;
 use crate::verify::exact::prove_same;
@@ -45,6 +48,8 @@ pub struct Variant {
     pub emitted: Program,
     /// The function as printed.
     pub text: String,
+    /// The function that makes the load of a payload, where this one takes it.
+    pub load: Option<Program>,
     /// The library of sines that are called.
     pub library: Library,
     /// The polynomials for its sines; none if they are called.
@@ -75,6 +80,43 @@ impl Variant {
         let code = emitted.code(self.scalar, library, &self.sines);
         let text = function::write(emitted, &code, library, &[]);
         Variant { text, ..self }
+    }
+
+    fn load_text(&self, load: &Program) -> String {
+        let code = load.code(self.scalar, Library::Libm, &[]);
+        function::write(load, &code, Library::Libm, &[])
+    }
+
+    /// Returns its text, behind that of the function that makes its load.
+    pub fn with_load(&self) -> String {
+        match &self.load {
+            Some(load) => self.load_text(load) + "\n" + &self.text,
+            None => self.text.clone(),
+        }
+    }
+
+    /// Returns the function that makes its load, as it is printed.
+    ///
+    /// # Errors
+    /// A text that cannot be read.
+    pub(crate) fn loading(&self) -> Result<Option<Code>, TextError> {
+        let load = self.load.as_ref().map(|load| {
+            let signature = Signature::of(load, self.scalar);
+            Code::parse(&self.load_text(load), &signature)
+        });
+        load.transpose()
+    }
+
+    /// Draws a state of the box; `loading` makes the load of its payload.
+    pub(crate) fn draw(&self, loading: Option<&Code>, random: &mut Random) -> JointState {
+        let mut state = draw(&self.limits, random);
+        if let Some(loading) = loading {
+            for own in &mut state.payload {
+                *own = self.scalar.of(*own, f64::from(*own as f32));
+            }
+            state.load = loading.run_at(&state);
+        }
+        state
     }
 
     /// Returns the largest E.

@@ -15,15 +15,16 @@ use crate::identity::number::Draws;
 use crate::identity::setting::Setting;
 use crate::identity::table::{Field, Function, functions, length};
 use crate::identity::{Base, Points, Statement, aligned, check, robot};
+use crate::load::LOAD;
 use crate::program::{ARGUMENTS, Operand, Program, argument};
 use crate::read::{self, Argument, Head, Source, Text, TextError};
 use crate::rounding::Ranges;
 use crate::sines;
-use crate::states::Body;
 use crate::tolerance;
 use crate::work::Work;
 
 pub use crate::cost::{Cost, RATE, Shown};
+pub use crate::load::Body;
 pub use crate::tolerance::Bounded;
 
 /// The most times that a function of a claim stands in a file: once for each scalar is usual.
@@ -52,6 +53,8 @@ pub struct Report {
     pub lines: Vec<Line>,
     /// `true` if the robot file gives rates no limit.
     pub is_unlimited: bool,
+    /// The payloads, where a function takes one, and whether they are the default.
+    pub payloads: Option<(Body, bool)>,
 }
 
 impl Report {
@@ -114,7 +117,8 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     let constants = document.constants(&work)?;
     let load = document.functions.iter().find(|own| own.function == LOAD);
     let singles = items.iter().filter(|item| item.text.contains("[f32; "));
-    let body = Body::default();
+    let given = setting.body().map_err(of_robot)?;
+    let body = given.unwrap_or_default();
     let whole = Whole {
         seed: Draws::new(&[robot, claim, source]).text(),
         load: load.map(|own| own.program(&constants)).transpose(),
@@ -192,6 +196,7 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     Ok(Report {
         lines,
         is_unlimited: setting.is_unlimited(),
+        payloads: (load > 0).then_some((body, given.is_none())),
     })
 }
 
@@ -333,6 +338,7 @@ impl<'w> Whole<'w> {
             check(statement, &mut seen.points).map_err(refused)
         };
         entry.0.get_or_insert_with(identity).clone()?;
+        let has_load = head.arguments.iter().any(|own| own.name == LOAD);
         let results = match self.tolerated(claimed).map_err(refused)? {
             None => Vec::new(),
             Some((own, tolerance)) => {
@@ -342,6 +348,7 @@ impl<'w> Whole<'w> {
                     exact,
                     emitted: &emitted,
                     read: &read,
+                    load: self.load()?.filter(|_| has_load),
                     is_single: head.is_single,
                     own,
                     tolerance,
@@ -357,7 +364,6 @@ impl<'w> Whole<'w> {
             let why = format!("result {place} has a bound of {bound:.1e} T, over {most:.1e}: {of}");
             return Err(refused(why));
         }
-        let has_load = head.arguments.iter().any(|own| own.name == LOAD);
         let subject = cost::Subject {
             setting: self.setting,
             function: &function,
@@ -500,8 +506,6 @@ impl<'w> Whole<'w> {
             .ok_or_else(|| Fault::Text(item.line, why.into()))
     }
 }
-
-const LOAD: &str = "load";
 
 /// A load has no results of its own: the functions that take it give it its meaning.
 fn function(claimed: &Claimed) -> Result<Function, String> {

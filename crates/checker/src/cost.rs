@@ -8,11 +8,12 @@ use crate::identity::exact::Exact;
 use crate::identity::setting::Setting;
 use crate::identity::table::{self, Field, length};
 use crate::interval::UNIT;
-use crate::program::{ARGUMENTS, Operand, Program, Step, argument};
+use crate::load::{Body, LOAD, literals};
+use crate::program::{ARGUMENTS, Operand, Program, argument};
 use crate::read::{self, Head, Source};
 use crate::rounding::{Bounds, Ranges, Rounding};
 use crate::sample::{Near, Sampler, State};
-use crate::states::{Body, States};
+use crate::states::States;
 use crate::tolerance::Bounded;
 use crate::work::Work;
 
@@ -331,28 +332,6 @@ impl Seen<'_> {
             first += length;
         }
         Ok(height)
-    }
-}
-
-const LOAD: &str = "load";
-
-fn literals(own: &Program<Exact>) -> read::Function {
-    let operand = |own: &Operand<Exact>| match own {
-        // An angle beyond the series' range is not a number.
-        Operand::Constant(own) => Operand::Constant(own.double().map_or(f64::NAN, |own| own[0])),
-        Operand::Step(step) => Operand::Step(*step),
-        Operand::Entry(place, index) => Operand::Entry(*place, *index),
-        Operand::Sine(joint, is_sine) => Operand::Sine(*joint, *is_sine),
-        Operand::Speed(joint) => Operand::Speed(*joint),
-    };
-    let step = |(operation, both): &Step<Exact>| (*operation, both.each_ref().map(operand));
-    let output = |(negative, own): &(bool, Operand<Exact>)| (*negative, operand(own));
-    read::Function {
-        program: Program {
-            steps: own.steps.iter().map(step).collect(),
-            outputs: own.outputs.iter().map(output).collect(),
-        },
-        ..read::Function::default()
     }
 }
 

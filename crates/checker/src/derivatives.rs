@@ -108,7 +108,10 @@ impl Derivatives<'_> {
             _ => {
                 let value = self.written.leaf(own);
                 let size = value.map_or(f64::INFINITY, |value| self.ring.size(&value));
-                Known { size, error: 0.0 }
+                Known {
+                    size,
+                    error: self.rounding.load_error(text),
+                }
             }
         }
     }
@@ -123,7 +126,7 @@ impl Derivatives<'_> {
         let mut offs = vec![0.0; top + 1];
         slopes[*top] = Polynomial::constant(1.0, 0.0);
         let mut sum = 0.0;
-        let mut sines: Vec<(&Operand<f64>, Polynomial, f64)> = Vec::new();
+        let mut leaves: Vec<(&Operand<f64>, Polynomial, f64)> = Vec::new();
         for step in (0..=*top).rev() {
             let (slope, off) = (std::mem::take(&mut slopes[step]), offs[step]);
             let most = match slope.terms.is_empty() {
@@ -157,21 +160,21 @@ impl Derivatives<'_> {
                     Operand::Constant(_) if own.error > 0.0 => {
                         sum += (self.size(&part)? + part_off) * own.error;
                     }
-                    // All places where a sine is read have the same error.
-                    Operand::Sine(..) if own.error > 0.0 => {
-                        match sines.iter_mut().find(|known| known.0 == text) {
+                    // All places where a sine or an entry of the load is read have the same error.
+                    Operand::Sine(..) | Operand::Entry(..) if own.error > 0.0 => {
+                        match leaves.iter_mut().find(|known| known.0 == text) {
                             Some((_, all, off)) => {
                                 *all = all.sum(&part, self.work)?;
                                 *off += part_off;
                             }
-                            None => sines.push((text, part, part_off)),
+                            None => leaves.push((text, part, part_off)),
                         }
                     }
                     _ => {}
                 }
             }
         }
-        for (own, slope, off) in &sines {
+        for (own, slope, off) in &leaves {
             let error = self.known(own, exact, known).error;
             sum += (self.size(slope)? + off) * error;
         }

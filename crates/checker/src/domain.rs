@@ -3,6 +3,7 @@
 use crate::fault::Fault;
 use crate::identity::exact::Exact;
 use crate::identity::robot;
+use crate::load::{LOAD, load_of_point};
 pub use crate::maximum::corners;
 use crate::maximum::{self, Decision};
 use crate::polynomial::Polynomial;
@@ -17,22 +18,56 @@ const PURSE: u64 = 50_000_000;
 /// The states of a robot, in a scene or by itself, that a function takes.
 pub struct Domain {
     ring: Ring,
+    /// The ranges of the load's numbers.
+    load: Vec<[f64; 2]>,
+    /// The same states without any payload, where there may be one.
+    bare: Option<Box<Domain>>,
 }
 
 impl Domain {
-    /// Reads a robot file; the function has these arguments.
+    /// Reads a robot file; the function has these arguments, of which another makes the load.
     ///
     /// # Errors
     /// A robot file, a scene or an argument that is not known; a joint without limits.
-    pub fn read(source: &str, scene: Option<&str>, arguments: &[&str]) -> Result<Domain, Fault> {
+    pub fn read(
+        source: &str,
+        scene: Option<&str>,
+        arguments: &[&str],
+        load: Option<&Program<Exact>>,
+    ) -> Result<Domain, Fault> {
         let of_robot = |why: String| Fault::Robot("file".into(), why);
         let file = robot::read(source).map_err(of_robot)?;
         let setting = file.setting(scene).map_err(of_robot)?;
         let places: Option<Vec<usize>> = arguments.iter().map(|own| argument(own)).collect();
         let places = places.ok_or_else(|| Fault::Claim("an argument that is not known".into()))?;
-        let ranges = setting.state_box(&places, false)?;
+        let (mut ranges, _) = setting.loaded_box(&places, false, load)?;
         let ring = Ring::new(&setting, &ranges, &Work::default())?;
-        Ok(Domain { ring })
+        let mut domain = Domain {
+            ring,
+            load: Vec::new(),
+            bare: None,
+        };
+        if let (Some(load), Some(place)) = (load, argument(LOAD)) {
+            let none = load_of_point(load, 0.0, [0.0; 3])?;
+            let none = none.iter().map(|own| [own.low, own.high]).collect();
+            domain.load = std::mem::replace(&mut ranges[place], none);
+            domain.bare = Some(Box::new(Domain {
+                ring: Ring::new(&setting, &ranges, &Work::default())?,
+                load: Vec::new(),
+                bare: None,
+            }));
+        }
+        Ok(domain)
+    }
+
+    /// Returns the ranges of the load's numbers.
+    pub fn load(&self) -> &[[f64; 2]] {
+        &self.load
+    }
+
+    /// Returns the same states without a payload.
+    pub fn without_payload(&self) -> &Domain {
+        self.bare.as_deref().unwrap_or(self)
     }
 
     /// Returns the results of a program. The errors of sines, or else of cosines, of a joint are

@@ -45,6 +45,7 @@ pub mod identity;
 #[cfg(feature = "certify")]
 pub mod interval;
 #[cfg(feature = "certify")]
+mod load;
 mod maximum;
 pub mod payload;
 #[cfg(feature = "certify")]

@@ -1,11 +1,11 @@
-//! Polynomials in sines, cosines, rates and errors, with a bound of what was left out.
+//! Polynomials in sines, cosines, rates, loads and errors, with a bound of what was left out.
 //!
 //! Every variable is at most one in magnitude over the box: cos φ and sin φ of a joint
 //! that turns, where sin² is replaced by 1 − cos²; of a joint that slides, its position
-//! as the cosine of an angle that goes round; q̇ and q̈ in units of a power of two; and
-//! errors of sines in units of their largest. So a monomial is at most one, and whatever
-//! is not written down — what rounding a coefficient costs, terms that all but cancelled,
-//! products of two errors — adds its magnitude to `rest`.
+//! as the cosine of an angle that goes round; q̇, q̈ and the load in units of a power of
+//! two; and errors of sines in units of their largest. So a monomial is at most one, and
+//! whatever is not written down — what rounding a coefficient costs, terms that all but
+//! cancelled, products of two errors, two loads or two q̈ — adds its magnitude to `rest`.
 
 use crate::fault::Fault;
 use crate::interval::UNIT;
@@ -14,14 +14,10 @@ use crate::work::Work;
 /// Nanoseconds for a product of two terms.
 const PRODUCT: u64 = 20;
 
-/// The exponents of a monomial: `WIDTH` bits a joint.
-pub type Key = u128;
 /// The most joints that a key has room for.
-pub const MAX_JOINTS: usize = 9;
-const WIDTH: usize = 13;
-/// Where the exponents of a joint start, and how many bits they have, the highest of
-/// which must stay zero (but for sin, whose square is replaced).
-const FIELDS: [(usize, usize); 6] = [(0, 2), (2, 4), (6, 3), (9, 2), (11, 1), (12, 1)];
+pub const MAX_JOINTS: usize = 22;
+/// The most entries of a load that a key has room for.
+pub const MAX_LOADS: usize = 31;
 const MOST_TERMS: usize = 1 << 18;
 /// The factor that summing up `rest` in floating point may cost: far fewer than 2³⁰
 /// additions, each rounded by at most one part in 2⁵³.
@@ -30,7 +26,7 @@ pub const SLACK: f64 = 1.000_001;
 const LEAST: f64 = f64::from_bits(1);
 const SMALL: f64 = 1e-290;
 
-/// The variables of a joint.
+/// The variables: each but a load's entry is of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variable {
     /// sin φ
@@ -45,27 +41,107 @@ pub enum Variable {
     EvenError,
     /// The same, odd.
     OddError,
+    /// An entry of the load.
+    Load,
 }
 
-/// Returns the monomial that is a variable of a joint.
-pub fn key(variable: Variable, joint: usize) -> Key {
-    1 << (joint * WIDTH + FIELDS[variable as usize].0)
-}
+/// The exponents of a monomial. Sin, cos and q̇ of a joint have 2, 4 and 3 bits, the highest of which
+/// must stay zero (but for sin, whose square is replaced). Of q̈, of errors and of loads a monomial has
+/// one at most, by its place; the last word has these behind its joint.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Key([u64; WORDS]);
 
-/// Returns the exponent of a variable of a joint in a monomial.
-pub fn exponent(key: Key, variable: Variable, joint: usize) -> u32 {
-    let (start, bits) = FIELDS[variable as usize];
-    (key >> (joint * WIDTH + start)) as u32 & ((1 << bits) - 1)
-}
-
+const WORDS: usize = 4;
+const WIDTH: usize = 9;
+/// The joints of a word.
+const JOINTS: usize = 7;
+/// Where the exponents of sin, cos and q̇ start, and how many bits they have.
+const FIELDS: [(usize, u64); 3] = [(0, 3), (2, 15), (6, 7)];
 /// The first bit of every joint: a geometric series.
-const EACH: Key = ((1 << (WIDTH * MAX_JOINTS)) - 1) / ((1 << WIDTH) - 1);
+const EACH: u64 = ((1 << (WIDTH * JOINTS)) - 1) / ((1 << WIDTH) - 1);
 /// Bits that are only set by a power that there is no room for.
-const GUARD: Key = EACH * (1 << 5 | 1 << 8 | 1 << 10);
-const ERRORS: Key = EACH * (3 << 11);
-const SINE_SQUARED: Key = EACH * (1 << 1);
-/// The exponents that angles have, sin and cos.
-pub const ANGLES: Key = EACH * ((1 << 6) - 1);
+const GUARD: [u64; WORDS] = of_joints(1 << 5 | 1 << 8);
+const SINE_SQUARED: [u64; WORDS] = of_joints(1 << 1);
+const ANGLES: [u64; WORDS] = of_joints((1 << 6) - 1);
+/// The bits of the one q̈, of the one error and of the one load.
+const ONES: [(usize, u64); 3] = [(32, 31), (37, 63), (43, 31)];
+const ODD: u64 = 1 << 5;
+/// A bit that no monomial has.
+const MARK: u64 = 1 << 63;
+
+const fn of_joints(bits: u64) -> [u64; WORDS] {
+    let last = (1 << (WIDTH * (MAX_JOINTS - JOINTS * (WORDS - 1)))) - 1;
+    [EACH * bits, EACH * bits, EACH * bits, EACH * bits & last]
+}
+
+/// Returns the monomial that is a variable of a joint, or of an entry of the load.
+pub fn key(variable: Variable, index: usize) -> Key {
+    let mut own = Key::default();
+    let place = index as u64 + 1;
+    own.0[WORDS - 1] = match variable {
+        Variable::Acceleration => place << ONES[0].0,
+        Variable::EvenError => place << ONES[1].0,
+        Variable::OddError => (place | ODD) << ONES[1].0,
+        Variable::Load => place << ONES[2].0,
+        Variable::Sin | Variable::Cos | Variable::Velocity => {
+            let bit = index % JOINTS * WIDTH + FIELDS[variable as usize].0;
+            own.0[index / JOINTS] = 1 << bit;
+            return own;
+        }
+    };
+    own
+}
+
+/// Returns the exponent of a variable in a monomial.
+pub fn exponent(key: Key, variable: Variable, index: usize) -> u32 {
+    let one = |which: usize| key.0[WORDS - 1] >> ONES[which].0 & ONES[which].1;
+    let place = index as u64 + 1;
+    match variable {
+        Variable::Acceleration => u32::from(one(0) == place),
+        Variable::EvenError => u32::from(one(1) == place),
+        Variable::OddError => u32::from(one(1) == place | ODD),
+        Variable::Load => u32::from(one(2) == place),
+        Variable::Sin | Variable::Cos | Variable::Velocity => {
+            let (start, bits) = FIELDS[variable as usize];
+            (key.0[index / JOINTS] >> (index % JOINTS * WIDTH + start) & bits) as u32
+        }
+    }
+}
+
+impl Key {
+    /// Returns the product; none if both have a q̈, an error or a load.
+    fn times(self, other: Key) -> Option<Key> {
+        let [a, b] = [self, other].map(|own| own.0[WORDS - 1]);
+        let are_both = |(start, bits): &(usize, u64)| {
+            let mask = bits << start;
+            a & mask != 0 && b & mask != 0
+        };
+        if a >> ONES[0].0 != 0 && b >> ONES[0].0 != 0 && ONES.iter().any(are_both) {
+            return None;
+        }
+        Some(Key(std::array::from_fn(|k| self.0[k] + other.0[k])))
+    }
+
+    fn and(self, mask: [u64; WORDS]) -> [u64; WORDS] {
+        std::array::from_fn(|k| self.0[k] & mask[k])
+    }
+
+    /// Returns all of it but sines and cosines.
+    pub(crate) fn without_angles(self) -> Key {
+        Key(std::array::from_fn(|k| self.0[k] & !ANGLES[k]))
+    }
+
+    /// Returns a key that is no monomial's.
+    pub(crate) fn marked(mut self) -> Key {
+        self.0[WORDS - 1] |= MARK;
+        self
+    }
+
+    pub(crate) fn unmarked(mut self) -> Key {
+        self.0[WORDS - 1] &= !MARK;
+        self
+    }
+}
 
 /// A function of the state: the sum of its terms, and at most `rest` more or less.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -95,7 +171,7 @@ impl Polynomial {
 
     /// Returns a number that is at most so far from a double.
     pub fn constant(value: f64, radius: f64) -> Polynomial {
-        Polynomial::term(0, value, radius)
+        Polynomial::term(Key::default(), value, radius)
     }
 
     /// Returns the opposite.
@@ -141,14 +217,14 @@ impl Polynomial {
         for (left, a) in &self.terms {
             for (right, b) in &other.terms {
                 let product = a * b;
-                if left & ERRORS != 0 && right & ERRORS != 0 {
+                let Some(key) = left.times(*right) else {
                     rest += product.abs() * SLACK + LEAST;
                     continue;
-                }
+                };
                 let exact = a.abs() == 1.0 || b.abs() == 1.0;
                 rest += if exact { 0.0 } else { product.abs() * UNIT };
                 rest += if product.abs() < SMALL { LEAST } else { 0.0 };
-                reduce(left + right, product, &mut terms)?;
+                reduce(key, product, &mut terms)?;
             }
             if terms.len() > 8 * MOST_TERMS {
                 Polynomial { terms, rest } = merged(terms, rest).short()?;
@@ -160,18 +236,21 @@ impl Polynomial {
 
 /// Pushes a term, every sin² in it replaced by 1 − cos².
 fn reduce(key: Key, coefficient: f64, terms: &mut Vec<(Key, f64)>) -> Result<(), Fault> {
-    if key & GUARD != 0 {
+    if key.and(GUARD) != [0; WORDS] {
         return Err(Fault::Large);
     }
-    let squares = key & SINE_SQUARED;
-    let first = squares & squares.wrapping_neg();
-    if first == 0 {
+    let squares = key.and(SINE_SQUARED);
+    let Some(word) = squares.iter().position(|own| *own != 0) else {
         terms.push((key, coefficient));
         return Ok(());
-    }
+    };
+    let first = squares[word] & squares[word].wrapping_neg();
+    let (mut one, mut cosines) = (key, key);
+    one.0[word] &= !first;
     // The bit of sin² is two below that of cos².
-    reduce(key & !first, coefficient, terms)?;
-    reduce((key & !first) + (first << 2), -coefficient, terms)
+    cosines.0[word] = one.0[word] + (first << 2);
+    reduce(one, coefficient, terms)?;
+    reduce(cosines, -coefficient, terms)
 }
 
 /// Sums up terms of the same key; what all but cancelled goes into the rest.

@@ -1,4 +1,4 @@
-//! The box of states as polynomials: which variables stand for positions and rates.
+//! The box of states as polynomials: which variables stand for positions, rates and loads.
 //!
 //! Where the axes of two joints that turn are parallel, the second one's variable is the
 //! sum φ of its angle and of the one before (their difference, where the axes point
@@ -11,26 +11,32 @@ use crate::identity::arm::Arm;
 use crate::identity::exact::Point;
 use crate::identity::setting::Setting;
 use crate::interval::sin_cos;
-use crate::polynomial::{Key, MAX_JOINTS, Polynomial, Variable, exponent};
-use crate::program::Operand;
+use crate::polynomial::{Key, MAX_JOINTS, MAX_LOADS, Polynomial, Variable, exponent};
+use crate::program::{ARGUMENTS, Operand, argument};
 use crate::rounding::Ranges;
 use crate::work::Work;
 
 /// A range of at least so much counts as all angles.
 const WHOLE_TURN: f64 = std::f64::consts::TAU - 1e-9;
-const RATES: [Variable; 2] = [Variable::Velocity, Variable::Acceleration];
+/// The arguments that results are polynomials in.
+const LINEAR: [(Variable, &str); 3] = [
+    (Variable::Velocity, "qd"),
+    (Variable::Acceleration, "qdd"),
+    (Variable::Load, "load"),
+];
 
 pub struct Ring {
     /// Sine, cosine and position of each joint, or what there is of them.
     positions: Vec<[Option<Polynomial>; 3]>,
-    rates: [Vec<Polynomial>; 2],
+    /// q̇, q̈ and the load.
+    linear: [Vec<Polynomial>; 3],
     /// The ranges of the positions, and the sign with which the angle before is taken off.
     places: Vec<([f64; 2], f64)>,
     /// The range of each joint's angle φ; `None` where it goes all the way round, or
     /// stands for a position between two ends.
     pub angles: Vec<Option<[f64; 2]>>,
-    /// The ranges of q̇ and of q̈ in their units.
-    units: [Vec<[f64; 2]>; 2],
+    /// The ranges of these in their units.
+    units: [Vec<[f64; 2]>; 3],
 }
 
 /// Returns the least power of two that is not below a size, which is not zero.
@@ -75,7 +81,7 @@ impl Ring {
         let arm = Arm::read(setting, &Point::new(&["axes"])).map_err(of_robot)?;
         let mut ring = Ring {
             positions: Vec::new(),
-            rates: Default::default(),
+            linear: Default::default(),
             places: Vec::new(),
             angles: Vec::new(),
             units: Default::default(),
@@ -98,13 +104,20 @@ impl Ring {
                 [Some(sin), Some(cos), None]
             });
             ring.places.push((position, sign.unwrap_or(0.0)));
-            for (which, variable) in RATES.into_iter().enumerate() {
-                let [low, high] = ranges[which + 1][joint];
+        }
+        let place = |own: &(Variable, &str)| argument(own.1).and_then(|place| ranges.get(place));
+        let lists = LINEAR.each_ref().map(place);
+        if lists[2].is_some_and(|load| load.len() > MAX_LOADS) {
+            let why = format!("a load of more than {MAX_LOADS} numbers");
+            return Err(of_robot(why));
+        }
+        for (which, (list, (variable, _))) in lists.iter().zip(LINEAR).enumerate() {
+            for (index, &[low, high]) in list.iter().copied().flatten().enumerate() {
                 let size = low.abs().max(high.abs());
                 let unit = if size > 0.0 { unit(size) } else { 0.0 };
                 let range = [low / unit, high / unit];
                 ring.units[which].push(if size > 0.0 { range } else { [0.0; 2] });
-                ring.rates[which].push(Polynomial::variable(variable, joint, unit));
+                ring.linear[which].push(Polynomial::variable(variable, index, unit));
             }
         }
         Ok(ring)
@@ -134,7 +147,11 @@ impl Ring {
                 self.positions.get(*joint)?[usize::from(!is_sine)].clone()
             }
             Operand::Entry(0, joint) => self.positions.get(*joint)?[2].clone(),
-            Operand::Entry(place @ (1 | 2), joint) => self.rates[place - 1].get(*joint).cloned(),
+            Operand::Entry(place, index) => {
+                let name = ARGUMENTS.get(*place)?.0;
+                let which = LINEAR.iter().position(|own| own.1 == name)?;
+                self.linear[which].get(*index).cloned()
+            }
             _ => None,
         }
     }
@@ -142,24 +159,26 @@ impl Ring {
     /// The middle of the range over the box, and half its length.
     pub fn factor(&self, key: Key) -> (f64, f64) {
         let (mut low, mut high) = (1.0f64, 1.0f64);
-        for joint in 0..MAX_JOINTS {
-            for (variable, ranges) in RATES.into_iter().zip(&self.units) {
-                let [a, b] = ranges.get(joint).copied().unwrap_or_default();
-                let power = exponent(key, variable, joint) as i32;
+        for ((variable, _), ranges) in LINEAR.iter().zip(&self.units) {
+            for (index, &[a, b]) in ranges.iter().enumerate() {
+                let power = exponent(key, *variable, index) as i32;
+                if power == 0 {
+                    continue;
+                }
                 let (x, y) = (a.powi(power), b.powi(power));
-                let even_about_zero = power > 0 && power % 2 == 0 && a < 0.0 && b > 0.0;
+                let even_about_zero = power % 2 == 0 && a < 0.0 && b > 0.0;
                 let least = if even_about_zero { 0.0 } else { x.min(y) };
                 let most = x.max(y);
                 let ends = [low * least, low * most, high * least, high * most];
                 low = ends.iter().copied().fold(f64::INFINITY, f64::min);
                 high = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
             }
-            for error in [Variable::EvenError, Variable::OddError] {
-                if exponent(key, error, joint) > 0 {
-                    let most = low.abs().max(high.abs());
-                    (low, high) = (-most, most);
-                }
-            }
+        }
+        let errors = [Variable::EvenError, Variable::OddError];
+        let has = |joint: usize| errors.iter().any(|own| exponent(key, *own, joint) > 0);
+        if (0..self.angles.len()).any(has) {
+            let most = low.abs().max(high.abs());
+            (low, high) = (-most, most);
         }
         (0.5 * low + 0.5 * high, 0.5 * high - 0.5 * low)
     }

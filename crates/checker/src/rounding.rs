@@ -5,6 +5,7 @@
 use std::collections::HashMap;
 
 use crate::interval::Interval;
+use crate::load::LOAD;
 use crate::polynomial::SLACK;
 use crate::program::{Operand, argument};
 use crate::read::{Function, Source};
@@ -69,6 +70,16 @@ impl<'f> Rounding<'f> {
             scalar,
             polynomials,
             load: Vec::new(),
+        }
+    }
+
+    /// Returns how far an entry of the load is off; zero for other operands.
+    pub(crate) fn load_error<C>(&self, own: &Operand<C>) -> f64 {
+        match own {
+            Operand::Entry(place, index) if argument(LOAD) == Some(*place) => {
+                self.load.get(*index).map_or(0.0, |own| own.error)
+            }
+            _ => 0.0,
         }
     }
 
@@ -202,11 +213,7 @@ impl<'f> Rounding<'f> {
                 Some(Value::new(exact, error))
             }
             Operand::Entry(place, index) => {
-                let load = self
-                    .load
-                    .get(*index)
-                    .filter(|_| argument("load") == Some(*place));
-                let error = load.map_or(0.0, |own| own.error);
+                let error = self.load_error(own);
                 entry(given.ranges, *place, *index).map(|exact| Value::new(exact, error))
             }
             Operand::Sine(joint, is_sine) => {

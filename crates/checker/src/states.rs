@@ -1,6 +1,7 @@
 //! States at which a function is tried: special ones, random ones, and where climbs end.
 
 use crate::identity::number::Draws;
+use crate::load::Body;
 use crate::program::{ARGUMENTS, argument};
 use crate::rounding::Ranges;
 use crate::sample::State;
@@ -9,8 +10,6 @@ use crate::sample::State;
 const SPECIAL: usize = 5;
 /// The parts of a range by which a climb goes on.
 const STRIDES: [f64; 3] = [0.2, 0.05, 0.01];
-/// The points of which a body is made: fewer have no inertia about some axis.
-const POINTS: usize = 5;
 
 pub(crate) struct States<'s> {
     ranges: &'s Ranges,
@@ -22,70 +21,6 @@ pub(crate) struct States<'s> {
     draws: Draws,
     is_single: bool,
     count: usize,
-}
-
-/// The bodies that a payload may be: all of the mass is within a radius of the origin of its frame.
-#[derive(Clone, Copy, Debug)]
-pub struct Body {
-    /// The range of the mass, kg.
-    pub mass: [f64; 2],
-    /// The radius, m.
-    pub radius: f64,
-}
-
-impl Default for Body {
-    fn default() -> Body {
-        Body {
-            mass: [0.0, 5.0],
-            radius: 0.3,
-        }
-    }
-}
-
-impl Body {
-    /// Returns the ranges of the ten numbers: mass, centre of mass, and inertia about that as xx,
-    /// yy, zz, xy, yz, xz.
-    pub(crate) fn ranges(self) -> Vec<[f64; 2]> {
-        let Body { mass, radius } = self;
-        let most = mass[1] * radius * radius;
-        let symmetric = |most: f64| [-most, most];
-        [
-            vec![mass],
-            vec![symmetric(radius); 3],
-            vec![[0.0, most]; 3],
-            // |∫ x y dm| ≤ ½ ∫ (x² + y²) dm
-            vec![symmetric(0.5 * most); 3],
-        ]
-        .concat()
-    }
-
-    /// Draws one as points of mass.
-    fn draw(self, draws: &mut Draws) -> Vec<f64> {
-        let Body { mass, radius } = self;
-        let mass = mass[0] + (mass[1] - mass[0]) * draws.share();
-        let mut points = [([0.0; 3], 0.0); POINTS];
-        let mut sum = 0.0;
-        for (at, weight) in &mut points {
-            // In the cube inside the ball, not beyond it.
-            let side = radius / 3f64.sqrt();
-            *at = [(); 3].map(|()| side * (2.0 * draws.share() - 1.0));
-            *weight = draws.share() + 1e-3;
-            sum += *weight;
-        }
-        let mean = |f: &dyn Fn([f64; 3]) -> f64| -> f64 {
-            points
-                .iter()
-                .map(|(at, weight)| f(*at) * weight / sum)
-                .sum()
-        };
-        let com = [0, 1, 2].map(|k| mean(&|at| at[k]));
-        let moment = |i: usize, k: usize| mass * mean(&|at| (at[i] - com[i]) * (at[k] - com[k]));
-        let about = |i: usize, k: usize| moment(i, i) + moment(k, k);
-        let [x, y, z] = com;
-        let inertia = [about(1, 2), about(2, 0), about(0, 1)];
-        let products = [-moment(0, 1), -moment(1, 2), -moment(0, 2)];
-        [vec![mass, x, y, z], inertia.to_vec(), products.to_vec()].concat()
-    }
 }
 
 impl<'s> States<'s> {
@@ -119,7 +54,7 @@ impl<'s> States<'s> {
                 continue;
             };
             state[place] = match Some(place) == payload {
-                true => self.body.draw(&mut self.draws),
+                true => self.body.draw(&mut || self.draws.share()),
                 false => (list.iter().enumerate().map(|(index, range)| match count {
                     0 => 0f64.clamp(range[0], range[1]),
                     1 => 0.5 * (range[0] + range[1]),

@@ -4,7 +4,8 @@
 //! The difference of the two programs is a polynomial in sines, cosines and rates, of which all
 //! that both have in common cancels. Its largest magnitude over the box and what rounding costs add
 //! up. Box and T are not the claim's: the box is the scene's or the limits of the joints, T the
-//! actuators' limit, or what the exact program reaches at a state of the box.
+//! actuators' limit, or what the exact program reaches at a state of the box; there a payload that is an
+//! argument has the largest mass, all of it in a point that the claim names.
 
 use crate::claim::Tolerated;
 use crate::derivatives::Derivatives;
@@ -12,10 +13,11 @@ use crate::fault::Fault;
 use crate::identity::exact::Exact;
 use crate::identity::setting::Setting;
 use crate::identity::table::{Field, Function};
-use crate::interval::FARTHEST;
+use crate::interval::{FARTHEST, Interval};
+use crate::load::{Body, LOAD, load_of_point};
 use crate::maximum::{self, length};
 use crate::polynomial::SLACK;
-use crate::program::{ARGUMENTS, Operand, Program};
+use crate::program::{ARGUMENTS, Operand, Program, argument};
 use crate::read;
 use crate::ring::Ring;
 use crate::rounding::{Ranges, Rounding};
@@ -74,6 +76,8 @@ pub(crate) struct Subject<'s> {
     pub(crate) exact: &'s Program<Exact>,
     pub(crate) emitted: &'s Program<Exact>,
     pub(crate) read: &'s read::Function,
+    /// The function that makes a load, where this one takes it.
+    pub(crate) load: Option<&'s Program<Exact>>,
     pub(crate) is_single: bool,
     pub(crate) own: &'s Tolerated,
     /// The tolerance of each joint, relative to T.
@@ -94,13 +98,15 @@ impl Subject<'_> {
         let fields = self.results();
         unless(fields.len() == count, "results that are not the function's")?;
         let places = &self.function.arguments;
-        let ranges = &self.setting.state_box(places, self.is_single)?;
+        let (ranges, load) = (self.setting).loaded_box(places, self.is_single, self.load)?;
+        let ranges = &ranges;
         let work = self.work;
         let evaluated = (self.exact.steps.len() + count) * count;
         work.spend(evaluated, INTERVALS)?;
         let scales = self.scales(&fields, ranges)?;
         let ring = Ring::new(self.setting, ranges, work)?;
-        let rounding = Rounding::new(self.read, self.is_single, ranges);
+        let mut rounding = Rounding::new(self.read, self.is_single, ranges);
+        rounding.load = load;
         let errors = |joint, is_sine| rounding.polynomial(joint, is_sine);
         let emitted = Written::new(self.emitted, &ring, Some(&errors), work)?;
         let exact = Written::new(self.exact, &ring, None, work)?;
@@ -239,24 +245,35 @@ impl Subject<'_> {
         own.ok_or_else(|| Fault::Claim(why.into()))
     }
 
-    /// Returns what the exact program reaches at the claim's state of each result.
+    /// Returns what the exact program reaches at the claim's state of each result: positions, rates, and
+    /// the point where a payload is.
     fn reached(&self, ranges: &Ranges) -> Result<Vec<f64>, Fault> {
         let (states, count) = (&self.own.reached, self.setting.joints());
+        let of_robot = |why| Fault::Robot("limits".into(), why);
+        let Body { mass, radius } = self.setting.body().map_err(of_robot)?.unwrap_or_default();
         let places = &self.function.arguments;
         let wrong = "`reached`: expected a state of the box for each result";
         unless(states.len() == self.exact.outputs.len(), wrong)?;
+        let places: Vec<usize> = places.iter().copied().filter(|own| *own < 3).collect();
         let least = |(result, state): (usize, &Vec<f64>)| {
-            let mut given = vec![Vec::new(); 3];
+            let mut given = vec![Vec::new(); ARGUMENTS.len()];
+            let (state, point) = state.split_at(state.len().min(count * places.len()));
+            let mut is_inside = state.len() == count * places.len();
             for (place, list) in places.iter().zip(state.chunks(count.max(1))) {
-                given[*place] = list.to_vec();
+                let mut pairs = list.iter().zip(&ranges[*place]);
+                is_inside &= pairs.all(|(at, own)| is_within(*at, *own));
+                given[*place] = list.iter().copied().map(Interval::point).collect();
             }
-            let is_whole = state.len() == count * places.len();
-            let mut pairs = given
-                .iter()
-                .zip(ranges)
-                .flat_map(|(at, own)| at.iter().zip(own));
-            let is_inside = pairs.all(|(at, own)| is_within(*at, *own));
-            unless(is_whole && is_inside, wrong)?;
+            match (self.load, <[f64; 3]>::try_from(point)) {
+                (None, _) => is_inside &= point.is_empty(),
+                (Some(_), Err(_)) => is_inside = false,
+                (Some(load), Ok(point)) => {
+                    is_inside &= point.iter().map(|x| x * x).sum::<f64>().sqrt() <= radius;
+                    let load = load_of_point(load, mass[1], point)?;
+                    given[argument(LOAD).unwrap_or_default()] = load;
+                }
+            }
+            unless(is_inside, wrong)?;
             let values = at(self.exact, &given).unwrap_or_default();
             let found = values.get(result);
             let found = found.ok_or_else(|| Fault::Claim(wrong.into()))?;
@@ -270,8 +287,11 @@ impl Setting<'_> {
     /// Returns the box: ranges of q, q̇ and q̈, of zero where they are no argument. Refuses a joint
     /// that the file does not limit.
     pub(crate) fn state_box(&self, places: &[usize], is_single: bool) -> Result<Ranges, Fault> {
-        let is_bounded = places.iter().all(|place| *place < 3);
-        unless(is_bounded, "an argument that no box bounds")?;
+        let is_bounded = |place: &usize| *place < 3 || Some(*place) == argument(LOAD);
+        unless(
+            places.iter().all(is_bounded),
+            "an argument that no box bounds",
+        )?;
         let of_robot = |why: String| Fault::Robot("limits".into(), why);
         let mut all: Ranges = vec![Vec::new(); ARGUMENTS.len()];
         for place in 0..3 {

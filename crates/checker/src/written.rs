@@ -11,15 +11,15 @@ use crate::work::Work;
 /// The most terms that are alive at once: 32 bytes each.
 const MOST_ALIVE: usize = 1 << 23;
 
-pub(crate) fn at(program: &Program<Exact>, given: &[Vec<f64>]) -> Option<Vec<Interval>> {
+pub(crate) fn at(program: &Program<Exact>, given: &[Vec<Interval>]) -> Option<Vec<Interval>> {
     let leaf = |own: &Operand<Exact>| match own {
         Operand::Constant(constant) => {
             let [value, radius] = constant.double()?;
             Some(Interval::around(value, radius))
         }
-        Operand::Entry(place, joint) => Some(Interval::point(*given.get(*place)?.get(*joint)?)),
+        Operand::Entry(place, index) => given.get(*place)?.get(*index).copied(),
         Operand::Sine(joint, is_sine) => {
-            let angle = Interval::point(*given.first()?.get(*joint)?);
+            let angle = given.first()?.get(*joint)?;
             Some(angle.sine(*is_sine))
         }
         _ => None,

@@ -2,7 +2,7 @@
 
 use dalembert_checker::identity::number::Draws;
 use dalembert_checker::interval::{Interval, SINE_ERROR, sin_cos};
-use dalembert_checker::polynomial::{Polynomial, Variable, exponent};
+use dalembert_checker::polynomial::{Key, Polynomial, Variable, exponent};
 use dalembert_checker::work::Work;
 use num_rational::BigRational;
 
@@ -74,7 +74,7 @@ fn products_of_polynomials_are_within_their_rest() {
         let product = one.times(&other, &Work::default()).unwrap();
         let (c, v) = (exact(six[4] % 1.0), exact(six[5] % 1.0));
         let at = |p: &Polynomial| {
-            let term = |&(key, coefficient): &(u128, f64)| {
+            let term = |&(key, coefficient): &(Key, f64)| {
                 let power = |variable, joint| exponent(key, variable, joint) as usize;
                 let c = num_traits::pow(c.clone(), power(Variable::Cos, 0));
                 let v = num_traits::pow(v.clone(), power(Variable::Velocity, 1));
@@ -101,13 +101,37 @@ fn the_square_of_a_sine_is_one_less_that_of_the_cosine() {
 
 #[test]
 fn powers_that_there_is_no_room_for_are_refused() {
-    let rate = Polynomial::variable(Variable::Acceleration, 8, 1.0);
-    assert!(rate.times(&rate, &Work::default()).is_err());
-    let mut power = Polynomial::variable(Variable::Cos, 8, 1.0);
+    let mut power = Polynomial::variable(Variable::Cos, 21, 1.0);
     let cos = power.clone();
     let mut steps = 1;
     while let Ok(next) = power.times(&cos, &Work::default()) {
         (power, steps) = (next, steps + 1);
     }
     assert_eq!(steps, 7);
+}
+
+#[test]
+fn products_of_two_accelerations_loads_or_errors_count_with_their_magnitudes() {
+    let work = &Work::default();
+    let ones = [
+        Variable::Acceleration,
+        Variable::EvenError,
+        Variable::OddError,
+        Variable::Load,
+    ];
+    let variable = |own, index| Polynomial::variable(own, index, 0.5);
+    for own in ones {
+        for other in ones {
+            let are_errors = [own, other].map(|own| format!("{own:?}").ends_with("Error"));
+            let is_left_out = own == other || are_errors == [true; 2];
+            let product = variable(own, 21).times(&variable(other, 3), work).unwrap();
+            assert_eq!(product.terms.is_empty(), is_left_out, "{own:?} {other:?}");
+            assert_eq!(product.rest >= 0.25, is_left_out, "{own:?} {other:?}");
+            for (key, _) in &product.terms {
+                let powers = [exponent(*key, own, 21), exponent(*key, other, 3)];
+                assert_eq!(powers, [1, 1], "{own:?} {other:?}");
+                assert_eq!(exponent(*key, own, 20) + exponent(*key, other, 2), 0);
+            }
+        }
+    }
 }

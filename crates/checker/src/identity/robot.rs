@@ -23,6 +23,8 @@ pub struct File {
     pub(super) payload_frame: Option<Placement>,
     pub(super) tool: Option<Placement>,
     #[serde(default)]
+    pub(super) limits: PayloadLimits,
+    #[serde(default)]
     pub(super) frame: Vec<NamedFrame>,
     #[serde(default)]
     pub(super) scene: BTreeMap<String, Scene>,
@@ -87,6 +89,21 @@ pub(super) struct Bounds {
     pub(super) position: Option<Vec<[String; 2]>>,
     pub(super) velocity: Option<Vec<String>>,
     pub(super) acceleration: Option<Vec<String>>,
+    pub(super) payload: Option<Payloads>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct PayloadLimits {
+    pub(super) payload: Option<Payloads>,
+}
+
+/// The payloads that there may be.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Payloads {
+    pub(super) mass: [String; 2],
+    pub(super) radius: String,
 }
 
 #[derive(Clone, Default, Deserialize)]
@@ -170,6 +187,7 @@ impl File {
     pub fn in_scenes_of(mut self, other: File, scene: Option<&str>) -> File {
         self.moved = scene.and_then(|name| self.scene.remove(name)?.payload);
         self.scene = other.scene;
+        self.limits = other.limits;
         for (own, other) in self.joint.iter_mut().zip(other.joint) {
             own.limits = other.limits;
         }

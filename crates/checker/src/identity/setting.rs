@@ -8,11 +8,14 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::exact::{Angle, Exact, number};
 use super::robot::{File, OneOrEach, Row, Scene, number_of};
+use crate::load::Body;
 use crate::program::{ARGUMENTS, Operand};
 
 const MOST_JOINTS: usize = 64;
 /// The most turns of a joint that follows, for one of its leader's.
 const MOST_TURNS: i64 = 16;
+/// Neither masses nor lengths are so large.
+const MOST_PAYLOAD: f64 = 1e9;
 
 /// A robot in a scene, or by itself.
 pub struct Setting<'f> {
@@ -200,6 +203,26 @@ impl Setting<'_> {
         };
         let all = (0..self.joints()).map(range);
         Ok(Some(all.collect::<Result<_, String>>()?))
+    }
+
+    /// Returns the bodies that a payload may be: those of the scene's box, else of the robot's limits.
+    ///
+    /// # Errors
+    /// A range that is empty, or not a range.
+    pub fn body(&self) -> Result<Option<Body>, String> {
+        let own = self.scene.r#box.payload.as_ref();
+        let Some(own) = own.or(self.file.limits.payload.as_ref()) else {
+            return Ok(None);
+        };
+        let read = |text: &String| number(text)?.to_f64();
+        let read = |[low, high]: &[String; 2], radius| {
+            let (mass, radius) = ([read(low)?, read(high)?], read(radius)?);
+            let is_range = 0.0 <= mass[0] && mass[0] <= mass[1] && 0.0 <= radius;
+            (is_range && mass[1].max(radius) <= MOST_PAYLOAD).then_some(Body { mass, radius })
+        };
+        let why = "`payload`: expected `mass = [low, high]`, kg, and `radius`, m";
+        let body = read(&own.mass, &own.radius).ok_or(why)?;
+        Ok(Some(body))
     }
 
     fn positions(&self, joint: usize, rate: f64) -> Option<[f64; 2]> {

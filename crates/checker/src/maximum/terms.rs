@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::corners::{Factor, MOST_VELOCITIES};
-use crate::polynomial::{ANGLES, Key as Powers, Polynomial, Variable, exponent};
+use crate::polynomial::{Key as Powers, MAX_LOADS, Polynomial, Variable, exponent};
 use crate::ring::Ring;
 
 /// The number of a group in the lowest bits, then for each angle its multiple and whether it is a
@@ -17,8 +17,6 @@ const MOST_GROUPS: usize = 1 << GROUP;
 /// count with their magnitudes.
 const NEGLIGIBLE: f64 = 1e-8;
 const NEGLIGIBLE_OF_WANTED: f64 = 1e-3;
-/// A bit that no monomial has.
-const RADIUS: Powers = 1 << 127;
 
 fn shift(joint: usize) -> usize {
     GROUP + WIDTH * joint
@@ -94,15 +92,15 @@ impl Terms {
                     parts = parts.iter().flat_map(spread).collect();
                 }
             }
-            let group = key & !ANGLES;
+            let group = key.without_angles();
             let (middle, radius) = ring.factor(group);
             for (key, value) in parts {
                 mass += value.abs() * (middle.abs() + radius);
                 if middle != 0.0 {
-                    *sums.entry((0, key)).or_default() += value * middle;
+                    *sums.entry((Powers::default(), key)).or_default() += value * middle;
                 }
                 if radius != 0.0 {
-                    *sums.entry((group | RADIUS, key)).or_default() += value * radius;
+                    *sums.entry((group.marked(), key)).or_default() += value * radius;
                 }
             }
         }
@@ -151,7 +149,7 @@ fn factors(groups: &[Powers], ring: &Ring) -> (Vec<Factor>, usize) {
     let joints = ring.angles.len();
     // One or two velocities, with nothing else, that are as large backwards as forwards.
     let product = |group: &Powers| -> Option<Vec<usize>> {
-        let own = group & !RADIUS;
+        let own = group.unmarked();
         let power = |joint: usize| exponent(own, Variable::Velocity, joint);
         let others = [
             Variable::Acceleration,
@@ -159,8 +157,9 @@ fn factors(groups: &[Powers], ring: &Ring) -> (Vec<Factor>, usize) {
             Variable::OddError,
         ];
         let is_bare = |joint: usize| others.iter().all(|other| exponent(own, *other, joint) == 0);
-        let is_product = own != 0
+        let is_product = own != Powers::default()
             && (0..joints).all(|joint| power(joint) <= 1 && is_bare(joint))
+            && (0..MAX_LOADS).all(|entry| exponent(own, Variable::Load, entry) == 0)
             && ring.factor(own).0 == 0.0;
         let list: Vec<usize> = (0..joints).filter(|joint| power(*joint) == 1).collect();
         (is_product && (1..=2).contains(&list.len())).then_some(list)
@@ -177,7 +176,7 @@ fn factors(groups: &[Powers], ring: &Ring) -> (Vec<Factor>, usize) {
         _ => 0,
     };
     let factor = |(group, product): (&Powers, &Option<Vec<usize>>)| match product {
-        _ if *group == 0 => Factor::One,
+        _ if *group == Powers::default() => Factor::One,
         Some(list) if free <= MOST_VELOCITIES => {
             Factor::Place(list.iter().fold(0, |all, joint| all ^ bit(joint)))
         }

@@ -8,7 +8,7 @@ use toml_span::Value;
 
 use super::report::quote;
 use super::table::{Table, locate};
-use super::value::{Context, placement};
+use super::value::{Context, payloads, placement};
 use super::{Reading, guard, joint, link, mimic, scene, suggest, syntax};
 use crate::placed::{Placed, derive};
 use crate::robot::{Convention, Finding, Frame, Joint, Placement, Robot, RobotWarning};
@@ -54,6 +54,8 @@ fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Finding>) {
     const CONVENTION: &str =
         "convention = \"standard\", or \"modified\" (Craig): row i holds its own A_i's alpha and a";
     const GRAVITY: &str = "gravity = [0, 0, -9.81]: the acceleration of gravity in base axes, m/s²";
+    const LIMITS: &str =
+        "limits = { payload = { mass = [0, 2], radius = 0.1 } }; those of motion are joints'";
     const JOINT: &str = "each joint is a [[joint]] table, from the base to the hand";
 
     let name = keys.required(cx, "name", NAME, Context::string);
@@ -63,6 +65,7 @@ fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Finding>) {
     });
     let [base, tool, payload_frame] =
         ["base", "tool", "payload_frame"].map(|key| placement(cx, keys, key));
+    let payload_range = keys.table(cx, "limits", LIMITS, payloads);
     keys.optional(cx, "allow", allow);
     let notes = keys.optional(cx, "notes", notes);
     keys.get("outputs");
@@ -89,6 +92,7 @@ fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Finding>) {
         base,
         tool,
         payload_frame,
+        payload_range,
         joints: read.iter().map(|read| read.joint.clone()).collect(),
         followers: Vec::new(),
         frames: Vec::new(),

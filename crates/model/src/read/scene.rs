@@ -10,7 +10,7 @@ use toml_span::Value;
 use super::link;
 use super::report::quote;
 use super::table::{Table, locate};
-use super::value::{Context, bytes_of};
+use super::value::{Context, bytes_of, payloads};
 use crate::robot::{Follower, Joint, JointKind, Position, Robot};
 use crate::scene::{Float, MotionBox, Payload, Scale, Scene, Tolerance};
 
@@ -172,6 +172,7 @@ fn bounds(cx: &mut Context, robot: &Robot, keys: &mut Table) -> Option<MotionBox
             acceleration: each(cx, keys, "acceleration", |cx, joint, value| {
                 cx.rate(value, kind(robot, joint), "rad/s²")
             }),
+            payload: payloads(cx, keys),
         })
     })
 }

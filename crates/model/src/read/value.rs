@@ -17,7 +17,7 @@ use super::{RobotWarning, foreign, suggest};
 use crate::number::parse::{parse_decimal, parse_fraction};
 use crate::number::{Angle, Rational, Snapped};
 use crate::outputs::Function;
-use crate::robot::{Inertia, JointKind, Placement, Position, values};
+use crate::robot::{Inertia, JointKind, PayloadRange, Placement, Position, values};
 
 pub(super) struct Context {
     pub(super) sink: Sink,
@@ -43,6 +43,21 @@ pub(super) fn placement(
     let help = format!("{key} = {{ xyz = [0, 0, 0.1], rpy = [0, \"pi/2\", 0] }}");
     let placement = keys.table(cx, key, &help, Context::placement);
     placement.and_then(Placement::unless_identity)
+}
+
+/// Reads the payloads that there may be.
+pub(super) fn payloads(cx: &mut Context, keys: &mut Table) -> Option<PayloadRange> {
+    const HELP: &str = "payload = { mass = [0, 2], radius = 0.1 }: kg, and m around its frame";
+    keys.table(cx, "payload", HELP, |cx, keys| {
+        let mass = keys.required(cx, "mass", HELP, |cx, value| {
+            cx.array(value, HELP, Context::number)
+        });
+        let radius = keys.required(cx, "radius", HELP, Context::number);
+        Some(PayloadRange {
+            mass: mass?,
+            radius: radius?,
+        })
+    })
 }
 
 impl Context {

@@ -97,6 +97,8 @@ pub struct Robot {
     /// The frame that payloads are given in, those of scenes and those at run time, in the last
     /// frame, unless it is that frame. Of an arm by placements it is the last link's own.
     pub payload_frame: Option<Placement>,
+    /// The payloads that there may be, where a payload is an argument.
+    pub payload_range: Option<PayloadRange>,
     /// The joints from the base to the hand; 1 to [`Robot::MAX_JOINTS`]. Each is a row of the
     /// table and a coordinate; rows between them may be followers.
     pub joints: Vec<Joint>,
@@ -183,6 +185,35 @@ impl Robot {
             Some(name) => format!("joint {} ({name})", index + 1),
             None => format!("joint {}", index + 1),
         }
+    }
+}
+
+/// The bodies that a payload may be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PayloadRange {
+    /// The lowest and the highest mass, kg.
+    pub mass: [Rational; 2],
+    /// All of the mass is so near to the origin of the payload's frame, m.
+    pub radius: Rational,
+}
+
+impl PayloadRange {
+    const MOST: i64 = 1_000_000_000;
+
+    /// Returns an error about it, and help, if it is not a range.
+    pub(crate) fn error(&self) -> Option<(&'static str, &'static str)> {
+        let [low, high] = &self.mass;
+        if low.is_negative() || low > high {
+            let help = "write mass = [lowest, highest], kg, neither below 0";
+            return Some(("the range of its mass is empty or negative", help));
+        }
+        let most = Rational::from_integer(PayloadRange::MOST.into());
+        if self.radius.is_negative() || self.radius > most || *high > most {
+            let help =
+                "the distance within which all of it is, m; neither that nor a mass is above 1e9";
+            return Some(("its radius is negative, or a number is too large", help));
+        }
+        None
     }
 }
 

@@ -14,8 +14,8 @@ use num_traits::{Signed, Zero};
 use super::body::Defect;
 use super::findings::{Finding, Findings, of_joint};
 use super::{
-    Convention, Joint, JointKind, Limit, Placement, Position, Robot, RobotWarning, reach, units,
-    values,
+    Convention, Joint, JointKind, Limit, PayloadRange, Placement, Position, Robot, RobotWarning,
+    reach, units, values,
 };
 use crate::number::parse::in_range;
 use crate::number::{Angle, Rational, Rounded};
@@ -94,6 +94,9 @@ impl Robot {
             }
         }
         findings.frames(self);
+        if let Some((message, help)) = self.payload_range.as_ref().and_then(PayloadRange::error) {
+            findings.error("limits/payload", message, help);
+        }
         if self
             .notes
             .iter()

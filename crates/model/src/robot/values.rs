@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use core::fmt::Write;
 
 use super::units::turns_text;
-use super::{Placement, Position};
+use super::{PayloadRange, Placement, Position};
 use crate::number::parse::write_decimal;
 use crate::number::{Angle, Rational};
 
@@ -46,6 +46,12 @@ pub fn numbers<'v>(values: impl IntoIterator<Item = &'v Rational>) -> String {
 /// Returns an array of the ends of a range.
 pub fn range(ends: &[Position; 2]) -> String {
     list(ends.each_ref().map(position))
+}
+
+/// Returns a table of `mass` and `radius`.
+pub fn payloads(range: &PayloadRange) -> Option<String> {
+    let radius = Some(number(&range.radius));
+    table([("mass", Some(numbers(&range.mass))), ("radius", radius)])
 }
 
 /// Returns a table of `xyz` and `rpy`.

@@ -8,8 +8,8 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::values::{
-    angle, lines, list, number, numbers, placement, position, quoted, range, short_hash, table,
-    texts, unless_zero, word,
+    angle, lines, list, number, numbers, payloads, placement, position, quoted, range, short_hash,
+    table, texts, unless_zero, word,
 };
 use super::{Convention, Joint, JointKind, Placement, Robot};
 
@@ -30,6 +30,8 @@ pub fn write(robot: &Robot) -> String {
     let placements = robot.placements();
     let placements = placements.map(|(key, value)| (key, value.map(placement)));
     lines(&mut text, head.into_iter().chain(placements));
+    let limits = table([("payload", robot.payload_range.as_ref().and_then(payloads))]);
+    lines(&mut text, [("limits", limits)]);
     lines(&mut text, [("notes", texts(&robot.notes))]);
     for (row, joint) in robot.rows().into_iter().enumerate() {
         text.push_str("\n[[joint]]\n");

@@ -23,6 +23,9 @@ impl Scene {
         if let (Some(payload), Some(last)) = (payload, robot.last_row_mut()) {
             carry(last, &payload);
         }
+        if let Some(range) = &self.bounds.payload {
+            robot.payload_range = Some(range.clone());
+        }
         for (i, joint) in robot.joints.iter_mut().enumerate() {
             let (limits, bounds) = (&mut joint.limits, &self.bounds);
             bound(&mut limits.position, &bounds.position, i);

@@ -15,7 +15,7 @@ use alloc::vec::Vec;
 use crate::number::Rational;
 use crate::outputs::Function;
 use crate::robot::values::word;
-use crate::robot::{Limit, Position};
+use crate::robot::{Limit, PayloadRange, Position};
 
 pub use crate::placed::Body as Payload;
 pub use write::write;
@@ -49,7 +49,7 @@ pub struct Scene {
     pub scalar: Option<Float>,
 }
 
-/// Ranges of motion, an entry a joint; what is missing is the robot's limit.
+/// Ranges of motion, an entry a joint, and of the payload; what is missing is the robot's limit.
 ///
 /// A range of positions that the joint can never take is an error; one that
 /// goes beyond the robot's limits is taken as it stands, with a warning: it is
@@ -62,6 +62,8 @@ pub struct MotionBox {
     pub velocity: Option<Vec<Rational>>,
     /// Largest |q̈|.
     pub acceleration: Option<Vec<Rational>>,
+    /// The payloads, where a payload is an argument.
+    pub payload: Option<PayloadRange>,
 }
 
 impl MotionBox {

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use num_traits::Signed;
 
 use super::Check;
-use crate::robot::{Limit, Position, RobotWarning, shown};
+use crate::robot::{Limit, PayloadRange, Position, RobotWarning, shown};
 
 const BEYOND: &str = "bounds hold over the whole range; taken as it stands";
 
@@ -30,6 +30,9 @@ impl Check<'_> {
         }
         self.rates(Limit::Velocity);
         self.rates(Limit::Acceleration);
+        if let Some((message, help)) = bounds.payload.as_ref().and_then(PayloadRange::error) {
+            self.error("box/payload", message, help);
+        }
     }
 
     fn positions(&mut self, index: usize, [low, high]: &[Position; 2]) {
