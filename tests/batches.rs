@@ -198,31 +198,21 @@ fn bundles_of_many_states() {
     }
 }
 
-#[test]
-fn sines_of_all_angles_together() {
-    check_arm!(together, together_f32);
+macro_rules! tests {
+    ($($name:ident: $check:ident $module:ident $single:ident;)*) => {$(
+        #[test]
+        fn $name() {
+            $check!($module, $single);
+        }
+    )*};
 }
-
-#[test]
-fn sines_of_libm() {
-    check_arm!(alone, alone_f32);
-}
-
-/// A product and its sum in one rounding, also where the processor has no
-/// instruction for both.
-#[test]
-fn fused_products() {
-    check_arm!(fused, fused_f32);
-}
-
-#[test]
-fn sines_by_polynomials() {
-    check_arm!(polynomial, polynomial_f32);
-}
-
-#[test]
-fn a_whole_arm() {
-    check_dynamics!(puma560, puma560_f32);
+// Products are fused also where the processor has no instruction for both.
+tests! {
+    sines_of_all_angles_together: check_arm together together_f32;
+    sines_of_libm: check_arm alone alone_f32;
+    fused_products: check_arm fused fused_f32;
+    sines_by_polynomials: check_arm polynomial polynomial_f32;
+    a_whole_arm: check_dynamics puma560 puma560_f32;
 }
 
 #[test]

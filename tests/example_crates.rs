@@ -4,8 +4,7 @@
 use std::path::Path;
 use std::process::Command;
 
-/// No std, no allocator, `panic = "abort"`, f32; its entry is that of the C
-/// library on Linux.
+/// No std, no allocator, `panic = "abort"`, f32; its entry is that of the C library on Linux.
 #[cfg(target_os = "linux")]
 #[test]
 fn bare_metal() {

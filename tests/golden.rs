@@ -25,9 +25,8 @@ macro_rules! run {
     ($module:ident, $float:ty) => {
         |motion| {
             use dalembert_generated::$module as arm;
-            let [q, qd, qdd]: [[$float; arm::N]; 3] = motion
-                .each_ref()
-                .map(|x| std::array::from_fn(|i| x[i] as $float));
+            let own = |x: &Vec<f64>| std::array::from_fn(|i| x[i] as $float);
+            let [q, qd, qdd]: [[$float; arm::N]; 3] = motion.each_ref().map(own);
             let vector = |x: [$float; arm::N]| x.map(f64::from).to_vec();
             let matrix = |x: [[$float; arm::N]; arm::N]| x.map(vector).concat();
             let both = arm::manipulator_equation(&q, &qd);
@@ -91,10 +90,8 @@ fn close(a: &[f64], b: &[f64], bound: f64, what: &str) {
     assert_eq!(a.len(), b.len(), "{what}");
     let error = largest(a.iter().zip(b).map(|(a, b)| a - b));
     let size = largest(b.iter().copied());
-    assert!(
-        error <= bound * size && a.iter().all(|x| x.is_finite()),
-        "{what}: error {error:e} of {size:e}"
-    );
+    let is_close = error <= bound * size && a.iter().all(|x| x.is_finite());
+    assert!(is_close, "{what}: error {error:e} of {size:e}");
 }
 
 #[test]
@@ -118,10 +115,8 @@ fn six_robots_against_the_files() {
 fn by_symbols(symbols: &[f64], qd: &[f64]) -> Vec<f64> {
     let n = qd.len();
     let row = |i: usize| {
-        let pairs = (0..n * n).map(|km| (km / n, km % n));
-        pairs
-            .map(|(k, m)| symbols[(i * n + k) * n + m] * qd[k] * qd[m])
-            .sum()
+        let term = |km: usize| symbols[i * n * n + km] * qd[km / n] * qd[km % n];
+        (0..n * n).map(term).sum()
     };
     (0..n).map(row).collect()
 }

@@ -28,10 +28,8 @@ fn table() -> Vec<[Vec<String>; 2]> {
 fn stages() -> Vec<String> {
     let folders = table().into_iter().map(|[folders, _]| folders);
     let stages = folders.filter(|folders| folders[0].starts_with(STAGES));
-    stages
-        .flatten()
-        .map(|name| name.trim_start_matches(STAGES).to_owned())
-        .collect()
+    let short = |name: String| name.trim_start_matches(STAGES).to_owned();
+    stages.flatten().map(short).collect()
 }
 
 /// Adds the text of a file, or of all files in a folder, without comments.
@@ -47,8 +45,7 @@ fn read(path: &Path, text: &mut String) {
     }
     for line in fs::read_to_string(path).unwrap().lines() {
         if !line.trim_start().starts_with("//") {
-            *text += line;
-            text.push('\n');
+            *text += &format!("{line}\n");
         }
     }
 }

@@ -6,10 +6,9 @@ pub use crate::figures::bound_of;
 pub use crate::function::{Argument, Columns, Quantity, RuntimeParameter, Sizes};
 pub use crate::generate::{
     MAX_OUTPUTS, ToleranceError,
-    claim::claim,
     contradiction::exact as run_exactly,
     generate_anew,
-    keep::keep,
+    keep::{claim, keep},
     search::{Found, replay, search},
     tolerate::admitted,
 };
@@ -57,7 +56,7 @@ pub use crate::verify::{
 pub use crate::watch::{Observer, Part, Progress};
 pub use crate::words::{Word, parse};
 pub use dalembert_checker::read::Text;
-pub use dalembert_stamp::{Comment, is_as_written, sealed};
+pub use dalembert_stamp::{Comment, refusal, sealed, write_whole};
 
 pub mod scale {
     pub use crate::tolerance::scale::{actuator, range};

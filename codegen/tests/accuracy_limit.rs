@@ -96,10 +96,8 @@ fn the_estimate_is_what_is_observed() {
             observed = observed.max(error / ScalarType::F32.unit_roundoff());
         }
         let ratio = estimate / observed;
-        assert!(
-            (0.3..3.0).contains(&ratio),
-            "{name}: estimated {estimate}, observed {observed}"
-        );
+        let what = format!("{name}: estimated {estimate}, observed {observed}");
+        assert!((0.3..3.0).contains(&ratio), "{what}");
     }
 }
 
@@ -118,12 +116,9 @@ fn rotors_of_random_arms_cost_few_digits(seeds: Range<u64>) {
                 start,
                 ..Request::new(&[Function::ForwardDynamics])
             };
-            let program = generate(&robot, &request)
-                .unwrap()
-                .functions
-                .remove(0)
-                .program;
-            Rounding::estimate(&Setup::whole(&robot), &program).worst()
+            let generated = generate(&robot, &request).unwrap();
+            let program = &generated.functions[0].program;
+            Rounding::estimate(&Setup::whole(&robot), program).worst()
         };
         let own = error(Start::Auto);
         let textbook = error(Start::Only(Formulation::NewtonEulerLink));
@@ -158,9 +153,7 @@ fn heavy_rotors_cost_few_digits(cases: &[[&str; 3]]) {
         };
         let [own, textbook] = ["", "; formulation: newton_euler"].map(error);
         let most = 4.0 * textbook.max(4.0);
-        assert!(
-            own <= most,
-            "{name} {output} {armature}: {own} u, not {most}"
-        );
+        let what = format!("{name} {output} {armature}");
+        assert!(own <= most, "{what}: {own} u, not {most}");
     }
 }

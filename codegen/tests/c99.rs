@@ -150,11 +150,8 @@ fn a_payload_is_a_body_and_no_load() {
     let passed = "void f(const planar2r_OTHER_t *other, const double *q, double *c)\n\
         {\n    planar2r_gravity(q, other, c);\n}\n";
     for compiler in there(&["gcc", "clang"]) {
-        run(
-            compiler,
-            "-std=c99 -O2 arm.c -o payload -lm".split(' '),
-            &folder,
-        );
+        let flags = "-std=c99 -O2 arm.c -o payload -lm".split(' ');
+        run(compiler, flags, &folder);
         run(folder.join("payload").to_str().unwrap(), [], &folder);
         for (other, is_taken) in [("load", true), ("payload", false)] {
             let main = passed.replace("OTHER", other);
@@ -205,10 +202,8 @@ fn processors_with_other_digits_are_refused() {
             let output = output.unwrap();
             let said = String::from_utf8_lossy(&output.stderr);
             assert_eq!(output.status.success(), is_taken, "{said}");
-            assert!(
-                is_taken || said.contains("not rounded to their type"),
-                "{said}"
-            );
+            let is_said = said.contains("not rounded to their type");
+            assert!(is_taken || is_said, "{said}");
         }
     }
 }

@@ -214,10 +214,7 @@ fn a_wrong_digit_shows_at_a_state() {
     let reference = Reference::new(&Setup::whole(case.robot()));
     let mut function = case.generated().functions.remove(0);
     assert_eq!(run_exactly(&reference, &function), Ok(()));
-    let tiny = Exact::from(Rational::new(
-        1.into(),
-        num_bigint::BigInt::from(10).pow(40),
-    ));
+    let tiny = Exact::from(Rational::from_integer(10.into()).pow(-40));
     let mut planted = 0;
     for index in 0..function.program.dag.nodes.len() {
         let program = function.program.clone();
@@ -249,10 +246,8 @@ fn every_result_is_known_far_beyond_a_double() {
                 let truth = reference.run(function, &state);
                 let largest = truth.iter().map(TrueValue::magnitude).fold(0.0, f64::max);
                 let lost = truth.iter().map(TrueValue::doubt).fold(0.0, f64::max);
-                assert!(
-                    lost <= 1e-45 * largest,
-                    "{name} {function}: {lost:e} of {largest:e}"
-                );
+                let what = format!("{name} {function}: {lost:e} of {largest:e}");
+                assert!(lost <= 1e-45 * largest, "{what}");
             }
         }
     }

@@ -66,9 +66,8 @@ fn compare(
     for (_, (key, (function, quantity))) in values.filter(|(place, _)| is_compared(*place)) {
         let code = options.map(|options| {
             let text = format!("outputs: {}; scalar: f64; {options}", function.text());
-            &*codes
-                .entry(text.clone())
-                .or_insert_with(|| Case::new(name, "", &text).generated())
+            let generated = || Case::new(name, "", &text).generated();
+            &*codes.entry(text.clone()).or_insert_with(generated)
         });
         let before = function.quantities().iter().take_while(|q| **q != quantity);
         let start: usize = before.map(|q| q.len(sizes)).sum();

@@ -27,10 +27,8 @@ impl Shown {
             base: &self.base,
             load: None,
         };
-        check(
-            statement,
-            &mut Points::new(&[&self.source, &format!("{program:?}")]),
-        )
+        let text = format!("{program:?}");
+        check(statement, &mut Points::new(&[&self.source, &text]))
     }
 }
 

@@ -87,10 +87,8 @@ fn arguments_are_told_apart() {
     }
     let rows = "\"rows\":[1,2]";
     assert!(text.contains(rows));
-    refused(
-        &text.replace(rows, "\"rows\":[1,1,1]"),
-        "more rows than joints",
-    );
+    let more = text.replace(rows, "\"rows\":[1,1,1]");
+    refused(&more, "more rows than joints");
     for (words, said) in [
         ("\"load\", \"load\"", "expected arguments of the function"),
         ("\"load\", \"wind\"", "expected arguments of the function"),
@@ -221,10 +219,8 @@ fn an_early_end_takes_nothing_better_away() {
         let (_, price, own) = prices(Some(of_good.clone()), generated);
         assert_eq!((price, own), (low, 2));
     }
-    let ended = Generated {
-        ended: true,
-        ..good
-    };
+    let mut ended = good;
+    ended.ended = true;
     assert_eq!(prices(Some(of_dear), &ended).1, low);
     let mut other = of_good;
     other.input = String::new();

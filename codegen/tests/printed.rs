@@ -106,9 +106,9 @@ const BRANCHES: [&str; 10] = [
 
 fn functions(text: &str) -> Vec<(&str, Vec<&str>)> {
     let lines: Vec<&str> = text.lines().collect();
+    let is_head = |line: &str| line.starts_with("pub fn ") || line.starts_with("static ");
     let heads = lines.iter().enumerate();
-    let heads =
-        heads.filter(|(_, line)| line.starts_with("pub fn ") || line.starts_with("static "));
+    let heads = heads.filter(|(_, line)| is_head(line));
     let functions = heads.map(|(index, head)| {
         let body = lines[index + 1..].iter().copied();
         (*head, body.take_while(|line| *line != "}").collect())

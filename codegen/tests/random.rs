@@ -135,8 +135,7 @@ fn file(random: &mut Random) -> String {
 /// `FUZZ_TIMES` multiplies the files.
 fn accepted_files_give_proved_code(places: Range<usize>) {
     let times = std::env::var("FUZZ_TIMES").ok();
-    let times: Option<usize> = times.and_then(|times| times.parse().ok());
-    let times = times.unwrap_or(1);
+    let times: usize = times.and_then(|own| own.parse().ok()).unwrap_or(1);
     let runs = places.start * times..places.end * times;
     let mut random = Random::new(31);
     let (mut accepted, mut proved) = (0, 0);

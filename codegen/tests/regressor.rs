@@ -118,9 +118,8 @@ fn headers_have_the_same_parameters(name: &str) {
 fn rank(runtime: &Runtime, setup: &Setup) -> usize {
     let columns = 10 * setup.joints();
     let states = setup.states(columns / setup.rows().len() + 10, 0x72616e6b);
-    let values = states.iter();
-    let values = values.flat_map(|state| runtime.run(Function::FullRegressor, state));
-    let values: Vec<f64> = values.collect();
+    let run = |state| runtime.run(Function::FullRegressor, state);
+    let values: Vec<f64> = states.iter().flat_map(run).collect();
     let length = |column: &[f64]| column.iter().map(|x| x * x).sum::<f64>().sqrt();
     let scaled = |column: usize| {
         let entries = values.iter().skip(column).step_by(columns).copied();
@@ -163,10 +162,8 @@ fn columns_times_parameters_are_the_torques(table: &str) {
                 Some(drives) => rank + drives.parse::<usize>().unwrap(),
                 None => base.parse().unwrap(),
             };
-            assert!(
-                base == rank || !scene.is_empty() || name == "driven",
-                "{what}: {rank}"
-            );
+            let is_rank = base == rank || !scene.is_empty() || name == "driven";
+            assert!(is_rank, "{what}: {rank}");
             let found = generated.functions[0].counts().operations();
             let most = most.next().unwrap_or(usize::MAX);
             assert!(found <= most, "{what}: {found}");
@@ -207,8 +204,7 @@ fn wrong_combinations_are_refused() {
     assert_eq!(printed(TORQUES, &text)[0], values);
 
     let refused = |wrong: &BaseParameters, parameter: Parameter| {
-        let parameter = parameter.to_string();
-        let expected = Err(Disproof::Dependence { parameter });
+        let expected = Err(Disproof::Dependence(parameter.to_string()));
         for (regressor, ..) in [TORQUES, PASSIVITY] {
             assert_eq!(prove_base(setup.task(regressor), wrong), expected);
         }

@@ -207,10 +207,9 @@ fn unfused(line: &str) -> Vec<String> {
     };
     let (right, addend) = rest.strip_suffix(");").unwrap().split_once(", ").unwrap();
     let bare = left.trim_start_matches("(-").trim_end_matches(')');
-    let minus = if left == bare {
-        format!("(-{left})")
-    } else {
-        bare.to_owned()
+    let minus = match left == bare {
+        true => format!("(-{left})"),
+        false => bare.to_owned(),
     };
     let negated = addend.strip_prefix('-').map(str::to_owned);
     let negated = negated.unwrap_or_else(|| format!("-{addend}"));
@@ -248,26 +247,19 @@ fn every_change_of_a_line_is_found() {
     for (case, every) in cases {
         let is_rust = case.request.language == Language::Rust;
         let [of_rust, of_c] = &mut tried;
+        let function = format!("pub fn {}(", case.request.functions[0]);
         let (changes, head, tried) = match is_rust {
-            true => (
-                &in_rust,
-                format!("pub fn {}(", case.request.functions[0]),
-                of_rust,
-            ),
-            false => {
-                let head = " void planar2r_f32_inverse_dynamics(".to_owned();
-                (&in_c, head, of_c)
-            }
+            true => (&in_rust, function.as_str(), of_rust),
+            false => (&in_c, " void planar2r_f32_inverse_dynamics(", of_c),
         };
         let generated = case.generated();
         for (text, scalar) in generated.texts.iter().zip(&generated.scalars) {
-            let start = text.lines().position(|line| line.contains(&head)).unwrap();
+            let start = text.lines().position(|line| line.contains(head)).unwrap();
             let mut own = text.lines().skip(start);
             let length = own.position(|line| line == "}").unwrap();
-            let end = if case.request.batch {
-                usize::MAX
-            } else {
-                start + length
+            let end = match case.request.batch {
+                true => usize::MAX,
+                false => start + length,
             };
             let is_same = |text: &str| passes(&case, &generated, *scalar, text);
             assert!(is_same(text) && length > 15, "{}", case.request.asked());

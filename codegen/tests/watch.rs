@@ -7,8 +7,10 @@ use dalembert_codegen::{Effort, Function, Generated, Watch};
 
 use crate::support::{Case, daily_and_campaign};
 
+type Until = Option<(Part, usize)>;
+
 struct Clerk {
-    until: Option<(Part, usize)>,
+    until: Until,
     seen: Mutex<Vec<Progress>>,
 }
 
@@ -25,11 +27,7 @@ impl Observer for Clerk {
     }
 }
 
-fn watched(
-    mut case: Case,
-    effort: Effort,
-    until: Option<(Part, usize)>,
-) -> (Generated, Vec<Progress>) {
+fn watched(mut case: Case, effort: Effort, until: Until) -> (Generated, Vec<Progress>) {
     let seen = Mutex::default();
     let clerk = Arc::new(Clerk { until, seen });
     (case.request.effort, case.request.watch) = (effort, Watch::new(clerk.clone()));
@@ -81,7 +79,7 @@ daily_and_campaign! {
 }
 
 /// The fewer operations are left, the more often they are edited again: the whole takes a minute.
-fn a_tolerance_is_watched(late: Option<(Part, usize)>) {
+fn a_tolerance_is_watched(late: Until) {
     let hold = "outputs = [\"gravity\"]; tolerance = { value = 0.3, relative_to = \"range\" }";
     let case = || Case::in_scene("planar2r", hold, "gravity; scalar: f64");
     let rounds = |seen: &[Progress]| {

@@ -67,13 +67,8 @@ impl Invocation {
             head = Some(self::head(input, &mut late)?);
             input.parse::<TokenStream>()
         };
-        let rest = match parsed.parse2(input) {
-            Ok(rest) => rest,
-            Err(error) => {
-                errors.0.push(error);
-                return None;
-            }
-        };
+        let rest = parsed.parse2(input).map_err(|error| errors.0.push(error));
+        let rest = rest.ok()?;
         errors.0.extend(late);
         let (attributes, visibility, name, robot) = head?;
         let mut invocation = Invocation {
@@ -106,8 +101,7 @@ impl Invocation {
         self.clauses.iter().find(|clause| clause.key == option)
     }
 
-    /// Returns the word that a message quotes first if it is among the item's tokens, else the
-    /// item.
+    /// Returns the item's token that a message quotes first, else the item.
     #[cfg(feature = "search")]
     pub(crate) fn word(&self, option: &str, item: &str, message: &str) -> TokenStream {
         let place = self.place(option, item);
@@ -211,10 +205,8 @@ impl Invocation {
     fn read_facade(&mut self, key: &Ident, value: TokenStream, errors: &mut Errors) {
         let Ok(path) = Path::parse_mod_style.parse2(value.clone()) else {
             let help = "crate = ::my_library::dalembert;";
-            let at = match value.is_empty() {
-                true => key.to_token_stream(),
-                false => value,
-            };
+            let own = key.to_token_stream();
+            let at = if value.is_empty() { own } else { value };
             errors.say(at, "expected the path of the crate `dalembert`", help);
             return;
         };

@@ -1,10 +1,6 @@
 //! `dynamics!`: takes the generated file beside a robot file into a module, if it is the robot's
 //! and holds what is asked. With the feature `search` the module is generated where there is no
 //! such file.
-//!
-//! - `invocation`: the grammar
-//! - `module`: the module of a file, or why there is none
-//! - `search`: code that is generated while compiling
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::missing_errors_doc)]
 

@@ -70,10 +70,9 @@ fn modules(
 
 fn wanted(invocation: &Invocation) -> Vec<Wanted> {
     let name = &invocation.name;
+    let own = |suffix: &str| named(&format!("{name}{suffix}"), name.span());
     let files = invocation.asked.by_scalar().into_iter();
-    files
-        .map(|(suffix, asked)| (named(&format!("{name}{suffix}"), name.span()), asked))
-        .collect()
+    files.map(|(suffix, asked)| (own(suffix), asked)).collect()
 }
 
 fn robot(
@@ -91,33 +90,24 @@ fn robot(
     match fs::read(&path) {
         Ok(bytes) => Ok((path, String::from_utf8_lossy(&bytes).into_owned())),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            let help = match meant(&path) {
-                Some(meant) => format!("did you mean `{}`?", beside(&shown, &meant)),
-                None => {
-                    "the path is relative to the folder of Cargo.toml or of the file with the macro"
-                        .into()
-                }
-            };
+            let meant = meant(&path).map(|own| format!("did you mean `{}`?", beside(&shown, &own)));
+            let help = meant.unwrap_or_else(|| RELATIVE.to_owned());
             Err((format!("there is no file `{shown}`"), help))
         }
         Err(error) => Err((format!("cannot read `{shown}`: {error}"), String::new())),
     }
 }
 
-/// Returns the robot file in the folder of a path whose name is the longest part of the path's, or
-/// has it as a part.
 fn meant(path: &Path) -> Option<String> {
     let own = path.file_stem()?.to_str()?.to_owned();
     let names = fs::read_dir(path.parent()?).ok()?.filter_map(|entry| {
         let name = entry.ok()?.file_name().into_string().ok()?;
-        name.ends_with(".toml").then_some(name)
-    });
-    let alike = |name: &String| {
         let same = own.chars().zip(name.chars()).take_while(|(a, b)| a == b);
-        same.count() * 2 >= own.len()
-    };
+        let is_alike = same.count() * 2 >= own.len();
+        (is_alike && name.ends_with(".toml")).then_some(name)
+    });
     // The order of a folder differs between machines.
-    names.filter(alike).min()
+    names.min()
 }
 
 fn beside(shown: &str, file: &str) -> String {
@@ -126,6 +116,9 @@ fn beside(shown: &str, file: &str) -> String {
         None => file.to_owned(),
     }
 }
+
+const RELATIVE: &str =
+    "the path is relative to the folder of Cargo.toml or of the file with the macro";
 
 /// Returns an item that makes an edit of a file expand the macro again; none where there is no file.
 fn watched(path: &Path) -> TokenStream {
@@ -210,11 +203,8 @@ fn generated(
         // Who asks for something else may have no use for the file.
         if matches!(stale, Stale::Robot | Stale::Text | Stale::Version(_)) {
             let file = shown_file(&shown, file);
-            let force = if let Stale::Text = stale {
-                " --force"
-            } else {
-                ""
-            };
+            let is_text = *stale == Stale::Text;
+            let force = if is_text { " --force" } else { "" };
             eprintln!(
                 "note: {}: the module is generated while compiling; `dalembert renew {file}{force}` makes the file new",
                 stale.message(&file, &shown)
@@ -223,12 +213,11 @@ fn generated(
     }
     let (texts, mut warnings) = crate::search::texts(invocation, robot, errors);
     let pairs = wanted.iter().zip(&texts);
-    pairs
-        .map(|((name, _), text)| {
-            let warnings = std::mem::take(&mut warnings);
-            module(invocation, name, text, warnings, errors)
-        })
-        .collect()
+    let modules = pairs.map(|((name, _), text)| {
+        let warnings = std::mem::take(&mut warnings);
+        module(invocation, name, text, warnings, errors)
+    });
+    modules.collect()
 }
 
 #[cfg(not(feature = "search"))]
@@ -260,21 +249,21 @@ fn generated(
     for (file, stale) in refused {
         let own = shown_file(&shown, file);
         let renew = format!("dalembert renew {own}");
+        let robot = invocation.robot.to_token_stream();
         let (at, help) = match stale {
             Stale::Option(option, _) => (invocation.place(option, ""), generate()),
             Stale::Outputs(missing) if outputs => {
                 let first = missing.first().map_or("", String::as_str);
                 (invocation.place("outputs", first), generate())
             }
-            Stale::Foreign => (invocation.robot.to_token_stream(), generate() + " --force"),
+            Stale::Foreign => (robot, generate() + " --force"),
             Stale::Missing => {
                 let search = "or let the compiler generate it, in minutes: cargo add dalembert \
                               --features search";
-                let help = format!("{}\n  = help: {search}", generate());
-                (invocation.robot.to_token_stream(), help)
+                (robot, format!("{}\n  = help: {search}", generate()))
             }
-            Stale::Text => (invocation.robot.to_token_stream(), renew + " --force"),
-            _ => (invocation.robot.to_token_stream(), renew),
+            Stale::Text => (robot, renew + " --force"),
+            _ => (robot, renew),
         };
         errors.say(at, &stale.message(&own, &shown), &help);
         match stale {

@@ -2,7 +2,7 @@
 //! and antiparallel axes, slides between them, both conventions, seen in every
 //! choice of axes, against Lagrange–Euler in the prime field.
 
-use crate::equations_support::known::Known;
+use crate::equations_slips::Known;
 use crate::equations_support::random::{self, CONVENTIONS, known};
 use dalembert_model::equations::chain::composite::{Composite, CompositeOrder};
 use dalembert_model::equations::chain::recursion::{AccelerationForm, MomentForm};

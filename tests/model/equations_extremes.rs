@@ -1,9 +1,11 @@
+//! Every formulation in f64 against τ, D, h and c of an independent library.
+//!
 //! The extreme cases: speeds, sizes, mass ratios, far bases, huge angles, long snakes; the
 //! generic runtime within ulps, the wide float against the 30 digits.
 
-use crate::equations_support::golden::{self, by_runtime, check, extreme, list, numbers};
+use crate::equations_support::golden::{self, by_runtime, check, extreme, list, numbers, read};
 use crate::equations_support::{placed, sincos};
-use crate::support::vector;
+use crate::support::{ROBOTS, generated, reading, vector};
 use dalembert_model::equations::{Arm, Formulation, SinCosPair};
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Rational, Wide};
@@ -156,5 +158,39 @@ fn the_runtime_in_f32_stays_within_100_u() {
         let truth = recursion.inverse_dynamics(&truth, &at, &big(&qd), &big(&qdd));
         let error = relative(&big(&tau), &truth) / u;
         assert!(error <= 100.0, "{}: {error} u", case["id"]);
+    }
+}
+
+#[test]
+fn formulations_give_the_golden_states() {
+    for name in ROBOTS {
+        let (arm, states) = read(name);
+        for state in &states {
+            let [q, qd, qdd] = ["q", "qd", "qdd"].map(|key| numbers(&state[key]));
+            let at = placed(&arm, &q, |x| x, sincos);
+            for formulation in Formulation::ALL {
+                let found = [
+                    ("tau", formulation.inverse_dynamics(&arm, &at, &qd, &qdd)),
+                    ("D", formulation.inertia(&arm, &at).concat()),
+                    ("h", formulation.velocity_terms(&arm, &at, &qd)),
+                    ("c", formulation.gravity(&arm, &at)),
+                ];
+                check(&found, state, 1e-12, &format!("{name} {formulation:?}"));
+            }
+        }
+    }
+}
+
+#[test]
+fn runtimes_give_the_golden_states() {
+    for name in ROBOTS {
+        let (arm, states) = read(name);
+        let robot = reading(&generated(name)).robot;
+        for runtime in [Reference::new(arm), Reference::from_robot(&robot)] {
+            for state in &states {
+                let found = by_runtime(&runtime, state);
+                check(&found, state, 100.0 * f64::EPSILON / 2.0, name);
+            }
+        }
     }
 }

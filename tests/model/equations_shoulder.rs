@@ -1,7 +1,7 @@
 //! Forward dynamics of arms whose first axes meet: the torques of what is found are
 //! those that were given, in the prime field.
 
-use crate::equations_support::known::Known;
+use crate::equations_slips::Known;
 use crate::equations_support::random::{self, known};
 use dalembert_model::equations::chain::composite::Composite;
 use dalembert_model::equations::chain::{

@@ -5,7 +5,6 @@
 mod equations_axes;
 mod equations_counts;
 mod equations_extremes;
-mod equations_golden;
 mod equations_identities;
 mod equations_shoulder;
 mod equations_slips;

@@ -185,14 +185,10 @@ fn regressors_give_the_torques() {
     }
 }
 
-fn products(
-    arm: &Arm<Field>,
-    y: &[Vec<Field>],
-    [rates, accelerations]: [&[Field]; 2],
-) -> Vec<Field> {
+fn products(arm: &Arm<Field>, y: &[Vec<Field>], [qd, qdd]: [&[Field]; 2]) -> Vec<Field> {
     let pi = arm.parameters();
     let sum = |(i, row): (usize, &Vec<Field>)| {
-        let drive = drive(&arm.links[i], &rates[i], &accelerations[i]);
+        let drive = drive(&arm.links[i], &qd[i], &qdd[i]);
         dot(row, &pi).add(&drive)
     };
     y.iter().enumerate().map(sum).collect()

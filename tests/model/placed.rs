@@ -14,10 +14,9 @@ fn the_same_arm_is_the_same_robot() {
     ] {
         let (mut placed, rows) = (reading(&data(placed)).robot, reading(&rows).robot);
         // Poses of links are of the frames that the file has, which no torque depends on.
-        placed
-            .joints
-            .iter_mut()
-            .for_each(|joint| joint.frame = None);
+        for joint in &mut placed.joints {
+            joint.frame = None;
+        }
         assert_eq!(placed, rows);
         assert_eq!(placed.short_hash(), rows.short_hash());
     }
@@ -80,9 +79,8 @@ fn tilted(radians: &str, about: usize) -> Robot {
 fn nearly_parallel_axes_stay_near() {
     let largest = |robot: &Robot| {
         let lengths = robot.joints.iter().flat_map(|joint| [&joint.a, &joint.d]);
-        lengths
-            .map(|x| f64::nearest_rational(x).abs())
-            .fold(0.0, f64::max)
+        let sizes = lengths.map(|x| f64::nearest_rational(x).abs());
+        sizes.fold(0.0, f64::max)
     };
     for radians in "1e-2 1e-3 1e-4 1e-8 1e-16 1e-30 -1e-3 -1e-12".split(' ') {
         for about in [0, 1] {

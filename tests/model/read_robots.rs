@@ -29,9 +29,8 @@ fn notes() {
     for name in ROBOTS {
         let text = generated(name);
         assert_eq!(reading(&text).notes, [], "{name}");
-        let loud = text
-            .lines()
-            .map(|line| if line.starts_with("allow") { "" } else { line });
+        let lines = text.lines();
+        let loud = lines.map(|line| if line.starts_with("allow") { "" } else { line });
         let loud: Vec<&str> = loud.collect();
         let reading = reading(&loud.join("\n"));
         for note in &reading.notes {
@@ -68,10 +67,8 @@ fn hash() {
     let same = reading(&replaced(&text, "mass = 17.4", "mass   = 1.740e1 # kg")).robot;
     assert_eq!(puma.short_hash(), same.short_hash());
     let mut noted = puma.clone();
-    noted.notes = vec![
-        "the springs of `a` \\ \"b\" are left out".into(),
-        String::new(),
-    ];
+    let note = "the springs of `a` \\ \"b\" are left out";
+    noted.notes = vec![note.into(), String::new()];
     assert_eq!(puma.input_hash(), noted.input_hash());
     assert_eq!(reading(&written(&noted)).robot.notes, noted.notes);
     assert_eq!(puma.short_hash().len(), 16);
@@ -121,11 +118,7 @@ fn doubles_and_fractions_round_trip() {
 fn known_robots_are_not_far_off() {
     let root = env!("CARGO_MANIFEST_DIR");
     let mut seen = 0;
-    for folder in [
-        "generated/robots",
-        "gallery/robots",
-        "crates/model/tests/data",
-    ] {
+    for folder in "generated/robots gallery/robots crates/model/tests/data".split(' ') {
         let entries = std::fs::read_dir(format!("{root}/{folder}")).unwrap();
         for path in entries.map(|entry| entry.unwrap().path()) {
             if path.extension().is_none_or(|extension| extension != "toml") {

@@ -105,18 +105,15 @@ fn other_ways_to_say_it() {
     let six = GOOD.replace("[1, 1, 1, 0, 0, 0]", "[3, 4, 5, 0.1, 0.2, 0.3]");
     let rows = "[[3, 0.1, 0.3],\n [0.10, 4, 2e-1],\n [0.3, 0.2, 5]] # a comment";
     let nine = GOOD.replace("[1, 1, 1, 0, 0, 0]", rows);
-    let massless = GOOD
-        .replace("mass = 2", "mass = 0.0")
-        .replace("com = [0, 0.1, 0]\n", "");
+    let massless = GOOD.replace("mass = 2", "mass = 0.0");
+    let massless = massless.replace("com = [0, 0.1, 0]\n", "");
     assert_eq!(errors(&massless), []);
     let bare = massless.replace("inertia = [1, 1, 1, 0, 0, 0]\n", "");
     let zeros = massless.replace("[1, 1, 1, 0, 0, 0]", "[0, 0, 0, 0, 0, 0]");
-    let table = GOOD
-        .replace("limits = {", "[joint.limits]\n")
-        .replace(" }", "")
-        .replace(", v", "\nv")
-        .replace(", a", "\na")
-        .replace(", t", "\nt");
+    let mut table = GOOD.replace("limits = {", "[joint.limits]\n");
+    for (from, to) in [(" }", ""), (", v", "\nv"), (", a", "\na"), (", t", "\nt")] {
+        table = table.replace(from, to);
+    }
     let good = GOOD.to_owned();
     for (one, other) in [
         (six, nine),
@@ -131,9 +128,8 @@ fn other_ways_to_say_it() {
 
 #[test]
 fn warnings_are_silenced_one_by_one() {
-    let odd = GOOD
-        .replace("[1, 1, 1,", "[1, 1, 3,")
-        .replace("mass = 2", "mass = 2000");
+    let odd = GOOD.replace("[1, 1, 1,", "[1, 1, 3,");
+    let odd = odd.replace("mass = 2", "mass = 2000");
     let doubts = |source: &str| -> Vec<Option<RobotWarning>> {
         let notes = reading(source).notes;
         notes.iter().map(|note| note.warning).collect()

@@ -184,9 +184,8 @@ const RANGE: &str = "tolerance = { value = 1e-3, relative_to = \"range\" }";
 
 #[test]
 fn a_bound_needs_a_box() {
-    let bare = ROBOT
-        .replace("velocity = 1, ", "")
-        .replace(", torque = 5 ", " ");
+    let bare = ROBOT.replace("velocity = 1, ", "");
+    let bare = bare.replace(", torque = 5 ", " ");
     let with = |text: &str| bare.clone() + &scene(text);
     let found = errors(&with(ACTUATOR));
     assert_eq!(found.len(), 2, "{found:?}");

@@ -12,10 +12,8 @@ pub const ROBOTS: [&str; 6] = [
 ];
 
 pub fn data(name: &str) -> String {
-    let path = format!(
-        "{}/crates/model/tests/data/{name}",
-        env!("CARGO_MANIFEST_DIR")
-    );
+    let root = env!("CARGO_MANIFEST_DIR");
+    let path = format!("{root}/crates/model/tests/data/{name}");
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 

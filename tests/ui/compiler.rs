@@ -12,11 +12,8 @@ use std::time::SystemTime;
 
 pub struct Compiler {
     rustc: OsString,
-    /// The folder of cargo's libraries.
     libraries: PathBuf,
-    /// The facade.
     dalembert: PathBuf,
-    /// For what is compiled.
     folder: PathBuf,
 }
 
@@ -45,10 +42,8 @@ impl Compiler {
     /// Compiles a file that should be accepted, and runs it.
     pub fn run(&self, case: &Path) -> io::Result<Output> {
         let name = case.file_stem().unwrap_or_default();
-        let program = self
-            .folder
-            .join(name)
-            .with_extension(env::consts::EXE_EXTENSION);
+        let program = self.folder.join(name);
+        let program = program.with_extension(env::consts::EXE_EXTENSION);
         let compiled = self.command(case).arg("-o").arg(&program).output()?;
         match compiled.status.success() {
             true => Command::new(program).output(),

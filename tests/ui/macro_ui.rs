@@ -13,7 +13,6 @@ use std::thread;
 
 use compiler::Compiler;
 
-/// The cases of a folder, in the order of their names.
 fn cases(folder: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).unwrap();
     let mut cases: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
@@ -23,16 +22,13 @@ fn cases(folder: &str) -> Vec<PathBuf> {
     cases
 }
 
-/// Tries each case on as many threads as the machine runs at once and joins the complaints.
 fn complaints(cases: Vec<PathBuf>, complaint: impl Fn(&Path) -> Option<String> + Sync) -> String {
     let (left, found) = (Mutex::new(cases), Mutex::new(Vec::new()));
     thread::scope(|scope| {
         for _ in 0..thread::available_parallelism().map_or(1, |n| n.get()) {
             scope.spawn(|| {
-                loop {
-                    let Some(case) = left.lock().unwrap().pop() else {
-                        break;
-                    };
+                let next = || left.lock().unwrap().pop();
+                while let Some(case) = next() {
                     if let Some(complaint) = complaint(&case) {
                         let text = format!("{}:\n{complaint}", case.display());
                         found.lock().unwrap().push(text);
@@ -47,12 +43,8 @@ fn complaints(cases: Vec<PathBuf>, complaint: impl Fn(&Path) -> Option<String> +
 /// Without what says only how many errors there were, and where to read on.
 fn messages(stderr: &[u8]) -> String {
     let text = String::from_utf8_lossy(stderr);
-    let counts = [
-        "error: aborting due to",
-        "Some errors have",
-        "For more information about",
-    ];
-    let is_kept = |line: &&str| !counts.iter().any(|start| line.starts_with(start));
+    let counts = "error: aborting due to|Some errors have|For more information about";
+    let is_kept = |line: &&str| !counts.split('|').any(|start| line.starts_with(start));
     let lines: Vec<&str> = text.lines().filter(is_kept).collect();
     lines.join("\n").trim_end().to_owned() + "\n"
 }

@@ -18,7 +18,6 @@ fn main() {
 }
 ";
 
-/// A crate in a folder of its own, and what compiles it.
 struct Crate {
     folder: PathBuf,
     target: PathBuf,
@@ -39,15 +38,12 @@ impl Crate {
         fs::write(folder.join("Cargo.toml"), manifest).unwrap();
         // The versions that everything else here is tested with.
         fs::copy(format!("{ROOT}/Cargo.lock"), folder.join("Cargo.lock")).unwrap();
-        let own = Crate {
-            folder,
-            target: tests.join("without_search_target"),
-        };
+        let target = tests.join("without_search_target");
+        let own = Crate { folder, target };
         own.restore();
         own
     }
 
-    /// Puts the files as they are checked in.
     fn restore(&self) {
         for file in ["planar2r.toml", "planar2r.rs"] {
             let from = format!("{ROOT}/generated/robots/{file}");
@@ -64,7 +60,6 @@ impl Crate {
         fs::write(path, changed).unwrap();
     }
 
-    /// Compiles it; returns what the compiler says.
     fn check(&self) -> Result<(), String> {
         let output = Command::new(env!("CARGO"))
             .args(["check", "--offline", "--quiet", "--color=never"])
@@ -88,10 +83,8 @@ impl Crate {
         for word in words {
             assert!(said.contains(word), "{word}:\n{said}");
         }
-        assert!(
-            said.contains(&format!("--> src/main.rs:{place}\n")),
-            "{place}:\n{said}"
-        );
+        let at = format!("--> src/main.rs:{place}\n");
+        assert!(said.contains(&at), "{place}:\n{said}");
         // The rest is about the module that is not there.
         assert!(!said.contains("panicked"), "{said}");
         self.restore();
@@ -132,7 +125,6 @@ const CASES: [Case<'static>; 9] = [
        "expected a word between two commas", "expected the name of a clause"]),
 ];
 
-/// The errors, each at its token with its command.
 #[test]
 fn stale_files_are_refused() {
     let own = Crate::new("stale");
@@ -152,7 +144,6 @@ fn stale_files_are_refused() {
     );
 }
 
-/// Line ends and folders are no edits.
 #[test]
 fn checkouts_differ() {
     let mut own = Crate::new("here");

@@ -7,20 +7,19 @@ use rustc_hash::FxHashMap;
 use super::{Dag, Edge, Fingerprint, Id, Node, Points, signed};
 use crate::dag::{Counts, Input, Operation};
 
-/// Products of constants with more monomials stay two operations: polynomials in odd angles would
-/// grow without end.
+/// Products of constants with more monomials stay two operations: they would grow without end.
 const MAX_TERMS: usize = 1_000;
 
-/// The equalities that a builder recognises.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Folding {
     /// Zeros, ones, constants, signs and syntactically equal nodes.
+    #[default]
     Syntactic,
     /// Also nodes with equal, opposite or constant fingerprints.
     Semantic,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Builder {
     dag: Dag,
     prints: Vec<Fingerprint>,
@@ -35,13 +34,8 @@ pub(crate) struct Builder {
 impl Builder {
     pub(crate) fn new(folding: Folding) -> Builder {
         Builder {
-            dag: Dag::default(),
-            prints: Vec::new(),
             folding,
-            known: FxHashMap::default(),
-            by_print: FxHashMap::default(),
-            at_rest: FxHashMap::default(),
-            asked: Counts::default(),
+            ..Builder::default()
         }
     }
 
@@ -297,8 +291,7 @@ impl Builder {
 
     pub(crate) fn results(&mut self, dag: &Dag) -> Vec<Edge> {
         let edges = self.copy(dag);
-        let outputs = dag.outputs.iter();
-        let outputs = outputs.map(|edge| edges[edge.index()].negated_if(edge.negative));
-        outputs.collect()
+        let result = |edge: &Edge| edges[edge.index()].negated_if(edge.negative);
+        dag.outputs.iter().map(result).collect()
     }
 }

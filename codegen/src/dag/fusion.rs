@@ -14,11 +14,9 @@ use super::{Dag, Edge, Id, Node, Operation, signed};
 /// A sum or a difference with the fused product that it takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fusion {
-    /// The factors of the product.
     pub factors: [Id; 2],
     /// `true` if the product is subtracted.
     pub negative: bool,
-    /// The other operand of the addition.
     pub addend: Id,
     /// `true` if the addend is subtracted.
     pub minus: bool,
@@ -113,11 +111,8 @@ impl Dag {
             places[id as usize] = nodes.len() as Id;
             nodes.push(node);
         }
-        let outputs = self.outputs.iter().map(|edge| Edge {
-            node: places[edge.index()],
-            ..*edge
-        });
-        let outputs = outputs.collect();
+        let moved = |edge: &Edge| edge.at(places[edge.index()]);
+        let outputs = self.outputs.iter().map(moved).collect();
         Dag { nodes, outputs }
     }
 

@@ -5,7 +5,6 @@ use dalembert_model::scalar::{Divide, Scalar};
 
 pub(crate) const LANES: usize = 16;
 
-/// A number of each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Lanes<T, const N: usize = LANES>(pub [T; N]);
 
@@ -31,39 +30,31 @@ impl<T: Divide + Copy, const N: usize> Scalar for Lanes<T, N> {
     fn zero() -> Self {
         Lanes([T::zero(); N])
     }
-
     fn one() -> Self {
         Lanes([T::one(); N])
     }
-
     #[inline]
     fn add(&self, other: &Self) -> Self {
         self.zip(other, T::add)
     }
-
     #[inline]
     fn sub(&self, other: &Self) -> Self {
         self.zip(other, T::sub)
     }
-
     #[inline]
     fn mul(&self, other: &Self) -> Self {
         self.zip(other, T::mul)
     }
-
     #[inline]
     fn neg(&self) -> Self {
         self.zip(self, |x, _| x.neg())
     }
-
     fn half(&self) -> Self {
         self.zip(self, |x, _| x.half())
     }
-
     fn is_zero(&self) -> bool {
         self.0.iter().all(T::is_zero)
     }
-
     fn mul_add(&self, factor: &Self, addend: &Self) -> Self {
         let mut all = *self;
         for ((x, factor), addend) in all.0.iter_mut().zip(&factor.0).zip(&addend.0) {

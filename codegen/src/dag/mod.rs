@@ -1,25 +1,11 @@
 //! Straight-line code as a graph: from the traced formula to the program.
 //!
-//! - this file: [`Dag`], its nodes and edges
-//! - [`input`]: what code reads: sines, cosines, positions, rates
-//! - `operation`: the operations in any scalar; [`counts`]: what they cost
-//! - [`builder`]: folds and shares as a graph grows
-//! - [`print`]: fingerprints, values at random points of a prime field
-//! - [`lanes`]: values at several points or states side by side
-//! - [`symbol`]: the scalar that traces the equations into a builder
-//! - [`schedule`](Dag::scheduled): the order in which code is printed
-//! - [`writer`]: code in a given order
-//! - `vain`: steps that no result depends on
-//! - [`fusion`]: sums with the products that they take
-//!
 //! A [`Dag`] is a list of nodes, operands before users, and what it returns. Leaves are nodes as
 //! operations are, so that a constant is one wherever it is read. Negation is free, so it is no
 //! node: outputs and operands of a builder carry signs.
 
 pub(crate) mod builder;
-pub(crate) mod counts;
 pub(crate) mod fusion;
-pub(crate) mod input;
 pub(crate) mod lanes;
 mod operation;
 #[cfg(test)]
@@ -39,10 +25,8 @@ use dalembert_model::scalar::{Divide, Scalar};
 
 pub(crate) use builder::Builder;
 pub use builder::Folding;
-pub use counts::Counts;
-pub use input::Input;
 pub(crate) use lanes::Lanes;
-pub use operation::Operation;
+pub use operation::{Counts, Input, Operation};
 pub use print::{Fingerprint, Points};
 pub(crate) use writer::Writer;
 
@@ -54,18 +38,14 @@ pub type Id = u32;
 pub enum Node<C = Exact, I = Input> {
     /// A constant. Of an exact one the sign is the edge's (see [`Exact::leads_negative`]).
     Constant(C),
-    /// An input.
     Input(I),
-    /// The result of an operation.
     Apply(Operation, [Id; 2]),
 }
 
 /// A node or its negative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Edge {
-    /// The index of the node.
     pub node: Id,
-    /// `true` if its value is negated.
     pub negative: bool,
 }
 
@@ -90,11 +70,8 @@ impl<C, I> Default for Dag<C, I> {
 /// The values of constants and inputs in a scalar: at a state, at a point of a field, as symbols.
 /// An input that a state lacks is not a number.
 pub trait Leaves<C = Exact, I = Input> {
-    /// The scalar.
     type Value: Divide;
-    /// Returns the value of a constant.
     fn constant(&self, constant: &C) -> Self::Value;
-    /// Returns the value of an input.
     fn input(&self, input: I) -> Self::Value;
 }
 
@@ -111,7 +88,6 @@ impl<C, I, S: Divide, F: Fn(&C) -> S, G: Fn(I) -> S> Leaves<C, I> for (F, G) {
 }
 
 impl<C, I> Node<C, I> {
-    /// Returns the operands, if it is an operation.
     pub fn operands(&self) -> Option<[Id; 2]> {
         match self {
             Node::Apply(_, operands) => Some(*operands),
@@ -128,7 +104,6 @@ impl From<Id> for Edge {
 }
 
 impl Edge {
-    /// Returns the edge to the same node, reversed if `negative`.
     #[must_use]
     pub fn negated_if(self, negative: bool) -> Edge {
         Edge {
@@ -137,27 +112,25 @@ impl Edge {
         }
     }
 
-    /// Returns the index of its node.
     pub fn index(self) -> usize {
         self.node as usize
+    }
+
+    pub(crate) fn at(self, node: Id) -> Edge {
+        Edge { node, ..self }
     }
 }
 
 #[inline]
 pub(crate) fn signed<S: Scalar>(value: &S, negative: bool) -> S {
-    match negative {
-        true => value.neg(),
-        false => value.clone(),
-    }
+    if negative { value.neg() } else { value.clone() }
 }
 
 impl<C, I> Dag<C, I> {
-    /// Returns a node.
     pub fn node(&self, id: Id) -> &Node<C, I> {
         &self.nodes[id as usize]
     }
 
-    /// Evaluates every node.
     pub fn values<L: Leaves<C, I>>(&self, leaves: &L) -> Vec<L::Value>
     where
         I: Copy,
@@ -180,15 +153,16 @@ impl<C, I> Dag<C, I> {
         values
     }
 
-    /// Computes the outputs.
     pub fn run<L: Leaves<C, I>>(&self, leaves: &L) -> Vec<L::Value>
     where
         I: Copy,
     {
-        let values = self.values(leaves);
-        let outputs = self.outputs.iter();
-        let outputs = outputs.map(|edge| signed(&values[edge.index()], edge.negative));
-        outputs.collect()
+        self.results(&self.values(leaves))
+    }
+
+    pub(crate) fn results<S: Scalar>(&self, values: &[S]) -> Vec<S> {
+        let result = |edge: &Edge| signed(&values[edge.index()], edge.negative);
+        self.outputs.iter().map(result).collect()
     }
 
     /// Computes the derivative of a node by itself and by each node before it.
@@ -269,7 +243,6 @@ impl Node {
 }
 
 impl Dag {
-    /// Returns whether an output is identically zero.
     pub fn is_zero(&self, output: Edge) -> bool {
         matches!(self.node(output.node), Node::Constant(c) if c.is_zero())
     }
@@ -283,7 +256,6 @@ impl Dag {
         self.live().filter_map(angle).collect()
     }
 
-    /// Counts the operations that the outputs need.
     pub fn counts(&self) -> Counts {
         let operation = |(_, node): (usize, &Node)| match node {
             Node::Apply(operation, _) => Some(*operation),

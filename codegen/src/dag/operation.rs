@@ -1,25 +1,24 @@
-//! The operations, in any scalar, and their derivatives.
+//! The inputs of a program, its operations in any scalar with derivatives, and counts of them.
+
+use std::fmt;
 
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::{Divide, Scalar};
 
-/// The operations of emitted code.
+use super::Dag;
+use crate::function::Argument;
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Operation {
-    /// left + right
     Add,
-    /// left − right
     Sub,
-    /// left · right
     Mul,
-    /// left / right
     Div,
     /// left · right, not rounded: the sum or difference that takes it rounds once (`fusion`).
     Fused,
 }
 
 impl Operation {
-    /// Every operation.
     pub const ALL: [Operation; 5] = [
         Operation::Add,
         Operation::Sub,
@@ -28,7 +27,6 @@ impl Operation {
         Operation::Fused,
     ];
 
-    /// Returns the operation of a symbol.
     pub fn from_symbol(symbol: char) -> Option<Operation> {
         let mut all = Operation::ALL.into_iter();
         all.find(|operation| operation.symbol() == symbol)
@@ -45,7 +43,6 @@ impl Operation {
         }
     }
 
-    /// Computes the operation in a scalar.
     #[inline]
     pub fn apply<S: Divide>(self, left: &S, right: &S) -> S {
         match self {
@@ -84,5 +81,120 @@ impl Operation {
                 [by_left, by_right]
             }
         }
+    }
+}
+
+/// An input of a program. Joints are zero-based.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Input {
+    /// The sine of a joint's angle.
+    Sin(usize),
+    /// The cosine of a joint's angle.
+    Cos(usize),
+    /// 1/√(q̇² + w²) of a joint with Coulomb friction, w being its width.
+    PerSpeed(usize),
+    /// An entry of an argument, of most a joint's; of q that of a prismatic joint.
+    Entry(Argument, usize),
+}
+
+impl Input {
+    pub(crate) fn name(self) -> String {
+        match self {
+            Input::Sin(joint) => format!("s{}", joint + 1),
+            Input::Cos(joint) => format!("c{}", joint + 1),
+            Input::PerSpeed(joint) => format!("r{}", joint + 1),
+            Input::Entry(argument, index) => format!("{}[{index}]", argument.name()),
+        }
+    }
+
+    pub fn argument(self) -> Argument {
+        match self {
+            Input::Sin(_) | Input::Cos(_) => Argument::Position,
+            Input::PerSpeed(_) => Argument::Velocity,
+            Input::Entry(argument, _) => argument,
+        }
+    }
+
+    /// Returns the joint whose sine or cosine it is.
+    pub fn angle(self) -> Option<usize> {
+        match self {
+            Input::Sin(joint) | Input::Cos(joint) => Some(joint),
+            _ => None,
+        }
+    }
+}
+
+/// Operations of straight-line code. Negation and copies are free.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Counts {
+    /// Multiplications.
+    pub mul: usize,
+    /// Additions, subtractions, doublings.
+    pub add: usize,
+    /// Fused multiply-adds, which are not among the multiplications and additions.
+    pub fma: usize,
+    /// Divisions.
+    pub div: usize,
+    /// Square roots.
+    pub sqrt: usize,
+    /// Sine and cosine evaluations: a pair for one angle, or one of the two.
+    pub sincos: usize,
+    /// Multiplications of the polynomials that give them; none if libm does.
+    pub trig_mul: usize,
+    /// Additions of these.
+    pub trig_add: usize,
+}
+
+impl Counts {
+    pub(crate) fn of_operations(operations: impl Iterator<Item = Operation>) -> Counts {
+        let mut counts = Counts::default();
+        for operation in operations {
+            match operation {
+                Operation::Mul => counts.mul += 1,
+                Operation::Add | Operation::Sub => counts.add += 1,
+                Operation::Div => counts.div += 1,
+                Operation::Fused => counts.fma += 1,
+            }
+        }
+        // A fused product is an operation with its sum.
+        counts.add -= counts.fma;
+        counts
+    }
+
+    pub(crate) fn with_speeds(self, speeds: usize) -> Counts {
+        Counts {
+            mul: self.mul + speeds,
+            add: self.add + speeds,
+            div: self.div + speeds,
+            sqrt: self.sqrt + speeds,
+            ..self
+        }
+    }
+
+    /// Multiplications, additions, both in one and divisions, but those of sines' polynomials.
+    pub fn operations(&self) -> usize {
+        self.mul + self.add + self.fma + self.div
+    }
+}
+
+impl<C, I> Dag<C, I> {
+    pub(crate) fn arithmetic(&self) -> Counts {
+        Counts::of_operations(self.operations().map(|(_, operation, _)| operation))
+    }
+}
+
+impl fmt::Display for Counts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} mul, {} add", self.mul, self.add)?;
+        let others = [(self.fma, "fma"), (self.div, "div"), (self.sqrt, "sqrt")];
+        for (count, name) in others.into_iter().filter(|(count, _)| *count > 0) {
+            write!(f, ", {count} {name}")?;
+        }
+        write!(f, ", {} sincos", self.sincos)?;
+        if self.trig_mul + self.trig_add > 0 {
+            let (mul, add) = (self.trig_mul, self.trig_add);
+            write!(f, ", {mul} trig_mul, {add} trig_add")?;
+        }
+        Ok(())
     }
 }

@@ -78,9 +78,7 @@ pub(crate) fn evaluate(
 /// `?a` is the first joint's velocity, `?b` the second's, and so on.
 pub(crate) fn graph(outputs: &[&str]) -> Dag {
     let mut builder = Builder::new(Folding::Syntactic);
-    let values = outputs
-        .iter()
-        .map(|output| evaluate(output, &mut builder, Leaf::edge));
-    let values = values.collect();
+    let value = |output: &&str| evaluate(output, &mut builder, Leaf::edge);
+    let values = outputs.iter().map(value).collect();
     builder.finish(values)
 }

@@ -23,8 +23,7 @@ pub(crate) const POINTS: usize = 3;
 /// 2⁻⁶¹ if it is not zero everywhere.
 pub type Fingerprint = Lanes<Field, POINTS>;
 
-/// By its first value, which is as good as random: equal prints have the same, and
-/// others hardly ever.
+/// By its first value, which is as good as random: other prints hardly ever have the same.
 impl Hash for Fingerprint {
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.0[0].hash(state);
@@ -42,7 +41,6 @@ impl Fingerprint {
             false => (*self, false),
         }
     }
-    /// Returns whether the node is the same in every state.
     pub fn is_constant(&self) -> bool {
         self.0[0] == self.0[1]
     }
@@ -63,7 +61,6 @@ impl Points {
         Points { seed }
     }
 
-    /// Returns the print of an input.
     pub fn input(&self, input: Input) -> Fingerprint {
         Lanes(core::array::from_fn(|point| self.input_at(input, point)))
     }
@@ -103,13 +100,9 @@ impl Points {
     }
 
     /// Each point has its own constant angles. `None` if the prime divides a denominator.
-    pub(crate) fn constant_at<const P: u64>(
-        &self,
-        value: &Exact,
-        point: usize,
-    ) -> Option<Modulo<P>> {
+    pub(crate) fn constant_at<const P: u64>(&self, x: &Exact, point: usize) -> Option<Modulo<P>> {
         let coefficient = &mut |x: &Rational| Modulo::from_rational(x);
-        value.map(coefficient, &mut |angle| self.constant_angle(angle, point))
+        x.map(coefficient, &mut |angle| self.constant_angle(angle, point))
     }
 
     fn constant_angle<const P: u64>(&self, angle: &Angle, point: usize) -> SinCosPair<Modulo<P>> {

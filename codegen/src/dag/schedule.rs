@@ -40,15 +40,10 @@ impl<C: Clone, I: Clone> Dag<C, I> {
             }
             stack.pop();
         }
-        let outputs = self.outputs.iter().map(|edge| Edge {
-            // Every output was on the stack.
-            node: place[edge.index()].unwrap_or_default(),
-            ..*edge
-        });
-        Dag {
-            outputs: outputs.collect(),
-            nodes,
-        }
+        // Every output was on the stack.
+        let moved = |edge: &Edge| edge.at(place[edge.index()].unwrap_or_default());
+        let outputs = self.outputs.iter().map(moved).collect();
+        Dag { nodes, outputs }
     }
 }
 
@@ -89,11 +84,7 @@ mod tests {
         let edge = dag.outputs[1];
         let [first, second] = dag.node(edge.node).operands().unwrap();
         let is_rate = |id| *dag.node(id) == Node::Input(Input::Entry(Argument::Velocity, 2));
-        assert!(if edge.negative {
-            is_rate(second)
-        } else {
-            is_rate(first)
-        });
+        assert!(is_rate(if edge.negative { second } else { first }));
         let [_, right] = dag.node(dag.outputs[2].node).operands().unwrap();
         assert!(matches!(dag.node(right), Node::Constant(_)));
     }

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use dalembert_model::number::{Exact, Rational};
+use dalembert_model::number::Exact;
 use dalembert_model::scalar::{Divide, Scalar};
 
 use super::{Builder, Edge, Input, Operation};
@@ -125,10 +125,7 @@ impl Scalar for Symbol {
         }
     }
     fn half(&self) -> Self {
-        self.mul(&Symbol::Constant(Exact::from(Rational::new(
-            1.into(),
-            2.into(),
-        ))))
+        self.mul(&Symbol::Constant(Exact::one().half()))
     }
     fn is_zero(&self) -> bool {
         matches!(self, Symbol::Constant(constant) if constant.is_zero())
@@ -143,7 +140,7 @@ mod tests {
     use super::*;
     use crate::dag::{Fingerprint, Folding, Points};
     use crate::function::Argument;
-    use dalembert_model::number::Angle;
+    use dalembert_model::number::{Angle, Rational};
 
     #[test]
     fn quotients_of_constants_wait_for_a_builder() {

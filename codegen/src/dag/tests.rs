@@ -99,10 +99,7 @@ fn the_backward_pass_agrees_with_duals() {
         for moving in 0..3 {
             let input = |input: usize| Dual {
                 value: inputs[input],
-                rate: match input == moving {
-                    true => Field::one(),
-                    false => Field::zero(),
-                },
+                rate: Field::new(u64::from(input == moving)),
             };
             let forward = dag.values(&(|c: &u64| Dual::constant(Field::new(*c)), input));
             let mut adjoints = Vec::new();

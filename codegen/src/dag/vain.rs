@@ -10,7 +10,7 @@ use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::Field;
 
-use super::{Builder, Dag, Fingerprint, Folding, Lanes, Node, Points, signed};
+use super::{Builder, Dag, Fingerprint, Folding, Lanes, Node, Points};
 use crate::random::Random;
 
 const SEED: u64 = 0x7a1e;
@@ -52,10 +52,7 @@ impl Dag {
     }
 
     fn result_prints(&self) -> Vec<Fingerprint> {
-        let prints = self.prints();
-        let outputs = self.outputs.iter();
-        let outputs = outputs.map(|edge| signed(&prints[edge.index()], edge.negative));
-        outputs.collect()
+        self.results(&self.prints())
     }
 
     /// Lists the operations by which a random combination of all results has no derivative.
@@ -69,11 +66,9 @@ impl Dag {
             *adjoint = adjoint.add(&weight);
         }
         self.pass_back(&values, &mut adjoints);
-        let live = self.live();
-        let vain = live.filter(|(index, node)| {
-            node.operands().is_some() && adjoints[*index] == Fingerprint::zero()
-        });
-        vain.map(|(index, _)| index).collect()
+        let is_vain = |index: &usize| adjoints[*index] == Fingerprint::zero();
+        let operations = self.live().filter(|(_, node)| node.operands().is_some());
+        operations.map(|(index, _)| index).filter(is_vain).collect()
     }
 
     fn with(&self, steps: &[usize], value: &Exact) -> Dag {
@@ -87,11 +82,8 @@ impl Dag {
             };
         }
         let mut dag = self.clone();
-        if !steps.is_empty() {
-            let value = Node::Constant(value.clone());
-            steps
-                .iter()
-                .for_each(|step| dag.nodes[*step] = value.clone());
+        for &step in steps {
+            dag.nodes[step] = Node::Constant(value.clone());
         }
         let outputs = builder.results(&dag);
         builder.finish(outputs).rebuild(Folding::Syntactic)

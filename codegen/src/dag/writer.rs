@@ -68,27 +68,18 @@ impl<C, I> Dag<C, I> {
                 places[index] = writer.apply(*operation, operands);
             }
         }
-        let outputs = self.outputs.iter().map(|edge| Edge {
-            node: place(edge.node, &places, &mut writer),
-            ..*edge
-        });
-        let outputs = outputs.collect();
+        let moved = |edge: &Edge| edge.at(place(edge.node, &places, &mut writer));
+        let outputs = self.outputs.iter().map(moved).collect();
         writer.finish(outputs)
     }
 
     /// Numbers the operations from one, in their order; leaves have no number.
     pub fn numbers(&self) -> Vec<Option<usize>> {
-        let mut count = 0;
-        let number = |node: &Node<C, I>| {
-            matches!(node, Node::Apply(..)).then(|| {
-                count += 1;
-                count
-            })
-        };
+        let mut numbers = 1..;
+        let number = |node: &Node<C, I>| node.operands().and_then(|_| numbers.next());
         self.nodes.iter().map(number).collect()
     }
 
-    /// Lists the operations.
     pub fn operations(&self) -> impl Iterator<Item = (Id, Operation, [Id; 2])> + '_ {
         let nodes = self.nodes.iter().zip(0..);
         nodes.filter_map(|(node, id)| match node {

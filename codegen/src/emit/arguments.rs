@@ -62,10 +62,8 @@ pub(super) fn payload_c(setup: &Setup, names: &Names) -> (Vec<String>, String) {
     ];
     say(&mut doc, head);
     doc.extend(payload(setup, dialect.scalar));
-    let (own, is_single) = (
-        names.symbols(Function::Load),
-        dialect.scalar == ScalarType::F32,
-    );
+    let own = names.symbols(Function::Load);
+    let is_single = dialect.scalar == ScalarType::F32;
     let text = checked::c(is_single, dialect.function, &own.prefix, &own.macros);
     (doc, indented(&text))
 }
@@ -83,13 +81,10 @@ fn indented(text: &str) -> String {
 
 fn payload(setup: &Setup, scalar: ScalarType) -> Vec<String> {
     let n = setup.joints();
-    let frame = match setup.robot().payload_frame.as_ref() {
-        None => format!("that of joint {n} in the table"),
-        Some(frame) => format!(
-            "which is in that of joint {n} in the table\nat {}",
-            placed(frame)
-        ),
-    };
+    let mut frame = format!("that of joint {n} in the table");
+    if let Some(own) = &setup.robot().payload_frame {
+        frame = format!("which is in {frame}\nat {}", placed(own));
+    }
     let digits = scalar.of("six", "three");
     let text = format!(
         "`mass` is in kg, zero or more; `com` is the centre of mass in m, in the last link's frame,\n\

@@ -11,8 +11,7 @@ use crate::program::kernel::Kernel;
 use crate::program::{Code, Library, Literal};
 use crate::sincos::routine::routine;
 
-/// Several angles get a loop that compilers make vectors of; functions of many states take one
-/// angle.
+/// Several angles get a loop that compilers make vectors of; functions of many states take one.
 pub(super) fn write<'c>(
     text: &mut String,
     functions: impl Iterator<Item = (usize, &'c Code)>,

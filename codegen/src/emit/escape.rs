@@ -1,8 +1,7 @@
 //! Names and sentences that users chose, inside documentation.
 
-/// A bar would end a table's cell, a backtick begin code, `<` an HTML tag. Markdown lets a
-/// backslash stand before any ASCII punctuation; it is left out before what means nothing inside a
-/// word.
+/// A bar would end a table's cell, a backtick begin code, `<` a tag: Markdown lets a backslash
+/// stand before any ASCII punctuation. It is left out before what means nothing inside a word.
 pub(super) fn escaped(name: &str) -> String {
     let harmless = |c: char| matches!(c, '_' | '-' | '.' | ',' | '\'' | '(' | ')' | '+');
     let last = name.chars().count().saturating_sub(1);

@@ -137,8 +137,7 @@ pub(crate) fn write(
              #else\n#define {simd}\n#endif\n"
         );
     }
-    for (scalar, codes) in codes {
-        let scalar = *scalar;
+    for &(scalar, ref codes) in codes {
         let names = Names::new(&name, request.language, scalar);
         let mut lines = header(robot, setup, functions, scalar);
         if let Some(note) = note {
@@ -228,7 +227,6 @@ fn comment(text: &mut String, lines: &[String]) {
 /// Returns a line that ends no comment and begins none; without the marks of Rust's documentation.
 fn plain(line: &str) -> String {
     let line = line.replace("[`", "`").replace("`]", "`").replace('\\', "");
-    line.replace("*/", "* /")
-        .replace("/*", "/ *")
-        .replace("??", "? ?")
+    let line = line.replace("*/", "* /").replace("/*", "/ *");
+    line.replace("??", "? ?")
 }

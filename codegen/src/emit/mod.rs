@@ -1,29 +1,80 @@
 //! The module of a robot: header, documentation, functions.
-//!
-//! - [`module`]: the module of a robot with its header, and of its `scene`;
-//!   `escape`: names that users chose
-//! - [`header`]: the header of a robot in C; `c_sines`: the sines that its functions call
-//! - `state_box`: where functions hold that do not hold everywhere
-//! - `generated`: a function with what was found and proved of it
-//! - `variant`: what a tolerance left of a function; `scale`: what its errors
-//!   are relative to; `said`: of polynomials for sines, Coulomb friction and fused products
-//! - `parameters`: what the columns of a regressor are; `arguments`: what a payload and
-//!   its load are, and gravity where it is an argument
 
 pub(crate) mod arguments;
 mod c_sines;
 mod escape;
-mod generated;
 pub(crate) mod header;
 pub(crate) mod module;
 mod parameters;
 mod said;
-mod scale;
-mod scene;
 mod state_box;
 mod variant;
 
-pub use generated::GeneratedFunction;
+use crate::function::Function;
+use crate::program::{Code, Counts, Library, Program, ScalarType};
+use crate::search::Pass;
+use crate::seeds::Source;
+use crate::setup::ParametersKey;
+use crate::sincos::{AngleKernel, Sines};
+use crate::tolerance::variant::{Admitted, Variant};
+use crate::verify::accuracy::Refused;
+use crate::verify::exact::Proof;
+
+/// A generated and proved function.
+#[derive(Clone, Debug)]
+pub struct GeneratedFunction {
+    /// Which function.
+    pub function: Function,
+    /// The formulation that the search started from.
+    pub source: Source,
+    /// The robot's parameters that it takes as arguments, if it does.
+    pub parameters: Option<ParametersKey>,
+    /// Whether it is the plan's, and nothing was searched for.
+    pub planned: bool,
+    /// The final program with exact constants: what is emitted.
+    pub program: Program,
+    /// The program before its operations were reordered or products fused: a plan keeps it.
+    pub found: Option<Program>,
+    /// The polynomials of its sines in each scalar, if they are not libm's.
+    pub sines: Vec<(ScalarType, Sines)>,
+    /// Counts of the formula as executed, then after each step.
+    pub passes: Vec<Pass>,
+    /// The proof of the exact program, from which a tolerance may have made another `program`.
+    pub proof: Proof,
+    /// A cheaper program that the limit on rounding errors refused, if it did.
+    pub refused: Option<Refused>,
+    /// With a tolerance: the variants that meet it.
+    pub admitted: Option<Admitted>,
+}
+
+impl GeneratedFunction {
+    /// Returns the polynomials of its sines in a scalar; none if they are libm's.
+    pub fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
+        let found = self.sines.iter().find(|(known, _)| *known == scalar);
+        found.map_or(&[], |(_, sines)| sines)
+    }
+
+    pub(crate) fn variant(&self, scalar: ScalarType) -> Option<&Variant> {
+        let mut all = self.admitted.as_ref()?.variants.iter();
+        all.find(|own| own.scalar == scalar)
+    }
+
+    /// Rounds the constants to a scalar; sines without polynomials are the library's.
+    pub fn code(&self, scalar: ScalarType, library: Library) -> Code {
+        self.program.code(scalar, library, self.sines(scalar))
+    }
+
+    /// Returns its counts, without the polynomials of sines.
+    pub fn counts(&self) -> Counts {
+        self.program.counts()
+    }
+
+    /// Returns its counts with the polynomials of its sines in a scalar.
+    pub fn counts_in(&self, scalar: ScalarType) -> Counts {
+        let kernels = self.sines(scalar).iter().map(|own| &own.kernel);
+        self.counts().with_kernels(kernels)
+    }
+}
 
 fn say<const N: usize>(lines: &mut Vec<String>, own: [&str; N]) {
     lines.extend(own.map(String::from));

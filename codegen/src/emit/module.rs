@@ -2,15 +2,15 @@
 //! structs and functions.
 
 use dalembert_model::robot::{Convention, Follower, JointKind, Position, Robot};
+use dalembert_model::scene::Scene;
 
 use super::escape::{escaped, sentence};
 use super::say;
-use super::scene::describe;
 use super::state_box::StateBox;
 use super::{arguments, parameters, said, variant};
 use crate::emit::GeneratedFunction;
 use crate::figures::{decimal, placed};
-use crate::language::{columns, comment, function, result};
+use crate::language::{columns, comment, function, list, result};
 use crate::program::{Code, Counts, ScalarType};
 use crate::setup::Setup;
 use crate::task::Job;
@@ -87,18 +87,13 @@ pub(super) fn header(
         Convention::Standard => "standard",
         Convention::Modified => "modified (Craig)",
     };
+    let (name, n) = (&robot.name, robot.joints.len());
+    let gravity = arguments::gravity(robot, setup);
     let mut lines = vec![
-        format!(
-            "Dynamics of the robot `{}`, {} joints, in `{scalar}`.",
-            robot.name,
-            robot.joints.len()
-        ),
+        format!("Dynamics of the robot `{name}`, {n} joints, in `{scalar}`."),
         format!("Input hash {}.", robot.short_hash()),
         String::new(),
-        format!(
-            "SI units, radians; {convention} DH; {}",
-            arguments::gravity(robot, setup)
-        ),
+        format!("SI units, radians; {convention} DH; {gravity}"),
     ];
     if let Some(base) = &robot.base {
         let at = placed(base);
@@ -133,19 +128,14 @@ pub(super) fn header(
             negative if negative.starts_with('-') => format!("{q} - {}", &negative[1..]),
             positive => format!("{q} + {positive}"),
         };
+        let (d, theta) = (decimal(&joint.d), joint.theta.to_string());
         let (kind, d, theta) = match joint.kind {
-            JointKind::Revolute => ("revolute", decimal(&joint.d), plus(joint.theta.to_string())),
-            JointKind::Prismatic => (
-                "prismatic",
-                plus(decimal(&joint.d)),
-                joint.theta.to_string(),
-            ),
+            JointKind::Revolute => ("revolute", d, plus(theta)),
+            JointKind::Prismatic => ("prismatic", plus(d), theta),
         };
+        let (alpha, a, mass) = (&joint.alpha, decimal(&joint.a), decimal(&joint.mass));
         lines.push(format!(
-            "| {label} | {kind} | {} | {} | {d} | {theta} | {} |",
-            joint.alpha,
-            decimal(&joint.a),
-            decimal(&joint.mass)
+            "| {label} | {kind} | {alpha} | {a} | {d} | {theta} | {mass} |"
         ));
     }
     if !robot.followers.is_empty() {
@@ -153,11 +143,10 @@ pub(super) fn header(
             "Of joints that follow others there are no entries; parameters count links by rows.";
         say(&mut lines, ["", why]);
     }
-    let tilted = robot.rows().into_iter().enumerate();
-    let tilted: Vec<String> = tilted
-        .filter(|(_, joint)| !joint.beta.is_zero())
-        .map(|(index, joint)| format!("{} by {}", index + 1, joint.beta))
-        .collect();
+    let rows = (1..).zip(robot.rows());
+    let tilted = rows.filter(|(_, joint)| !joint.beta.is_zero());
+    let tilted = tilted.map(|(number, joint)| format!("{number} by {}", joint.beta));
+    let tilted: Vec<String> = tilted.collect();
     if !tilted.is_empty() {
         let tilted = tilted.join(", joint ");
         let why = format!("After its twist each of these turns about y: joint {tilted}.");
@@ -255,5 +244,46 @@ pub(super) fn function_doc(
     {
         lines.extend(variant::describe(admitted, own, setup));
     }
+    lines
+}
+
+fn describe(scene: &Scene, robot: &Robot) -> Vec<String> {
+    let mut lines = vec![format!(
+        "Scene `{}` {}. Its functions are the full model's at:",
+        scene.name,
+        scene.short_hash()
+    )];
+    for (joint, at) in &scene.lock {
+        let at = match at {
+            Position::Angle(angle) => format!("{angle} rad"),
+            Position::Length(length) => format!("{} m", decimal(length)),
+        };
+        lines.push(format!("- q{0} = {at}, q̇{0} = q̈{0} = 0;", joint + 1));
+    }
+    for (zero, rate) in [(scene.velocity_zero, "q̇"), (scene.acceleration_zero, "q̈")] {
+        if zero {
+            lines.push(format!("- {rate} = 0;"));
+        }
+    }
+    if let Some(gravity) = &scene.gravity {
+        let gravity = list(gravity.iter().map(decimal));
+        lines.push(format!(
+            "- gravity ({gravity}) m/s², instead of the robot's;"
+        ));
+    }
+    if let Some(payload) = &scene.payload {
+        let mass = decimal(&payload.mass);
+        let com = list(payload.com.iter().map(decimal));
+        lines.push(format!(
+            "- a payload of {mass} kg at ({com}) m in the frame of the last link;"
+        ));
+    }
+    let rows = scene.rows(robot.joints.len());
+    let rows = list(rows.iter().map(|row| (row + 1).to_string()));
+    lines.push(format!(
+        "- results over the joints {rows}: every index of a result counts these."
+    ));
+    let read = "Arguments have an entry for every joint; those of locked joints are not read.";
+    say(&mut lines, ["", read]);
     lines
 }

@@ -70,11 +70,10 @@ pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
 }
 
 pub(super) fn constant(function: Function, setup: &Setup, scalar: ScalarType) -> String {
-    let mut text = String::new();
     let Some((name, values)) = values(function, setup, scalar) else {
-        return text;
+        return String::new();
     };
-    text += &format!(
+    let mut text = format!(
         "/// π of this robot: the values of the base parameters, a column of [`{function}`] each.\n\
          pub const {name}: [{scalar}; {}] = [\n",
         values.len()
@@ -87,13 +86,12 @@ pub(super) fn constant(function: Function, setup: &Setup, scalar: ScalarType) ->
 }
 
 pub(super) fn write_c(function: Function, setup: &Setup, names: &Names) -> String {
-    let mut text = String::new();
     let dialect = names.dialect();
     let Some((name, values)) = values(function, setup, dialect.scalar) else {
-        return text;
+        return String::new();
     };
     let (float, restrict) = (float(dialect.scalar), names.constant("RESTRICT"));
-    text += &format!(
+    let mut text = format!(
         "\n/*\n * π of this robot: the values of the base parameters, a column of\n * `{}` each.\n */\n\
          {} void {}({float} pi[{restrict} {}])\n{{\n",
         names.of(function.name()),
@@ -115,9 +113,9 @@ fn values(
 ) -> Option<(&'static str, Vec<Literal>)> {
     let ((_, name), base) = over_base(function, setup)?;
     let arm = setup.arm(Exact::clone);
-    let values = base.values(&arm).into_iter();
-    let values = values.map(|value| Literal(scalar.round(&value)));
-    Some((name, values.collect()))
+    let literal = |value: Exact| Literal(scalar.round(&value));
+    let values = base.values(&arm).into_iter().map(literal).collect();
+    Some((name, values))
 }
 
 pub(super) fn name(function: Function) -> Option<&'static str> {

@@ -1,8 +1,7 @@
 //! What a function's documentation says of its sines, of Coulomb friction and of fused products:
 //! nothing where there are none.
 
-use super::generated::GeneratedFunction;
-use super::say;
+use super::{GeneratedFunction, say};
 use crate::figures::{bound_of, decimal};
 use crate::function::Argument;
 use crate::program::{Counts, Program, ScalarType};

@@ -2,7 +2,9 @@
 
 use dalembert_model::robot::Robot;
 
-use super::{GenerateError, Generated, GeneratedFunction, Job, Request, functions, generate};
+use super::{
+    GenerateError, Generated, GeneratedFunction, Job, Outcome, Request, functions, generate,
+};
 use crate::program::ScalarType;
 use crate::search::{Effort, price};
 use crate::watch::Watch;
@@ -13,19 +15,13 @@ use crate::watch::Watch;
 ///
 /// # Errors
 /// Those of [`generate`], except for a plan that no longer fits.
-pub fn generate_anew(
-    robot: &Robot,
-    request: &Request,
-    shown: &str,
-) -> Result<Generated, GenerateError> {
+pub fn generate_anew(robot: &Robot, request: &Request, shown: &str) -> Outcome<Generated> {
     let what = match generate(robot, request) {
         Err(GenerateError::Stale(what, _)) => what,
         other => return other,
     };
-    let without = Request {
-        plan: None,
-        ..request.clone()
-    };
+    let mut without = request.clone();
+    without.plan = None;
     let mut generated = generate(robot, &without)?;
     let scene = request.scene.as_ref();
     let scene = scene.map(|scene| format!("--scene {} ", scene.name));

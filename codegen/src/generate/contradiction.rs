@@ -2,8 +2,7 @@
 //!
 //! A proof in a prime field may miss, with a chance that nobody will see, and whoever writes it may
 //! err. Two states of the robot tell: the program with its exact constants, in 256 bits, against
-//! the robot's own recursion in 256 bits. With a tolerance the text, read back, against its
-//! bounds.
+//! the robot's own recursion in 256 bits. With a tolerance the text, read back, against its bounds.
 
 use crate::generate::{GenerateError, GeneratedFunction};
 use crate::program::ScalarType;
@@ -30,10 +29,9 @@ pub(super) fn check(
             exact(&reference, generated)?;
             continue;
         }
-        let texts = emitted.iter();
-        for text in texts.filter(|own| own.function == generated.function) {
-            tolerated(&reference, generated, text)?;
-        }
+        let is_own = |text: &&Emitted| text.function == generated.function;
+        let mut texts = emitted.iter().filter(is_own);
+        texts.try_for_each(|text| tolerated(&reference, generated, text))?;
     }
     Ok(())
 }

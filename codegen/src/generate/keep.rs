@@ -1,18 +1,23 @@
-//! The plan with the programs of a run in it, for later runs.
+//! What is kept of a run: its programs in a plan, for later runs, and the claim about them, with
+//! which the checker compares their text.
 
+use dalembert_checker::claim::{Claim, Claimed};
 use dalembert_model::robot::Robot;
 
-use super::{Generated, Request};
+use super::{Generated, Request, language};
+use crate::claim::{Written, of_setup};
 use crate::function::Function;
+use crate::language::Language;
+use crate::language::names::Names;
 use crate::plan::{Entry, Plan};
 use crate::program::{Program, ScalarType};
 use crate::search::price;
 use crate::setup::{SceneKey, input_hash};
+use crate::tolerance::claim::{document, tolerated};
+use crate::words::Complaint;
 
-/// A plan with what was generated in it.
 #[derive(Clone, Debug)]
 pub struct Kept {
-    /// The plan.
     pub plan: Plan,
     /// Where the plan keeps its own program: a search that was ended early had
     /// found none that is cheaper.
@@ -68,4 +73,32 @@ pub fn keep(robot: &Robot, request: &Request, generated: &Generated, plan: Optio
 fn emitted(entry: &Entry) -> &Program {
     let edited = entry.edited.as_ref();
     edited.unwrap_or(&entry.program)
+}
+
+/// Returns the claim about the functions that were generated for the robot of a file.
+///
+/// # Errors
+/// As of [`Request::setup`].
+pub fn claim(
+    robot: &Robot,
+    source: &str,
+    request: &Request,
+    generated: &Generated,
+) -> Result<Claim, Complaint> {
+    let request = &*language::with_short_name(robot, request);
+    let setup = &request.setup(robot)?;
+    let name = request.module_name(robot);
+    let mut constants = Written::default();
+    let functions = generated.functions.iter().map(|own| {
+        // A header of the same functions has the same claim.
+        let symbol = |&scalar| Names::new(&name, Language::C, scalar).of(own.function.name());
+        Claimed {
+            symbols: ScalarType::ALL.iter().map(symbol).collect(),
+            tolerated: (own.admitted.as_ref())
+                .and_then(|own| tolerated(own.variants.first()?, &mut constants)),
+            ..of_setup(&own.program, setup, &mut constants)
+        }
+    });
+    let functions = functions.collect();
+    Ok(document(robot, source, setup, functions, constants))
 }

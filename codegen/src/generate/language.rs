@@ -6,18 +6,14 @@ use std::borrow::Cow;
 use dalembert_model::robot::Robot;
 use hmac_sha256::Hash;
 
-use super::GenerateError;
+use super::{GenerateError, Outcome};
 use crate::emit::header;
 use crate::function::Function;
 use crate::language::Language;
 use crate::language::c99::LONGEST;
 use crate::task::Request;
 
-pub(super) fn check(
-    robot: &Robot,
-    request: &Request,
-    functions: &[Function],
-) -> Result<(), GenerateError> {
+pub(super) fn check(robot: &Robot, request: &Request, functions: &[Function]) -> Outcome<()> {
     if request.language == Language::Rust {
         return Ok(());
     }
@@ -41,20 +37,17 @@ pub(crate) fn with_short_name<'a>(robot: &Robot, request: &'a Request) -> Cow<'a
         return Cow::Borrowed(request);
     }
     let [first, second, ..] = Hash::hash(name.as_bytes());
-    let beginnings = (1..name.len())
-        .rev()
-        .filter_map(|length| name.get(..length));
-    let mut shorter = beginnings.map(|beginning| {
-        let beginning = beginning.trim_end_matches('_');
-        format!("{beginning}_{first:02x}{second:02x}")
-    });
-    match shorter.find(|name| !misnamed(name)) {
-        None => Cow::Borrowed(request),
-        short => Cow::Owned(Request {
-            module: short,
-            ..request.clone()
-        }),
-    }
+    let shortened = |length: usize| {
+        let beginning = name.get(..length)?.trim_end_matches('_');
+        Some(format!("{beginning}_{first:02x}{second:02x}"))
+    };
+    let mut shorter = (1..name.len()).rev().filter_map(shortened);
+    let Some(short) = shorter.find(|name| !misnamed(name)) else {
+        return Cow::Borrowed(request);
+    };
+    let mut named = request.clone();
+    named.module = Some(short);
+    Cow::Owned(named)
 }
 
 pub(super) fn renamed(robot: &Robot, request: &Request, named: &Request) -> Option<String> {

@@ -1,18 +1,6 @@
 //! The one function that macro, build script and command call.
-//!
-//! - `search`: a program from the plan, or searched for
-//! - `tolerate`: the cheapest variant that a scene's tolerance admits
-//! - [`mod@keep`]: what was generated, in a plan; [`claim`]: for the checker
-//! - [`bounded`]: the bounds of a variant, by the checker
-//! - `again`: what is searched for again: after an edit, and after an early end
-//! - `contradiction`: what was proved, tried
-//! - [`parameters`]: which parameters can be arguments
-//! - [`language`]: what a language lacks
-//! - `range`: what a scalar cannot hold; `sines`: polynomials in place of sines
-//! - [`error`]: why nothing was generated
 
 mod again;
-pub(crate) mod claim;
 pub(crate) mod contradiction;
 pub(crate) mod error;
 pub(crate) mod keep;
@@ -31,9 +19,7 @@ use dalembert_model::read::closest;
 use dalembert_model::robot::{HAND, Robot};
 use dalembert_stamp::{Comment, Stamp};
 
-use crate::emit::GeneratedFunction;
-use crate::emit::header;
-use crate::emit::module;
+use crate::emit::{GeneratedFunction, header, module};
 use crate::function::Function;
 use crate::language::Language;
 use crate::language::c99::Names;
@@ -55,7 +41,6 @@ pub use again::generate_anew;
 pub use error::GenerateError;
 use range::{check_constants, leave_out_single, vanishing, warn_of_overflow};
 use search::{found, replay};
-
 use tolerate::tolerate;
 
 /// Everything generated for a robot.
@@ -91,10 +76,8 @@ impl Generated {
                 Language::Rust => vec![self.scalars[index]],
                 Language::C | Language::Cuda => self.scalars.clone(),
             };
-            let named = Request {
-                scalars,
-                ..request.clone()
-            };
+            let mut named = request.clone();
+            named.scalars = scalars;
             let mut asked = named.asked();
             if self.without_single.is_some() {
                 // Nobody asked for f64 alone. It is an option.
@@ -116,9 +99,9 @@ impl Generated {
     /// scalars in Rust.
     pub fn suffixes(&self) -> Vec<&'static str> {
         let is_pair = self.texts.len() > 1;
+        let suffix = |scalar: &ScalarType| dalembert_stamp::suffix(scalar.name(), is_pair);
         let scalars = self.scalars.iter().take(self.texts.len());
-        let suffixes = scalars.map(|scalar| dalembert_stamp::suffix(scalar.name(), is_pair));
-        suffixes.collect()
+        scalars.map(suffix).collect()
     }
 
     /// Returns the texts of all files, one after the other.
@@ -126,6 +109,8 @@ impl Generated {
         self.texts.concat()
     }
 }
+
+pub(crate) type Outcome<T> = Result<T, GenerateError>;
 
 /// The most numbers a function may return: beyond, the code that returns
 /// them alone takes a compiler minutes.
@@ -165,25 +150,24 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     sines::give(job, &mut functions, &scalars)?;
     for generated in &functions {
         for &scalar in &scalars {
-            let subnormal = check_constants(&generated.program, scalar);
+            let program = &generated.program;
+            let subnormal = check_constants(program, scalar);
             let fail = |why| GenerateError::Constant(generated.function, why);
             warnings.extend(subnormal.map_err(fail)?);
-            let robot = setup.robot();
-            warn_of_overflow(robot, &generated.program, scalar, &mut warnings);
+            warn_of_overflow(setup.robot(), program, scalar, &mut warnings);
         }
     }
     let in_scalar = |&scalar: &ScalarType| {
-        let code = functions
-            .iter()
-            .map(|own| own.code(scalar, request.library()));
-        (scalar, code.collect::<Vec<Code>>())
+        let code = |own: &GeneratedFunction| own.code(scalar, request.library());
+        (scalar, functions.iter().map(code).collect::<Vec<Code>>())
     };
     let codes: Vec<(ScalarType, Vec<Code>)> = scalars.iter().map(in_scalar).collect();
     let texts = match request.language {
         Language::Rust => {
-            let each = codes.iter();
-            each.map(|(scalar, codes)| module::write(job, &functions, codes, *scalar))
-                .collect()
+            let own = |(scalar, codes): &(ScalarType, Vec<Code>)| {
+                module::write(job, &functions, codes, *scalar)
+            };
+            codes.iter().map(own).collect()
         }
         Language::C | Language::Cuda => {
             let note = without_single.as_deref();
@@ -219,7 +203,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     })
 }
 
-fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
+fn check(robot: &Robot, request: &Request) -> Outcome<()> {
     if request.functions.is_empty() || request.scalars.is_empty() {
         return Err(GenerateError::empty());
     }
@@ -254,17 +238,15 @@ fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
         true => Some((function, unbounded(function)?)),
         false => Some((function, complaint(FOLLOWS))),
     };
-    let mut functions = request.functions.iter();
-    match functions.find_map(refused).filter(|_| has_tolerance) {
-        Some((function, why)) => {
-            let why = ToleranceError::Refused(why);
-            Err(GenerateError::Tolerance(function, why))
-        }
-        None => Ok(()),
-    }
+    let refused = request.functions.iter().find_map(refused);
+    let Some((function, why)) = refused.filter(|_| has_tolerance) else {
+        return Ok(());
+    };
+    let why = ToleranceError::Refused(why);
+    Err(GenerateError::Tolerance(function, why))
 }
 
-fn check_frames(robot: &Robot, function: Function) -> Result<(), GenerateError> {
+fn check_frames(robot: &Robot, function: Function) -> Outcome<()> {
     let frames = robot.frames.iter();
     let names: Vec<&str> = frames.map(|frame| frame.name.as_str()).collect();
     let known = |frame: &&str| *frame == HAND || names.contains(frame);
@@ -284,38 +266,36 @@ type Found = (Vec<GeneratedFunction>, Vec<ScalarType>);
 
 /// With a tolerance, the cheapest exact programs are the start; those that cost fewer digits have
 /// their turn if it refuses these.
-fn functions(job: &Job<'_>) -> Result<Found, GenerateError> {
+fn functions(job: &Job<'_>) -> Outcome<Found> {
     let request = job.request;
     if job.tolerance().is_none() || request.prefer != Prefer::Accuracy {
         return attempt(job);
     }
-    let cheapest = &Request {
-        prefer: Prefer::Operations,
-        ..request.clone()
-    };
-    match attempt(&job.with(cheapest)) {
+    let mut cheapest = request.clone();
+    cheapest.prefer = Prefer::Operations;
+    match attempt(&job.with(&cheapest)) {
         Err(GenerateError::Tolerance(_, ToleranceError::Above(_))) => attempt(job),
         found => found,
     }
 }
 
-fn attempt(job: &Job<'_>) -> Result<Found, GenerateError> {
+fn attempt(job: &Job<'_>) -> Outcome<Found> {
     let mut functions = Function::in_order(&job.request.functions);
     if job.setup.has(RuntimeParameter::Payload) {
         functions.insert(0, Function::Load);
     }
     let proved = |function: &Function| proved(job, *function);
-    let found: Result<_, _> = match job.request.effort {
+    let found: Result<Vec<_>, _> = match job.request.effort {
         Effort::Quick => parallel::each(&functions, proved).into_iter().collect(),
         // One function at a time, so that progress can be shown for each.
         Effort::Thorough => functions.iter().map(proved).collect(),
     };
-    let mut functions: Vec<GeneratedFunction> = found?;
+    let mut functions = found?;
     let scalars = tolerate(job, &mut functions)?;
     Ok((functions, scalars))
 }
 
-fn proved(job: &Job<'_>, function: Function) -> Result<GeneratedFunction, GenerateError> {
+fn proved(job: &Job<'_>, function: Function) -> Outcome<GeneratedFunction> {
     let setup = job.setup;
     let base = setup.base_of(function);
     let base = base.map_err(|why| GenerateError::Base(function, why.clone()))?;

@@ -76,11 +76,8 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
     }
     if setup.load().is_none_or(|load| load.rows.is_empty()) {
         let message = "the payload has no effect on any moving joint".to_owned();
-        return Err(refused(
-            None,
-            message,
-            "leave `payload` out of the parameters",
-        ));
+        let help = "leave `payload` out of the parameters";
+        return Err(refused(None, message, help));
     }
     Ok(())
 }

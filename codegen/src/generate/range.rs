@@ -1,5 +1,4 @@
-//! What a scalar cannot hold: constants out of its range, overflow inside the
-//! robot's limits.
+//! What a scalar cannot hold: constants out of its range, overflow inside the robot's limits.
 
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;

@@ -3,7 +3,7 @@
 use dalembert_model::equations::chain::Regrouping;
 use dalembert_model::number::Exact;
 
-use super::{GenerateError, Job};
+use super::{GenerateError, Job, Outcome};
 use crate::dag::Dag;
 use crate::function::Function;
 use crate::plan::{Entry, Plan};
@@ -18,11 +18,7 @@ use crate::verify::exact::prove;
 use crate::watch::{FunctionWatch, Part};
 
 /// Returns a plan's program, the first requested scalar's that it has.
-pub fn replay(
-    job: &Job<'_>,
-    plan: Option<&Plan>,
-    function: Function,
-) -> Result<Option<Entry>, GenerateError> {
+pub fn replay(job: &Job<'_>, plan: Option<&Plan>, function: Function) -> Outcome<Option<Entry>> {
     let Job { setup, request, .. } = *job;
     // A load is its definition: nothing was searched for.
     let Some(plan) = plan.filter(|_| function != Function::Load) else {
@@ -31,13 +27,12 @@ pub fn replay(
     let scene = setup.scene();
     let parameters = ParametersKey::find(setup.task(function));
     let find = |scene| {
-        let mut scalars = request.scalars.iter();
         let found = |&scalar: &ScalarType| {
             plan.find(function, request.start, scalar, scene, parameters.as_ref())
         };
         // Of other numbers of the load it is the program of another function.
         let same = |entry: &Entry| entry.parameters == parameters;
-        scalars.find_map(found).filter(same)
+        request.scalars.iter().find_map(found).filter(same)
     };
     let found = find(scene);
     // A box or a tolerance by itself leaves the equations as they are.
@@ -62,9 +57,9 @@ pub(super) fn found(job: &Job<'_>, function: Function) -> Result<Origin, Generat
     let mut found = search.cheapest()?;
     if let Some((entry, program)) = search.renewed() {
         let again = search.on_from(&entry, &program, &found);
-        found = again
-            .filter(|again| again.cost() < found.cost())
-            .unwrap_or(found);
+        if let Some(again) = again.filter(|own| own.cost() < found.cost()) {
+            found = again;
+        }
         if search::cost(&program.dag) <= found.cost() {
             return Ok((entry.source, entry.passes, program, None));
         }
@@ -82,13 +77,10 @@ pub(super) fn found(job: &Job<'_>, function: Function) -> Result<Origin, Generat
     Ok((seed.source, passes.collect(), program, found.refused))
 }
 
-/// What a search found, and from what.
 pub struct Found {
     /// The regrouping of the chain forms, if there are such.
     pub tuned: Option<Tuned>,
-    /// What it started from.
     pub seeds: Vec<Seed>,
-    /// Its program.
     pub searched: Searched,
     /// What would be cheaper, but for its rounding error.
     pub refused: Option<Refused>,
@@ -138,16 +130,22 @@ impl<'a> Search<'a> {
         }
         tell(Part::Formulations, Some(quick.searched.graph.counts()));
         let mut found = self.run(Effort::Thorough, true, &[], watch)?;
-        let order = |own: &Found| (!self.judge.accepts(&own.searched.graph), own.cost());
-        if order(&found) > order(&quick) {
+        if self.order(&found) > self.order(&quick) {
             found = quick;
         } else {
-            found.refused = quick
-                .refused
-                .and_then(|refused| self.refused(refused.counts, refused.error, &found));
+            let again = |own: Refused| self.refused(own.counts, own.error, &found);
+            found.refused = quick.refused.and_then(again);
         }
         tell(Part::Proof, Some(found.searched.graph.counts()));
         Ok(found)
+    }
+
+    fn accepts(&self, found: &Found) -> bool {
+        self.judge.accepts(&found.searched.graph)
+    }
+
+    fn order(&self, found: &Found) -> (bool, u64) {
+        (!self.accepts(found), found.cost())
     }
 
     fn renewed(&self) -> Option<(Entry, Program)> {
@@ -178,35 +176,32 @@ impl<'a> Search<'a> {
     /// digits, again within the limit, also from where the other search ended.
     fn quick(&self, watch: FunctionWatch<'_>) -> Result<Found, GenerateError> {
         let free = self.run(Effort::Quick, false, &[], watch)?;
-        if self.judge.accepts(&free.searched.graph) {
+        if self.accepts(&free) {
             return Ok(free);
         }
-        let again = Approach {
+        let same = Approach {
             tuned: free.tuned.clone(),
             seeds: free.seeds.clone(),
             helpers: Vec::new(),
         };
-        let mut found = self.search_from(again, Effort::Quick, true, watch);
+        let again = |from| self.search_from(from, Effort::Quick, true, watch);
+        let mut found = again(same);
         let is_near = |found: &Found| {
             let most = free.cost() + free.cost() / NEAR;
-            found.cost() <= most && self.judge.accepts(&found.searched.graph)
+            found.cost() <= most && self.accepts(found)
         };
         if !found.as_ref().is_some_and(is_near) {
             let tuned = free.tuned.iter();
             let from: Vec<Regrouping<Exact>> = tuned.map(|t| t.regrouping.clone()).collect();
             let other = self.run(Effort::Quick, true, &from, watch)?;
-            let order = |found: &Found| (!self.judge.accepts(&found.searched.graph), found.cost());
             let both = found.into_iter().chain([other]);
-            found = both.min_by_key(order);
+            found = both.min_by_key(|found| self.order(found));
         }
         let mut found = found.ok_or_else(GenerateError::empty)?;
-        if !self.judge.accepts(&found.searched.graph) {
+        if !self.accepts(&found) {
             // All that share parameters lose digits, as beside a heavy rotor: the textbook's does not.
-            let textbook = Start::textbook(self.task);
-            let textbook =
-                textbook.and_then(|own| self.search_from(own, Effort::Quick, true, watch));
-            let is_better = |own: &Found| self.judge.accepts(&own.searched.graph);
-            if let Some(textbook) = textbook.filter(is_better) {
+            let textbook = Start::textbook(self.task).and_then(again);
+            if let Some(textbook) = textbook.filter(|own| self.accepts(own)) {
                 return Ok(textbook);
             }
         }
@@ -247,13 +242,11 @@ impl<'a> Search<'a> {
             from,
             watch,
         };
+        let search = |approach| self.search_from(approach, effort, limited, watch);
         let approaches = self.job.request.start.approaches(&problem).into_iter();
-        let found =
-            approaches.filter_map(|approach| self.search_from(approach, effort, limited, watch));
-        let refused = |found: &Found| limited && !self.judge.accepts(&found.searched.graph);
-        found
-            .min_by_key(|found| (refused(found), found.cost()))
-            .ok_or_else(GenerateError::empty)
+        let order = |found: &Found| (limited && !self.accepts(found), found.cost());
+        let found = approaches.filter_map(search).min_by_key(order);
+        found.ok_or_else(GenerateError::empty)
     }
 
     fn search_from(
@@ -282,7 +275,6 @@ impl<'a> Search<'a> {
 }
 
 impl Found {
-    /// Returns the seed that the search started from.
     pub fn seed(&self) -> &Seed {
         &self.seeds[self.searched.seed]
     }

@@ -39,10 +39,8 @@ pub(super) fn give(
         chosen.push((scalar, sines));
     }
     // With the error of the worst of them all can be had.
-    let worst = missed
-        .iter()
-        .max_by(|(_, a), (_, b)| a.least.total_cmp(&b.least));
-    if let (Some(_), Some((function, miss))) = (request.sincos_error, worst) {
+    missed.sort_by(|(_, a), (_, b)| a.least.total_cmp(&b.least));
+    if let (Some(_), Some((function, miss))) = (request.sincos_error, missed.last()) {
         return Err(refused(*function, miss));
     }
     for (scalar, lists) in chosen {
@@ -61,11 +59,11 @@ fn polynomials(
     error: f64,
 ) -> Result<Vec<Sines>, (Function, OutOfReach)> {
     let positions = sincos::positions(setup.robot(), scalar);
-    let sines = functions.iter().map(|own| {
-        sincos::polynomials(&own.program, scalar, &positions, error)
-            .map_err(|miss| (own.function, miss))
-    });
-    sines.collect()
+    let sines = |own: &GeneratedFunction| {
+        let sines = sincos::polynomials(&own.program, scalar, &positions, error);
+        sines.map_err(|miss| (own.function, miss))
+    };
+    functions.iter().map(sines).collect()
 }
 
 fn refused(function: Function, miss: &OutOfReach) -> GenerateError {

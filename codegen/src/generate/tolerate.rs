@@ -5,7 +5,7 @@
 //! programs: little while a compiler waits, minutes for a plan.
 
 use crate::function::Function;
-use crate::generate::{GenerateError, GeneratedFunction, Job};
+use crate::generate::{GenerateError, GeneratedFunction, Job, Outcome};
 use crate::program::{Program, ScalarType};
 use crate::search::Effort;
 use crate::setup::SceneKey;
@@ -49,7 +49,7 @@ pub fn admitted(
     job: &Job<'_>,
     programs: &[&Program],
     load: Option<&Program>,
-) -> Result<Option<Vec<Admitted>>, GenerateError> {
+) -> Outcome<Option<Vec<Admitted>>> {
     let request = job.request;
     let Some(tolerance) = job.tolerance() else {
         return Ok(None);
@@ -121,12 +121,11 @@ fn in_scalars(
             }
         });
     }
-    let each = budgets.iter().zip(starts);
-    each.map(|(budget, start)| {
+    let chosen = |(budget, start): (&Budget<'_>, Start)| {
         let allowed = budget.allowed(tolerance);
         chosen(job, budget, start, &allowed, scalars, meter)
-    })
-    .collect()
+    };
+    budgets.iter().zip(starts).map(chosen).collect()
 }
 
 /// Returns the variant of a plan: its bounds are found anew.
@@ -187,9 +186,8 @@ fn chosen(
         }
     };
     let with = |admitted: &Admitted| -> Result<Vec<Variant>, Complaint> {
-        let variants = admitted.variants.iter();
         let with = |own| budget.with_polynomials(&admitted.program, own, allowed);
-        variants.map(with).collect()
+        admitted.variants.iter().map(with).collect()
     };
     match request.sincos {
         SinCos::Libm | SinCos::Together => {}

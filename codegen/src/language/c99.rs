@@ -1,5 +1,4 @@
-//! Functions in C99, which C++ reads too, and in CUDA: one flat function each, matrices row by
-//! row.
+//! Functions in C99, which C++ reads too, and in CUDA: one flat function each, matrices row by row.
 //!
 //! ```text
 //! static inline void arm_gravity(const double q[ARM_RESTRICT 2], double c[ARM_RESTRICT 2])
@@ -60,11 +59,8 @@ pub(crate) fn structure_name(function: Function, names: &Names) -> String {
 pub(crate) fn shaped(quantity: Quantity, sizes: Sizes) -> String {
     let lengths = quantity.shape().lengths(sizes);
     let lengths: Vec<String> = lengths.map(|length| format!("[{length}]")).collect();
-    let rows = if lengths.len() > 1 {
-        ", row by row"
-    } else {
-        ""
-    };
+    let is_matrix = lengths.len() > 1;
+    let rows = if is_matrix { ", row by row" } else { "" };
     let (field, summary) = (quantity.field(), quantity.facts().summary);
     format!("{field}{}{rows}: {summary}", lengths.concat())
 }
@@ -158,10 +154,8 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
         let joint = pair.joint;
         let (argument, both) = (trig::operand(joint), format!("p{}", joint + 1));
         if let (None, Library::Together) = (&pair.kernel, code.library) {
-            let [kind, function] = ["sincos_t", "sincos"].map(|word| names.of(word));
-            line(&format!(
-                "const {kind} {both} = {function}({far}, {argument});"
-            ));
+            let [kind, call] = ["sincos_t", "sincos"].map(|word| names.of(word));
+            line(&format!("const {kind} {both} = {call}({far}, {argument});"));
         }
         let kernel = pair.kernel.as_ref();
         let prefix = format!("x{}_", joint + 1);
@@ -181,9 +175,7 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
         }
     }
     if let Some(called) = &called {
-        for statement in called.lines(names) {
-            line(&statement);
-        }
+        called.lines(names).iter().for_each(|own| line(own));
         for pair in by_call {
             for (name, is_sine) in taken(pair) {
                 let value = called.value(pair.joint, is_sine).unwrap_or_default();
@@ -211,10 +203,10 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
 }
 
 fn taken(pair: &Pair) -> impl Iterator<Item = (String, bool)> {
-    let sine = pair.need.sin.then_some((Input::Sin(pair.joint), true));
-    let cosine = pair.need.cos.then_some((Input::Cos(pair.joint), false));
-    let taken = sine.into_iter().chain(cosine);
-    taken.map(|(input, is_sine)| (input.name(), is_sine))
+    let (need, joint) = (pair.need, pair.joint);
+    let sine = need.sin.then(|| (Input::Sin(joint).name(), true));
+    let cosine = need.cos.then(|| (Input::Cos(joint).name(), false));
+    sine.into_iter().chain(cosine)
 }
 
 /// Up to this magnitude sines are computed without a library.

@@ -21,8 +21,7 @@ pub(crate) struct Called {
 }
 
 impl Called {
-    /// In CUDA, and in a function that batches call, vectors are made of states, and each angle has
-    /// a call of its own.
+    /// In CUDA, and in what batches call, vectors are of states: each angle has its own call.
     pub(crate) fn of(code: &Code, joints: usize, names: &Names, is_told: bool) -> Option<Called> {
         let angles: Vec<usize> = trig::taken(code).map(|pair| pair.joint).collect();
         if is_told || names.language() != Language::C || angles.is_empty() {

@@ -157,9 +157,8 @@ impl<I> Lines<'_, I> {
     }
 
     pub(crate) fn statements(&self) -> impl Iterator<Item = String> {
-        self.dag
-            .operations()
-            .filter_map(|(id, ..)| self.statement(id))
+        let operations = self.dag.operations();
+        operations.filter_map(|(id, ..)| self.statement(id))
     }
 
     /// `let t3 = t1 * s2;`, or `let t5 = t3.mul_add(s2, t1);` for a sum and the product that it

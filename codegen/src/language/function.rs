@@ -17,9 +17,7 @@ pub(crate) const FLAT: usize = 1000;
 pub(crate) const BLOCK: usize = 500;
 
 pub(crate) const LOAD: &str = "Load";
-
 pub(crate) const PAYLOAD: &str = "Payload";
-
 pub(crate) const GRAVITY: &str = "Gravity";
 
 /// Prints the function, whose roots are this library's; `doc` stands above it, one line an item.
@@ -31,12 +29,8 @@ pub fn write(program: &Program, code: &Code, library: Library, doc: &[String]) -
     trig::write_speeds(&mut text, dialect, code, library.path());
     write_steps(&mut text, code, dialect);
     let lines = Lines::new(dialect, code);
-    result::write(
-        &mut text,
-        program.function,
-        program.sizes(),
-        lines.results(),
-    );
+    let (function, sizes) = (program.function, program.sizes());
+    result::write(&mut text, function, sizes, lines.results());
     text.push_str("}\n");
     text
 }
@@ -55,12 +49,8 @@ pub(super) fn write_steps(text: &mut String, code: &Code, dialect: Dialect) {
     while !rest.is_empty() {
         let mut length = BLOCK.min(rest.len());
         // None ends between a product and the sum that takes it.
-        if rest
-            .get(length)
-            .is_some_and(|&id| code.dag.fusion(id).is_some())
-        {
-            length += 1;
-        }
+        let next = rest.get(length).and_then(|&id| code.dag.fusion(id));
+        length += usize::from(next.is_some());
         let (block, after) = rest.split_at(length);
         let end = after.first().copied().unwrap_or(Id::MAX);
         rest = after;

@@ -1,13 +1,4 @@
 //! Programs as flat text of a language, printed and read back.
-//!
-//! - [`dialect`]: how a language writes a line, one table for printing and reading
-//! - [`c99`]: functions in C and CUDA
-//! - [`called`]: sines in C that one call gives
-//! - [`columns`]: functions of any number of states
-//! - [`function`]: one program as one function
-//! - [`result`]: the array or the struct that it ends with
-//! - `trig`: sines and cosines, by calls and as polynomials, and what friction reads of speeds
-//! - [`read`]: the printed text, and whether it is the program
 
 pub(crate) mod c99;
 pub(crate) mod called;
@@ -57,11 +48,10 @@ impl Language {
         let ending = path.extension().unwrap_or_default();
         let mut known = ENDINGS.iter();
         let found = known.find(|(known, _)| ending.eq_ignore_ascii_case(known));
-        found.map(|(_, language)| *language).ok_or_else(|| {
-            let known =
-                ENDINGS.map(|(ending, language)| format!(".{ending} ({})", language.name()));
-            known.join(", ")
-        })
+        let shown =
+            |(ending, language): (&str, Language)| format!(".{ending} ({})", language.name());
+        let language = found.map(|(_, language)| *language);
+        language.ok_or_else(|| ENDINGS.map(shown).join(", "))
     }
 
     /// Returns the default scalars: f64 in Rust, where each has a file of its own, else both.

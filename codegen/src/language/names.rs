@@ -49,7 +49,6 @@ const SHORTER: [(&str, &str); 12] = [
     ("angular", "ang"),
 ];
 
-/// The names of one scalar's functions in a header of a language.
 #[derive(Clone, Debug)]
 pub struct Names {
     base: String,
@@ -58,7 +57,6 @@ pub struct Names {
 }
 
 impl Names {
-    /// Returns the names of a module's functions in a scalar.
     pub fn new(base: &str, language: Language, scalar: ScalarType) -> Names {
         Names {
             base: base.to_owned(),

@@ -19,18 +19,13 @@ use crate::program::{
 /// The arguments of a function, and what its results' lengths follow from.
 #[derive(Clone, Copy, Debug)]
 pub struct Signature<'a> {
-    /// Which function.
     pub function: Function,
-    /// The arguments there are, in order.
     pub arguments: &'a [Argument],
-    /// The sizes that the lengths of arguments and results follow from.
     pub sizes: Sizes,
-    /// The scalar.
     pub scalar: ScalarType,
 }
 
 impl<'a> Signature<'a> {
-    /// Returns that of a program in a scalar.
     pub fn of(program: &'a Program, scalar: ScalarType) -> Signature<'a> {
         Signature {
             function: program.function,
@@ -77,10 +72,7 @@ impl Code {
         code(read, signature.scalar)
     }
 
-    /// Reads a function out of a text in Rust.
-    ///
-    /// # Errors
-    /// As [`Code::read`].
+    /// Reads a function out of a text in Rust, as [`Code::read`] does.
     pub fn parse(text: &str, signature: &Signature<'_>) -> Result<Code, TextError> {
         let names = Names::new("", Language::Rust, signature.scalar);
         Code::read(&Text::rust(text)?, signature, &names, false)
@@ -156,9 +148,6 @@ pub(crate) fn graph<V, C: Clone + Eq + Hash, I: Clone + Eq + Hash>(
         negative: *negative,
         value: operand(own),
     });
-    let steps = Steps {
-        steps: steps.collect(),
-        outputs: outputs.collect(),
-    };
-    steps.dag()
+    let (steps, outputs): (Vec<_>, Vec<_>) = (steps.collect(), outputs.collect());
+    Steps { steps, outputs }.dag()
 }

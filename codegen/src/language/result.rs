@@ -5,10 +5,9 @@ use crate::language::list;
 use crate::program::ScalarType;
 
 pub(crate) fn array_type(quantity: Quantity, sizes: Sizes, scalar: ScalarType) -> String {
+    let array = |inner: String, length: usize| format!("[{inner}; {length}]");
     let lengths = quantity.shape().lengths(sizes).rev();
-    lengths.fold(scalar.name().to_owned(), |inner, length| {
-        format!("[{inner}; {length}]")
-    })
+    lengths.fold(scalar.name().to_owned(), array)
 }
 
 pub(crate) fn structure(function: Function, sizes: Sizes, scalar: ScalarType) -> Option<String> {
@@ -64,9 +63,7 @@ fn write_array(
     let indent = "    ".repeat(depth);
     match *lengths {
         [] => text.push_str(&items.next().unwrap_or_default()),
-        [length] => {
-            *text += &format!("[{}]", list(items.take(length)));
-        }
+        [length] => *text += &format!("[{}]", list(items.take(length))),
         [length, ref inner @ ..] => {
             text.push_str("[\n");
             for _ in 0..length {

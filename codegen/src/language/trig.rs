@@ -20,15 +20,13 @@ use crate::program::{Code, Input, Library, Literal, Operation, Pair};
 
 pub(super) fn write(text: &mut String, code: &Code) {
     let dialect = Dialect::rust(code.scalar);
-    write_each(text, code, dialect, |function, angle| {
-        dialect.call("libm", function, angle)
-    });
+    let call = |function: &str, angle: &str| dialect.call("libm", function, angle);
+    write_each(text, code, dialect, call);
     let angles = list(taken(code).map(|pair| operand(pair.joint)));
     if !angles.is_empty() {
         let ([sin, cos], suffix) = (taken_names(code), code.scalar.math_suffix());
-        *text += &format!(
-            "    let ([{sin}], [{cos}]) = dalembert_sines::sincos{suffix}(&[{angles}]);\n"
-        );
+        let value = format!("dalembert_sines::sincos{suffix}(&[{angles}])");
+        *text += &format!("    let ([{sin}], [{cos}]) = {value};\n");
     }
 }
 
@@ -48,9 +46,7 @@ pub(super) fn write_each(
         let angle = operand(pair.joint);
         match &pair.kernel {
             Some(kernel) => write_kernel(text, &names, &angle, kernel, dialect),
-            None => {
-                *text += &format!("    let {names} = {};\n", call(function, &angle));
-            }
+            None => *text += &format!("    let {names} = {};\n", call(function, &angle)),
         }
     }
 }
@@ -90,8 +86,7 @@ pub(super) fn taken_names(code: &Code) -> [String; 2] {
     [list(sines), list(cosines)]
 }
 
-/// `let r2 = 1.0 / libm::sqrt(qd[1] * qd[1] + 0.0001);` Roots are correctly rounded, whoever
-/// computes them.
+/// `let r2 = 1.0 / libm::sqrt(qd[1] * qd[1] + 0.0001);` Every library rounds roots correctly.
 pub(super) fn write_speeds(text: &mut String, dialect: Dialect, code: &Code, path: &str) {
     let one = dialect.literal(Literal(1.0));
     for own in &code.speeds {

@@ -2,6 +2,7 @@
 
 use dalembert_checker::Fault;
 use dalembert_checker::claim::{Claim, Claimed, Planned, Tolerated};
+use dalembert_checker::program::Program as Straight;
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
@@ -25,11 +26,9 @@ impl Plan {
         let mut constants = Written::default();
         let functions = self.entries.iter().map(|own| own.claimed(&mut constants));
         let functions = functions.collect();
-        let document = Claim {
-            robot: self.robot.clone(),
-            input: self.input.clone(),
-            ..constants.document(functions)
-        };
+        let mut document = constants.document(functions);
+        document.robot.clone_from(&self.robot);
+        document.input.clone_from(&self.input);
         document.write()
     }
 
@@ -183,10 +182,7 @@ fn taken(own: &Claimed, empty: &mut Program) -> Result<Vec<RuntimeParameter>, Co
     Ok(taken.filter(|own| is_taken(own.argument())).collect())
 }
 
-fn program(
-    empty: &Program,
-    read: &dalembert_checker::program::Program<Exact>,
-) -> Result<Program, Complaint> {
+fn program(empty: &Program, read: &Straight<Exact>) -> Result<Program, Complaint> {
     let program = Program {
         dag: graph(read, Exact::clone, input),
         ..empty.clone()
@@ -200,19 +196,15 @@ fn program(
         let why = format!("`{}` is no input of it", input.name());
         return Err(complaint(why));
     }
-    let expected = program.function.outputs(sizes);
-    match program.dag.outputs.len() {
-        found if found == expected => Ok(program),
-        found => Err(complaint(format!(
-            "expected {expected} results, found {found}"
-        ))),
+    let (expected, found) = (program.function.outputs(sizes), program.dag.outputs.len());
+    if found != expected {
+        let why = format!("expected {expected} results, found {found}");
+        return Err(complaint(why));
     }
+    Ok(program)
 }
 
-fn edited(
-    empty: &Program,
-    emitted: &dalembert_checker::program::Program<Exact>,
-) -> Result<Program, Complaint> {
+fn edited(empty: &Program, emitted: &Straight<Exact>) -> Result<Program, Complaint> {
     let program = program(empty, emitted)?;
     match program.divides() {
         true => Err(complaint("a quotient, of which no bound is known")),

@@ -18,9 +18,6 @@ pub fn path(robot_file: &Path) -> PathBuf {
 ///
 /// A macro that was expanded without a plan could not name it to the compiler. It did name the
 /// robot file, so that gets a new time.
-///
-/// # Errors
-/// The robot file's time cannot be set.
 pub fn announce(robot_file: &Path) -> std::io::Result<()> {
     let file = File::options().append(true).open(robot_file)?;
     file.set_modified(std::time::SystemTime::now())
@@ -35,17 +32,13 @@ pub(crate) fn bytes(path: &Path, most: usize) -> std::io::Result<Vec<u8>> {
 }
 
 /// Reads the plan beside a robot file; there need not be one.
-///
-/// # Errors
-/// What is wrong with the file, or with a line of it.
 pub fn beside(robot_file: &Path) -> Result<Option<Plan>, Complaint> {
     let path = path(robot_file);
     let shown = path.display();
     // Opening a pipe would wait for somebody who writes into it.
     if fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
-        return Err(complaint(format!(
-            "cannot read `{shown}`: a plan is a file"
-        )));
+        let why = format!("cannot read `{shown}`: a plan is a file");
+        return Err(complaint(why));
     }
     let bytes = match bytes(&path, MOST_BYTES) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),

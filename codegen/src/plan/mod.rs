@@ -3,10 +3,6 @@
 //! A long search is run once; its programs, with exact constants, are kept in `<robot>.plan` and
 //! replayed: read, proved again, printed. A plan says which robot it is for by the hash of that
 //! robot, so an edited robot does not get the program of another.
-//!
-//! - this file: [`Plan`]: its entries and how one is found
-//! - [`mod@file`]: where it is kept
-//! - `document`: the text
 
 mod document;
 pub mod file;
@@ -35,7 +31,6 @@ pub struct Plan {
 pub struct Entry {
     /// The formulation that was asked for.
     pub start: Start,
-    /// The scalar that it was made for.
     pub scalar: ScalarType,
     /// Where the search started.
     pub source: Source,
@@ -45,10 +40,8 @@ pub struct Entry {
     pub scene: Option<SceneKey>,
     /// The robot's parameters that it takes as arguments, if it does.
     pub parameters: Option<ParametersKey>,
-    /// The program.
     pub program: Program,
-    /// The program to emit instead, where a scene has a tolerance. Whenever it is used, its bounds are
-    /// found anew.
+    /// The program to emit instead, where a scene has a tolerance. Each use finds its bounds anew.
     pub edited: Option<Program>,
 }
 
@@ -109,9 +102,8 @@ impl Plan {
         let scene = scene.map(|scene| scene.name.as_str());
         let key = (scene, function, start.name(), scalar, taken(parameters));
         let mut entries = self.entries.iter();
-        entries
-            .find(|entry| is_same(entry.key(), key))?
-            .as_function(function)
+        let entry = entries.find(|entry| is_same(entry.key(), key))?;
+        entry.as_function(function)
     }
 
     /// Puts an entry in its place, instead of those for the same results.

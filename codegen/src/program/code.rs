@@ -17,24 +17,18 @@ use crate::states::{JointState, State};
 /// A program in a scalar, with every constant rounded once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Code {
-    /// The scalar.
     pub scalar: ScalarType,
     /// Who computes the sines that are called; libm where none is.
     pub library: Library,
-    /// Sines and cosines, in the order of the text.
     pub pairs: Vec<Pair>,
     /// The joints of which r = 1/√(q̇² + w²) is read, ascending.
     pub speeds: Vec<Speed<Literal>>,
-    /// The arithmetic and the results.
     pub dag: Dag<Literal>,
 }
 
-/// The sine and cosine of a joint's angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
-    /// The joint.
     pub joint: usize,
-    /// The ones that the code reads.
     pub need: Need,
     /// The polynomials, unless a library is called.
     pub kernel: Option<Kernel>,
@@ -44,7 +38,6 @@ pub struct Pair {
 /// squares the velocity, adds w², takes the root and divides one by it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Speed<C = Exact> {
-    /// The joint, zero-based.
     pub joint: usize,
     /// w²: exact, or the literal that it was rounded to.
     pub square: C,

@@ -4,8 +4,7 @@ use super::{Code, Steps};
 use crate::words::{Complaint, complaint};
 
 impl Code {
-    /// Returns the first difference from other code; the order of constants and inputs does not
-    /// count.
+    /// Returns the first difference from other code, but for the order of constants and inputs.
     pub fn difference(&self, other: &Code) -> Option<Complaint> {
         let (a, b) = (self, other);
         let counts = [a, b].map(|code| code.dag.operations().count());

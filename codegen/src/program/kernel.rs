@@ -7,21 +7,21 @@ use super::machine::Machine;
 use super::{Counts, Literal, Operation};
 use crate::dag::{Dag, Edge, Id, Node, Writer};
 
-/// The one input of a kernel: its angle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Angle;
 
-/// The functions of an angle that are wanted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Need {
-    /// `true` if the sine is wanted.
     pub sin: bool,
-    /// `true` if the cosine is wanted.
     pub cos: bool,
 }
 
 impl Need {
-    /// Returns how many are wanted.
+    pub(crate) const BOTH: Need = Need {
+        sin: true,
+        cos: true,
+    };
+
     pub fn count(self) -> usize {
         usize::from(self.sin) + usize::from(self.cos)
     }
@@ -33,10 +33,8 @@ impl Need {
     }
 }
 
-/// The code of one angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kernel {
-    /// The results of the code.
     pub need: Need,
     /// The operations; the results are the sine and the cosine, as far as they are wanted.
     pub dag: Dag<Literal, Angle>,
@@ -73,13 +71,11 @@ impl KernelWriter {
         let first = coefficients.next().copied().unwrap_or(0.0);
         let mut sum = self.literal(first);
         for &c in coefficients {
-            let product = self.mul(x, sum);
+            sum = self.mul(x, sum);
             // A coefficient that vanishes by symmetry takes no addition.
-            sum = if c == 0.0 {
-                product
-            } else {
-                self.add_literal(product, c)
-            };
+            if c != 0.0 {
+                sum = self.add_literal(sum, c);
+            }
         }
         sum
     }
@@ -96,7 +92,6 @@ impl KernelWriter {
 }
 
 impl Counts {
-    /// Returns the counts with those of polynomials for sines.
     #[must_use]
     pub fn with_kernels<'k>(mut self, kernels: impl Iterator<Item = &'k Kernel>) -> Counts {
         for (_, operation, _) in kernels.flat_map(|kernel| kernel.dag.operations()) {
@@ -110,12 +105,10 @@ impl Counts {
 }
 
 impl Kernel {
-    /// Returns the sine and the cosine, each if it is wanted.
     pub fn results(&self) -> [Option<Edge>; 2] {
         self.need.each(self.dag.outputs.iter().copied())
     }
 
-    /// Counts multiplications and additions.
     pub fn operations(&self) -> usize {
         self.dag.operations().count()
     }

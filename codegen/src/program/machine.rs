@@ -1,8 +1,9 @@
-//! The floats that emitted code runs in.
+//! The floats that emitted code runs in, and the libraries whose sines and cosines it calls.
 
 use dalembert_model::scalar::Divide;
 
 use super::ScalarType;
+use super::kernel::Need;
 use crate::function::Argument;
 use crate::states::{JointState, State};
 
@@ -16,9 +17,7 @@ impl JointState {
     }
 }
 
-/// A float that emitted code runs in.
 pub trait Machine: Divide + Copy {
-    /// Its name in emitted code, and what it rounds.
     const SCALAR: ScalarType;
     /// Returns the literal's value: exact, since it was parsed in this type.
     fn literal(value: f64) -> Self;
@@ -30,7 +29,6 @@ pub trait Machine: Divide + Copy {
     fn cos(self) -> Self;
     /// Returns the square root, correctly rounded.
     fn root(self) -> Self;
-    /// Returns both at once.
     fn sincos(self) -> (Self, Self);
     /// Returns both for code that calls for all angles together; each angle's bits are its own.
     fn together(self) -> (Self, Self);
@@ -67,3 +65,33 @@ macro_rules! machine {
 }
 machine!(f64, F64, sqrt, sin, cos, sincos);
 machine!(f32, F32, sqrtf, sinf, cosf, sincosf);
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Library {
+    /// libm, an angle a call.
+    #[default]
+    Libm,
+    /// `dalembert-sines`, all angles of a function in one call.
+    Together,
+}
+
+impl Library {
+    pub const ALL: [Library; 2] = [Library::Libm, Library::Together];
+
+    pub fn path(self) -> &'static str {
+        match self {
+            Library::Libm => "libm",
+            Library::Together => "dalembert_sines",
+        }
+    }
+
+    /// Returns sine and cosine as it computes them, to the last bit.
+    pub fn pair<T: Machine>(self, angle: T, need: Need) -> (T, T) {
+        match (self, need.sin, need.cos) {
+            (Library::Together, ..) => angle.together(),
+            (Library::Libm, true, false) => (angle.sin(), angle),
+            (Library::Libm, false, true) => (angle, angle.cos()),
+            (Library::Libm, ..) => angle.sincos(),
+        }
+    }
+}

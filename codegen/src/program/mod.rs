@@ -1,18 +1,8 @@
 //! Straight-line code, and what it is made of.
-//!
-//! - this file: [`Program`]: sines and cosines first, then arithmetic
-//! - [`Speed`]: what it reads of speeds for Coulomb friction
-//! - [`scalar_type`]: the floats that code is printed in; constants rounded once
-//! - [`code`]: the same over literals: each constant rounded once, sines by a
-//!   library or by the polynomials of a [`kernel`]; `difference`: where two differ
-//! - [`library`]: who computes the sines that are called
-//! - [`steps`]: a program as a list of steps
-//! - [`machine`]: floats that run as emitted code does
 
 pub(crate) mod code;
 mod difference;
 pub(crate) mod kernel;
-pub(crate) mod library;
 pub(crate) mod machine;
 pub(crate) mod scalar_type;
 pub(crate) mod steps;
@@ -28,7 +18,7 @@ use crate::function::{Argument, Columns, Function, Sizes};
 pub(crate) use code::Speed;
 pub use code::{Code, Pair};
 pub use kernel::Need;
-pub use library::Library;
+pub use machine::Library;
 pub use scalar_type::{Literal, ScalarType};
 pub use steps::{Operand, Output, Step, Steps};
 
@@ -130,12 +120,11 @@ impl Program {
     }
 
     pub(crate) fn read(&self, mut speeds: Vec<Speed>) -> Vec<Speed> {
-        let read = |joint| {
-            self.dag
-                .inputs()
-                .any(|input| *input == Input::PerSpeed(joint))
+        let is_read = |own: &Speed| {
+            let speed = Input::PerSpeed(own.joint);
+            self.dag.inputs().any(|input| *input == speed)
         };
-        speeds.retain(|own| read(own.joint));
+        speeds.retain(is_read);
         speeds
     }
 

@@ -11,50 +11,34 @@ use crate::dag::{Dag, Edge, Id, Node, Writer};
 /// The steps of a graph, operands before users, and its results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Steps<C = Exact, I = Input> {
-    /// The operations, in order.
     pub steps: Vec<Step<C, I>>,
-    /// The results.
     pub outputs: Vec<Output<C, I>>,
 }
 
-/// One operation over constants C and inputs I.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step<C = Exact, I = Input> {
-    /// The arithmetic operation.
     pub operation: Operation,
-    /// Left operand.
     pub left: Operand<C, I>,
-    /// Right operand.
     pub right: Operand<C, I>,
 }
 
-/// An operand of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operand<C = Exact, I = Input> {
-    /// An input.
     Input(I),
-    /// A constant.
     Constant(C),
-    /// The result of an earlier step.
     Step(usize),
 }
 
 /// A result, negated or not: negation is free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Output<C = Exact, I = Input> {
-    /// `true` if the result is negated.
     pub negative: bool,
-    /// The value.
     pub value: Operand<C, I>,
 }
 
 impl<C: Clone, I: Clone> Steps<C, I> {
     /// Lists the operations of a graph whose operands come before their users.
-    pub fn new<D, J>(
-        dag: &Dag<D, J>,
-        constant: impl Fn(&D) -> C,
-        input: impl Fn(&J) -> I,
-    ) -> Steps<C, I> {
+    pub fn new<D, J>(dag: &Dag<D, J>, constant: impl Fn(&D) -> C, input: impl Fn(&J) -> I) -> Self {
         let numbers = dag.numbers();
         let operand = |id: Id| match dag.node(id) {
             Node::Constant(own) => Operand::Constant(constant(own)),
@@ -71,10 +55,8 @@ impl<C: Clone, I: Clone> Steps<C, I> {
             negative: edge.negative,
             value: operand(edge.node),
         });
-        Steps {
-            steps: steps.collect(),
-            outputs: outputs.collect(),
-        }
+        let (steps, outputs) = (steps.collect(), outputs.collect());
+        Steps { steps, outputs }
     }
 
     /// Returns the graph of the steps, each leaf before the first of them that reads it.
@@ -108,7 +90,6 @@ impl<C: Clone, I: Clone> Steps<C, I> {
 }
 
 impl Dag {
-    /// Lists the operations.
     pub fn steps(&self) -> Steps {
         Steps::new(self, Exact::clone, |input| *input)
     }

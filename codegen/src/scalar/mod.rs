@@ -159,16 +159,10 @@ impl Scalar for AnyScalar {
     unary!(half, |x: &Rational| x / Rational::from_integer(2.into()));
 
     fn is_zero(&self) -> bool {
-        match self {
-            AnyScalar::Symbol(x) => x.is_zero(),
-            _ => false,
-        }
+        matches!(self, AnyScalar::Symbol(x) if x.is_zero())
     }
     fn is_one(&self) -> bool {
-        match self {
-            AnyScalar::Symbol(x) => x.is_one(),
-            _ => false,
-        }
+        matches!(self, AnyScalar::Symbol(x) if x.is_one())
     }
 
     /// As the doubles of the generic runtime do, those here round once.

@@ -32,7 +32,6 @@ impl TrueValue {
         }
     }
 
-    /// Returns the nearest double.
     pub fn to_f64(&self) -> f64 {
         self.value.to_f64()
     }
@@ -56,11 +55,9 @@ impl TrueValue {
     }
 
     pub(crate) fn exact(value: Wide) -> TrueValue {
-        let size = value.magnitude();
         TrueValue {
-            value,
-            size,
             lost: 0.0,
+            ..TrueValue::rounded(value, 0.0)
         }
     }
 

@@ -54,9 +54,8 @@ fn pairs_of(pool: &[(Class, Field)], mut visit: impl FnMut(Field, Way)) {
 }
 
 fn keyed(classes: &Classes, pool: &[Class]) -> Vec<(Class, Field)> {
-    pool.iter()
-        .map(|&id| (id, classes.print(id).0[0]))
-        .collect()
+    let keyed = |&id: &Class| (id, classes.print(id).0[0]);
+    pool.iter().map(keyed).collect()
 }
 
 pub(super) fn pairs(classes: &mut Classes, pool: &[Class]) {
@@ -67,9 +66,7 @@ pub(super) fn pairs(classes: &mut Classes, pool: &[Class]) {
     }
     let mut found = Vec::new();
     pairs_of(&keyed(classes, pool), |key, way| {
-        if known.passes(key) {
-            found.push(way);
-        }
+        found.extend(known.passes(key).then_some(way));
     });
     found.into_iter().for_each(|way| classes.offer(way, None));
 }
@@ -78,8 +75,8 @@ pub(super) fn pairs(classes: &mut Classes, pool: &[Class]) {
 /// thousands of such keys that are met twice come into a map.
 pub(super) fn resubstitute(classes: &mut Classes, pool: &[Class]) {
     let keys = keyed(classes, pool);
-    let inverses = keys.iter().filter_map(|&(c, z)| Some((c, z.inverse()?)));
-    let inverses: Vec<(Class, Field)> = inverses.collect();
+    let inverse = |&(c, z): &(Class, Field)| Some((c, z.inverse()?));
+    let inverses: Vec<(Class, Field)> = keys.iter().filter_map(inverse).collect();
     let quotients = |visit: &mut dyn FnMut(Field, Class, Class)| {
         for &(y, x) in &keys {
             for &(c, inverse) in inverses.iter().filter(|(c, _)| *c != y) {
@@ -98,9 +95,7 @@ pub(super) fn resubstitute(classes: &mut Classes, pool: &[Class]) {
     quotients(&mut |key, _, _| meet(key));
     let mut pairs: Vec<(Field, Way)> = Vec::new();
     pairs_of(&keys, |key, way| {
-        if again.passes(key) {
-            pairs.push((key, way));
-        }
+        pairs.extend(again.passes(key).then_some((key, way)));
     });
     let mut first: FxHashMap<Field, Way> = FxHashMap::default();
     for &(key, way) in &pairs {
@@ -127,10 +122,7 @@ pub(super) fn resubstitute(classes: &mut Classes, pool: &[Class]) {
     });
     found.sort_unstable();
     for (y, c, outer, (op, ends)) in found {
-        let inner = match op {
-            Operation::Mul => PRODUCT,
-            _ => SUM,
-        };
+        let inner = if op == Operation::Mul { PRODUCT } else { SUM };
         classes.nest(y, outer, c, inner, ends);
     }
 }

@@ -22,7 +22,6 @@ const TINY: usize = 170;
 /// short: the slopes of a PUMA's torques come out with 1003 to 1008 operations.
 const MEDIUM: usize = 2_000;
 
-/// The limits of a search.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// Walks from the start, by other random numbers each: the best of them counts.

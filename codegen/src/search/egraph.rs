@@ -86,10 +86,8 @@ impl Analysis<ENode> for Prints {
 
     fn modify(egraph: &mut EGraph<ENode, Self>, id: Class) {
         let own = &mut egraph.analysis;
-        let root = *own
-            .by_print
-            .entry(own.prints[usize::from(id)])
-            .or_insert(id);
+        let print = own.prints[usize::from(id)];
+        let root = *own.by_print.entry(print).or_insert(id);
         match root == id {
             true if own.roots.last() < Some(&id) => own.roots.push(id),
             true => {
@@ -283,10 +281,8 @@ impl Classes {
 
     pub(super) fn begin(&mut self, dag: &Dag) -> (Vec<Class>, Choice) {
         let (values, choice) = self.absorb(&Printed::new(dag));
-        let outputs = dag.outputs.iter();
-        self.outputs = outputs
-            .map(|e| flip(values[e.node as usize], e.negative))
-            .collect();
+        let output = |edge: &Edge| flip(values[edge.index()], edge.negative);
+        self.outputs = dag.outputs.iter().map(output).collect();
         let mut own: Vec<Class> = values.into_iter().flatten().map(|value| value.0).collect();
         let mut seen = vec![false; self.bound()];
         own.retain(|class| !std::mem::replace(&mut seen[usize::from(*class)], true));
@@ -306,10 +302,9 @@ impl Classes {
                 (Some(Node::Constant(constant)), _) => Some(builder.constant(constant)),
                 (_, Some((operation, ends))) => match ends.map(|id| edges[usize::from(id)]) {
                     [Some(a), Some(b)] => Some(builder.apply(operation, a, b)),
-                    ready => {
-                        let missing = ends.into_iter().zip(ready);
-                        let missing = missing.filter(|(_, edge)| edge.is_none());
-                        pending.extend(missing.map(|(id, _)| id));
+                    _ => {
+                        let is_missing = |id: &Class| edges[usize::from(*id)].is_none();
+                        pending.extend(ends.into_iter().filter(is_missing));
                         continue;
                     }
                 },
@@ -322,13 +317,12 @@ impl Classes {
             pending.pop();
         }
         let zero = builder.zero();
-        let outputs = self.outputs.iter().map(|output| match output {
-            Some((class, negative)) => edges[usize::from(*class)]
-                .unwrap_or(zero)
-                .negated_if(*negative),
-            None => zero,
-        });
-        let outputs = outputs.collect();
+        let edge = |&(class, negative): &(Class, bool)| {
+            let edge = edges[usize::from(class)].unwrap_or(zero);
+            edge.negated_if(negative)
+        };
+        let output = |output: &Signed| output.as_ref().map_or(zero, edge);
+        let outputs = self.outputs.iter().map(output).collect();
         builder.finish(outputs)
     }
 }

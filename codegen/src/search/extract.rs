@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use super::egraph::{Choice, Classes, Way};
 use super::order::Order;
-use super::price;
+use super::{SINCOS, price_of};
 use crate::dag::Node;
 use crate::random::Random;
 
@@ -86,7 +86,7 @@ impl<'a> Extraction<'a> {
             {
                 let place = angles.entry(angle).or_insert_with(|| {
                     ways.push(vec![Step {
-                        cost: price::SINCOS,
+                        cost: SINCOS,
                         ..Step::default()
                     }]);
                     ways.len() as u32 - 1
@@ -102,7 +102,7 @@ impl<'a> Extraction<'a> {
         for (class, way) in classes.ways() {
             let reads = way.1.map(|id| places[usize::from(id)]);
             let step = Step {
-                cost: price::operation(way.0),
+                cost: price_of(way.0),
                 reads,
                 way: Some(way),
             };
@@ -135,10 +135,8 @@ impl<'a> Extraction<'a> {
     fn seed(&mut self, seed: &Choice, places: &[u32]) {
         for (&own, way) in places.iter().zip(seed) {
             if own != NONE && way.is_some() {
-                let found = self
-                    .ways(own)
-                    .find(|&at| self.steps[at as usize].way == *way);
-                self.chosen[own as usize] = found.unwrap_or(NONE);
+                let is_it = |&at: &u32| self.steps[at as usize].way == *way;
+                self.chosen[own as usize] = self.ways(own).find(is_it).unwrap_or(NONE);
             }
         }
         let mut changed = true;
@@ -159,10 +157,8 @@ impl<'a> Extraction<'a> {
     }
 
     fn is_ready(&self, way: u32) -> bool {
-        let reads = self.steps[way as usize].reads;
-        reads
-            .iter()
-            .all(|&id| id == NOTHING || self.chosen[id as usize] != NONE)
+        let is_ready = |&id: &u32| id == NOTHING || self.chosen[id as usize] != NONE;
+        self.steps[way as usize].reads.iter().all(is_ready)
     }
 
     fn reads(steps: &[Step], chosen: &[u32], id: u32) -> [u32; 2] {
@@ -178,9 +174,8 @@ impl<'a> Extraction<'a> {
     /// Returns whether a class may take a way: nothing that it reads depends on the class.
     fn admits(&mut self, id: u32, way: u32) -> bool {
         let (steps, chosen) = (&self.steps, &self.chosen);
-        self.order.admits(id, steps[way as usize].reads, |id| {
-            Self::reads(steps, chosen, id)
-        })
+        let reads = |id| Self::reads(steps, chosen, id);
+        self.order.admits(id, steps[way as usize].reads, reads)
     }
 
     fn revive(&mut self) {

@@ -1,19 +1,11 @@
 //! The search for the fewest operations: discovery and extraction in turns, to a plateau; where
 //! there is time, from the start again, by other random numbers.
-//!
-//! - this file: [`search`], and one round of it
-//! - [`effort`]: how much a search may do; [`price`]: what it minimises
-//! - `egraph`: values up to sign by fingerprint, and the ways to compute each
-//! - `rules`: identities of algebra, applied by pattern
-//! - `discover`: ways that only the fingerprints show
-//! - `extract`: the cheapest program that the ways allow; `order`: no way in a circle
 
 mod discover;
 mod effort;
 mod egraph;
 mod extract;
 mod order;
-mod price;
 mod rules;
 #[cfg(test)]
 mod tests;
@@ -21,25 +13,19 @@ mod tests;
 use egg::Id as Class;
 
 use crate::dag::{Dag, Folding};
-use crate::program::Counts;
+use crate::program::{Counts, Operation};
 use crate::random::Random;
 pub use effort::{Effort, Limits};
 use egraph::{Classes, Printed};
 use extract::Extraction;
 pub use extract::Schedule;
-pub use price::{cost, price};
 
 /// The most values of a program that are paired with each other in every search.
 const MAX_OWN: usize = 1_500;
-/// The e-nodes, for each one that was there, at which rules stop.
-const GROWTH: usize = 20;
 
-/// The counts after one step of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pass {
-    /// The step.
     pub name: &'static str,
-    /// The counts after it.
     pub counts: Counts,
 }
 
@@ -48,7 +34,6 @@ impl Pass {
     pub const NAMES: [&'static str; 4] = ["traced", "folded", "fingerprints", "search"];
 }
 
-/// The result of a search.
 #[derive(Clone, Debug)]
 pub struct Searched {
     /// The cheapest program.
@@ -100,10 +85,8 @@ pub fn search(
             let found = round(number, &own, &offers, &limits, &mut random);
             let (before, after) = (cost(&own), cost(&found));
             let is_taken = after <= before && (!is_strict || accept(&found));
-            idle = match is_taken && after < before {
-                true => 0,
-                false => idle + 1,
-            };
+            let is_less = is_taken && after < before;
+            idle = if is_less { 0 } else { idle + 1 };
             if is_taken {
                 own = found;
                 // Between equal programs the first walk keeps the later one.
@@ -133,7 +116,7 @@ fn round(
 ) -> Dag {
     let mut classes = Classes::default();
     let (own, choice) = classes.begin(program);
-    rules::saturate(&mut classes, limits.rules, GROWTH);
+    rules::saturate(&mut classes, limits.rules);
     for graph in offers {
         classes.absorb(graph);
     }
@@ -151,4 +134,30 @@ fn round(
     extraction.anneal(limits.schedules[number % 2], random);
     extraction.climb();
     classes.graph(&extraction.choice())
+}
+
+/// Between equal sums the one with fewer multiplications is cheaper; a division costs as much as
+/// five operations, sine and cosine of an angle as much as twenty.
+const MUL: u64 = 101;
+const ADD: u64 = 100;
+const DIV: u64 = 500;
+const SINCOS: u64 = 2000;
+
+fn price_of(operation: Operation) -> u64 {
+    match operation {
+        Operation::Mul | Operation::Fused => MUL,
+        Operation::Add | Operation::Sub => ADD,
+        Operation::Div => DIV,
+    }
+}
+
+/// Returns the price of counts; a fused operation costs as much as its product and its sum.
+pub fn price(counts: &Counts) -> u64 {
+    let [mul, add] = [counts.mul, counts.add].map(|n| (n + counts.fma) as u64);
+    MUL * mul + ADD * add + DIV * counts.div as u64 + SINCOS * counts.sincos as u64
+}
+
+/// Returns the price of a graph's outputs.
+pub fn cost(dag: &Dag) -> u64 {
+    price(&dag.counts())
 }

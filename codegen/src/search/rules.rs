@@ -49,23 +49,24 @@ static READ: LazyLock<Vec<(Pattern<ENode>, Kind, Kind)>> = LazyLock::new(|| {
     read
 });
 
-/// Stops after `iterations`, or when the e-graph has grown to `growth` times its size.
-pub(super) fn saturate(classes: &mut Classes, iterations: usize, growth: usize) {
+/// The e-nodes, for each one that was there, at which rules stop.
+const GROWTH: usize = 20;
+
+pub(super) fn saturate(classes: &mut Classes, iterations: usize) {
     let [a, b, c] = ["?a", "?b", "?c"].map(|name| {
         let variable = name.parse::<Var>();
         variable.unwrap_or_else(|why| unreachable!("{name}: {why}"))
     });
-    let most = growth * classes.bound();
+    let most = GROWTH * classes.bound();
     for _ in 0..iterations {
         let size = classes.bound();
         let matches = classes.matches(READ.iter().map(|(left, ..)| left));
         for (found, (_, outer, inner)) in matches.into_iter().zip(READ.iter()) {
-            for (class, bound) in found
-                .iter()
-                .flat_map(|f| f.substs.iter().map(|s| (f.eclass, s)))
-            {
-                if classes.bound() < most {
-                    classes.nest(class, outer, bound[a], inner, [bound[b], bound[c]]);
+            for own in &found {
+                for bound in &own.substs {
+                    if classes.bound() < most {
+                        classes.nest(own.eclass, outer, bound[a], inner, [bound[b], bound[c]]);
+                    }
                 }
             }
         }

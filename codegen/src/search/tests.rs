@@ -2,12 +2,11 @@
 
 use egg::Id as Class;
 
-use super::discover;
 use super::egraph::{Choice, Classes, Printed, Signed, Way, way};
 use super::extract::{Extraction, Schedule};
 use super::order::Order;
-use super::price;
 use super::rules::{self, RULES};
+use super::{discover, price_of};
 use crate::dag::pattern::graph;
 use crate::dag::{Builder, Dag, Folding};
 use crate::program::Operation;
@@ -69,18 +68,13 @@ fn every_choice_of_ways_gives_the_same_values() {
     classes.begin(&dag);
     let prints = |dag: &Dag| {
         let mut builder = Builder::new(Folding::Semantic);
-        let edges = builder.copy(dag);
-        let output =
-            |edge: &crate::dag::Edge| builder.print(edges[edge.index()].negated_if(edge.negative));
-        dag.outputs.iter().map(output).collect::<Vec<_>>()
+        let results = builder.results(dag).into_iter();
+        results.map(|edge| builder.print(edge)).collect::<Vec<_>>()
     };
     let expected = prints(&dag);
-    let mut count = 0;
-    for chosen in choices(&classes) {
-        assert_eq!(prints(&classes.graph(&chosen)), expected);
-        count += 1;
-    }
-    assert!(count >= 4, "several programs: {count}");
+    let same = choices(&classes).map(|own| prints(&classes.graph(&own)) == expected);
+    let same: Vec<bool> = same.collect();
+    assert!(same.len() >= 4 && !same.contains(&false), "{same:?}");
 }
 
 fn choices(classes: &Classes) -> impl Iterator<Item = Choice> {
@@ -112,7 +106,7 @@ fn every_rule_adds_its_right_side() {
             let mut classes = begun(&[&text]);
             let output = class_of(&classes, 0).0;
             let before = ways_of(&classes, output);
-            rules::saturate(&mut classes, 1, 20);
+            rules::saturate(&mut classes, 1);
             let ways = ways_of(&classes, output);
             let mut new = ways.iter().filter(|way| !before.contains(way));
             let is_right = |way: &Way| outer.contains(&way.0);
@@ -144,10 +138,8 @@ fn finds_every_kind_of_hidden_way() {
             // Of pairs with one key the first is taken: that of the inputs.
             false => discover::resubstitute(&mut classes, &[inputs, &[target]].concat()),
         }
-        let new: Vec<Way> = ways_of(&classes, target)
-            .into_iter()
-            .filter(|way| !known.contains(way))
-            .collect();
+        let mut new = ways_of(&classes, target);
+        new.retain(|way| !known.contains(way));
         let is_kind = |way: &Way| (way.0 == Mul) == (operation == Mul);
         assert!(new.iter().any(is_kind), "{formula}: {new:?}");
         for way in new {
@@ -176,7 +168,7 @@ fn cost_of(classes: &Classes, choice: &Choice) -> Option<u64> {
             _ => state[place] = 1,
         }
         let (operation, ends) = choice[place]?;
-        let mut cost = price::operation(operation);
+        let mut cost = price_of(operation);
         for end in ends {
             cost += visit(classes, choice, end, state)?;
         }
@@ -241,7 +233,7 @@ fn a_way_in_a_circle_is_never_taken() {
         extraction.anneal(SCHEDULE, &mut Random::new(seed));
         assert!(cost_of(&classes, &extraction.choice()).is_some());
     }
-    let least = price::operation(Mul) + price::operation(Add);
+    let least = price_of(Mul) + price_of(Add);
     assert_eq!(extraction.cost, least);
 }
 

@@ -13,8 +13,7 @@ use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Motion, Regrouped, RuntimeParameter, Written};
 
 use super::load::symbols;
-use super::trace::reader;
-use super::{Form, Seed, Source, Tuned};
+use super::{Form, Seed, Source, Tuned, reader};
 use crate::dag::symbol::Symbol;
 use crate::dag::{Builder, Dag, Folding, Leaves};
 use crate::function::{Argument, Quantity};
@@ -52,6 +51,8 @@ pub fn trace_chain(
     let of_frame = |quantity: &Quantity| quantity.is_regrouped() && quantity.is_of_frame();
     let arm = (function.quantities().iter().any(of_frame)).then(|| moving(setup, None, &leaves).0);
     let position = arm.as_ref().map_or_else(Vec::new, |arm| arm.at(&whole.q));
+    let among = following.iter().filter_map(|own| own.among(rows));
+    let among: Vec<_> = among.collect();
     let regrouped = Regrouped {
         chain,
         at,
@@ -60,10 +61,7 @@ pub fn trace_chain(
         form,
         textbook: arm.as_ref().map(|arm| textbook(arm, &position, &whole)),
         joints: rows,
-        following: &following
-            .iter()
-            .filter_map(|own| own.among(rows))
-            .collect::<Vec<_>>(),
+        following: &among,
         shared: Default::default(),
     };
     let sizes = setup.sizes(function);
@@ -94,11 +92,10 @@ fn moving<L: Leaves>(
 ) -> (Arm<L::Value>, Motion<L::Value>) {
     let constant = |constant: &Exact| leaves.constant(constant);
     let motion = setup.motion(|input| leaves.input(input), constant);
-    let arm = setup.arm(constant);
-    let arm = match gravity {
-        Some(gravity) => arm.with_gravity(gravity),
-        None => arm,
-    };
+    let mut arm = setup.arm(constant);
+    if let Some(gravity) = gravity {
+        arm = arm.with_gravity(gravity);
+    }
     (arm.at_speeds(&motion.per_speed), motion)
 }
 
@@ -191,9 +188,8 @@ pub(super) fn merged(task: Task<'_>, chain: &Chain<Exact>, form: Form) -> Dag {
 fn axes(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
     let freedom = chain.freedoms();
     let links = chain.links.iter().zip(&freedom);
-    let own: Vec<i32> = links
-        .map(|(link, &[less, more])| link.axes.clamp(less, more))
-        .collect();
+    let own = links.map(|(link, &[less, more])| link.axes.clamp(less, more));
+    let own: Vec<i32> = own.collect();
     let natural = vec![0; own.len()];
     let mut all = vec![own.clone(), natural.clone()];
     all.extend([0, 1].map(|side| freedom.iter().map(|bounds| bounds[side]).collect()));

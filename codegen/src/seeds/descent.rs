@@ -75,10 +75,8 @@ pub(crate) fn tuned(problem: &Problem<'_>, forms: &[Form]) -> Tuned {
         }
         from
     };
-    let mut starts: Vec<Regrouping<Exact>> = starts(&Chain::new(&arm, &start))
-        .into_iter()
-        .map(with)
-        .collect();
+    let starts = starts(&Chain::new(&arm, &start)).into_iter();
+    let mut starts: Vec<Regrouping<Exact>> = starts.map(with).collect();
     if effort == Effort::Quick && starts.len() > 1 {
         // One descent: from where the others look dearer already. Of a short chain
         // a round of the search is cheap, and tells more than the folded formula.
@@ -92,18 +90,13 @@ pub(crate) fn tuned(problem: &Problem<'_>, forms: &[Form]) -> Tuned {
         starts.truncate(1);
     }
     starts.extend_from_slice(problem.from);
+    let watched = |chain: &Chain<Exact>, form: Form, below: u64| match is_over() {
+        true => u64::MAX,
+        false => traced(chain, form, below),
+    };
     let mut tuned: Option<Tuned> = None;
     for from in starts {
-        let mut found = tune::tune(
-            &arm,
-            from,
-            forms,
-            effort.regrouping_rounds(),
-            |chain, form, below| match is_over() {
-                true => u64::MAX,
-                false => traced(chain, form, below),
-            },
-        );
+        let mut found = tune::tune(&arm, from, forms, effort.regrouping_rounds(), watched);
         if arm.links.len() <= MAX_QUICK_LINKS {
             found.price = quick(&Chain::new(&arm, &found.regrouping), found.form, u64::MAX);
         }

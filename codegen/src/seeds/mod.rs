@@ -1,30 +1,27 @@
 //! The formulations that a function's search can start from, each as a graph.
-//!
-//! - this file: [`Seed`], a graph to start from, and its [`Source`]
-//! - [`start`]: what a search starts from, by the formulation that was asked for
-//! - [`chain`]: the chain forms ([`dalembert_model::equations::chain`]) in a regrouping
-//! - [`descent`]: the regrouping that is cheapest for the robot and the function;
-//!   [`tune`]: how a descent goes from one to the next
-//! - [`load`]: the numbers of the chain that a payload changes, and how formulas read them
-//! - `trace`: a textbook formulation as it stands
 
 pub(crate) mod chain;
 pub(crate) mod descent;
 pub(crate) mod load;
 pub(crate) mod start;
-mod trace;
 pub(crate) mod tune;
 
-use dalembert_model::equations::Formulation;
+use std::cell::RefCell;
+use std::rc::Rc;
 
-use crate::dag::Dag;
-use crate::program::Counts;
+use dalembert_model::equations::Formulation;
+use dalembert_model::scalar::Scalar;
+
+use crate::dag::symbol::Symbol;
+use crate::dag::{Builder, Dag, Folding, Node};
+use crate::function::Argument;
+use crate::program::{Counts, Input};
+use crate::scalar::{Erased, restored};
+use crate::setup::Task;
 pub(crate) use chain::regrouped;
 pub use chain::{skeleton, skeleton_for, trace_chain};
 pub(crate) use descent::{Limit, tuned};
 pub use start::Start;
-pub(crate) use trace::depends_on_coulomb;
-pub use trace::trace;
 pub(crate) use tune::Tuned;
 
 pub(crate) use dalembert_model::equations::chain::Form;
@@ -32,7 +29,6 @@ pub(crate) use dalembert_model::equations::chain::Form;
 /// Longer chains are tuned by the price before the search alone.
 const MAX_QUICK_LINKS: usize = 10;
 
-/// The formula behind a graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Source {
     /// A formulation as the textbook has it.
@@ -44,7 +40,6 @@ pub enum Source {
 }
 
 impl Source {
-    /// Returns its name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Source::Textbook(Formulation::LagrangeEuler) => "lagrange_euler",
@@ -55,7 +50,6 @@ impl Source {
         }
     }
 
-    /// Returns the source of a name.
     pub fn from_name(name: &str) -> Option<Source> {
         let textbook = start::TEXTBOOK.into_iter().map(Source::Textbook);
         let mut all = textbook.chain([Source::Regrouped]);
@@ -63,13 +57,51 @@ impl Source {
     }
 }
 
-/// A graph of a function to start from.
 #[derive(Clone, Debug)]
 pub struct Seed {
-    /// Where it comes from.
     pub source: Source,
     /// The graph, folded as it was built, nothing more.
     pub graph: Dag,
     /// The operations of the formula as it was executed, before folding.
     pub traced: Counts,
+}
+
+/// Other inputs are zero: a search pairs all that a graph has, and they would be in its way.
+pub(crate) fn reader(
+    arguments: &[Argument],
+    builder: &Rc<RefCell<Builder>>,
+) -> impl Fn(Input) -> Symbol {
+    let is_read = |argument| Argument::STATE.contains(&argument) || arguments.contains(&argument);
+    move |input: Input| match is_read(input.argument()) {
+        true => Symbol::input(builder, input),
+        false => Symbol::zero(),
+    }
+}
+
+pub(crate) fn depends_on_coulomb(task: Task<'_>) -> bool {
+    if !task.setup.has_coulomb() {
+        return false;
+    }
+    let graph = trace(task, Formulation::NewtonEulerLink).graph;
+    let mut live = graph.live();
+    live.any(|(_, node)| matches!(node, Node::Input(Input::PerSpeed(_))))
+}
+
+/// Returns a textbook formulation as it stands, run with symbols in a scene.
+pub fn trace(task: Task<'_>, formulation: Formulation) -> Seed {
+    let Task { setup, function } = task;
+    let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
+    // As the textbook has it, a payload is a body and no load.
+    let mut arguments = setup.arguments(function);
+    arguments.push(Argument::Payload);
+    let leaves = (Symbol::constant, reader(&arguments, &builder));
+    let outputs: Vec<Symbol> = restored(task.textbook(formulation, &Erased(&leaves)));
+    let mut builder = builder.replace(Builder::new(Folding::Syntactic));
+    let outputs = outputs.iter().map(|output| output.edge(&mut builder));
+    let outputs = outputs.collect();
+    Seed {
+        source: Source::Textbook(formulation),
+        traced: builder.asked(),
+        graph: builder.finish(outputs),
+    }
 }

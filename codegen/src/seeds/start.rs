@@ -43,8 +43,7 @@ impl Start {
     /// Returns the recursion in link axes alone: what rounding is held against. It has no load.
     pub(crate) fn textbook(task: Task<'_>) -> Option<Approach> {
         let is_loaded = task.setup.takes(task.function, RuntimeParameter::Payload);
-        let seed = || vec![trace(task, Formulation::NewtonEulerLink)];
-        (!is_loaded).then(|| Approach::of(seed()))
+        (!is_loaded).then(|| Approach::of(vec![trace(task, Formulation::NewtonEulerLink)]))
     }
 
     pub(crate) fn approaches(self, problem: &Problem<'_>) -> Vec<Approach> {
@@ -154,8 +153,7 @@ fn by_chain(problem: &Problem<'_>) -> Approach {
     let mut quantities = function.quantities().iter();
     let is_loaded = setup.takes(function, RuntimeParameter::Payload);
     if !is_loaded && quantities.all(|quantity| quantity.facts().starts_from_recursion) {
-        let recursion = trace(task, Formulation::NewtonEulerLink);
-        seeds.push(recursion);
+        seeds.push(trace(task, Formulation::NewtonEulerLink));
     }
     Approach {
         tuned: Some(tuned),

@@ -22,14 +22,11 @@ const MAX_TERMS: usize = 100;
 /// A price takes time in proportion to the links, and so does the number of prices.
 const MAX_TUNED: usize = 16;
 
-/// The result of a descent.
 #[derive(Clone, Debug)]
 pub struct Tuned {
-    /// The regrouping.
     pub regrouping: Regrouping<Exact>,
     /// The cheapest form in it.
     pub form: Form,
-    /// Its price.
     pub price: u64,
 }
 
@@ -165,11 +162,9 @@ impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
     }
 }
 
-fn alternatives(
-    arm: &Skeleton<Exact>,
-    regrouping: &Regrouping<Exact>,
-    i: usize,
-) -> Vec<LinkRegrouping<Exact>> {
+type Link = LinkRegrouping<Exact>;
+
+fn alternatives(arm: &Skeleton<Exact>, regrouping: &Regrouping<Exact>, i: usize) -> Vec<Link> {
     let mut metres = regrouping.clone();
     (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
     let chain = Chain::new(arm, &metres);
@@ -184,10 +179,7 @@ fn alternatives(
     links
 }
 
-fn changed(
-    now: &LinkRegrouping<Exact>,
-    change: impl FnOnce(&mut LinkRegrouping<Exact>),
-) -> LinkRegrouping<Exact> {
+fn changed(now: &Link, change: impl FnOnce(&mut Link)) -> Link {
     let mut link = now.clone();
     change(&mut link);
     link
@@ -211,17 +203,12 @@ fn quotient(a: &Exact, b: &Exact) -> Option<Exact> {
 /// A moment about its axis that a revolute link may keep: of its regrouping, of a body, and how
 /// much of it besides nothing.
 type Moment = (
-    fn(&mut LinkRegrouping<Exact>) -> &mut Exact,
+    fn(&mut Link) -> &mut Exact,
     fn(&mut Body<Exact>) -> &mut Exact,
     Vec<Exact>,
 );
 
-fn revolute(
-    arm: &Skeleton<Exact>,
-    chain: &Chain<Exact>,
-    now: &LinkRegrouping<Exact>,
-    i: usize,
-) -> Vec<LinkRegrouping<Exact>> {
+fn revolute(arm: &Skeleton<Exact>, chain: &Chain<Exact>, now: &Link, i: usize) -> Vec<Link> {
     let link = &chain.links[i];
     let body = &link.body;
     let [mass, first, second] = link.free.clone();
@@ -264,35 +251,25 @@ fn revolute(
     if let Some(next) = chain.links.get(i + 1) {
         origins.push(now.origin[2].add(&next.offset[2]));
     }
-    let origins = origins
-        .into_iter()
-        .map(|z| [Exact::zero(), Exact::zero(), z]);
-    links.extend(origins.map(|origin| changed(now, |link| link.origin = origin)));
+    links.extend(origins.into_iter().map(|z| {
+        let origin = [Exact::zero(), Exact::zero(), z];
+        changed(now, |link| link.origin = origin)
+    }));
     links
 }
 
-fn prismatic(
-    chain: &Chain<Exact>,
-    now: &LinkRegrouping<Exact>,
-    i: usize,
-) -> Vec<LinkRegrouping<Exact>> {
+fn prismatic(chain: &Chain<Exact>, now: &Link, i: usize) -> Vec<Link> {
     let link = &chain.links[i];
     let shifted = |by: &Vector<Exact>| -> Vector<Exact> {
         core::array::from_fn(|axis| now.origin[axis].add(&by[axis]))
     };
-    let mut origins = vec![
-        zero_vector(),
-        shifted(&link.offset.clone().map(|x| x.neg())),
-    ];
+    let back = link.offset.each_ref().map(|x| x.neg());
+    let mut origins = vec![zero_vector(), shifted(&back)];
     if let Some(next) = chain.links.get(i + 1) {
         origins.push(shifted(&next.offset));
     }
-    let centre: Vec<Exact> = link
-        .body
-        .first
-        .iter()
-        .filter_map(|moment| quotient(moment, &link.body.mass))
-        .collect();
+    let centre = |moment: &Exact| quotient(moment, &link.body.mass);
+    let centre: Vec<Exact> = link.body.first.iter().filter_map(centre).collect();
     if let Ok(centre) = <Vector<Exact>>::try_from(centre) {
         origins.push(shifted(&centre));
     }

@@ -10,14 +10,10 @@ use crate::program::ScalarType;
 use crate::program::kernel::{Kernel, Need};
 use crate::sincos::reduction;
 
-/// A kernel with its proof.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
-    /// What kind it is.
     pub form: Form,
-    /// The code.
     pub kernel: Kernel,
-    /// Its proved errors over the range.
     pub errors: Errors,
 }
 
@@ -44,7 +40,6 @@ pub struct Candidates {
 }
 
 impl Candidates {
-    /// Begins a choice for an angle in a range.
     pub fn new(need: Need, scalar: ScalarType, range: Interval) -> Candidates {
         let mut candidates = Candidates {
             need,
@@ -72,9 +67,8 @@ impl Candidates {
         {
             candidates.add(true, Centre::Quarter(0), rest.range.high());
         }
-        candidates
-            .forms
-            .sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let forms = &mut candidates.forms;
+        forms.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         candidates
     }
 
@@ -110,9 +104,9 @@ impl Candidates {
             }
             let index = self.fits.len();
             self.fits.push(fit);
-            let forms = best.into_iter();
-            self.forms
-                .extend(forms.map(|(cost, (estimate, form))| (cost, estimate, form, index)));
+            for (cost, (estimate, form)) in best {
+                self.forms.push((cost, estimate, form, index));
+            }
         }
     }
 

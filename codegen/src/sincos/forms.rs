@@ -31,14 +31,11 @@ pub enum Centre {
     At(f64),
 }
 
-/// A kind of kernel, with the degrees of its polynomials.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Form {
     /// Whether whole turns are taken off first.
     pub reduced: bool,
-    /// Where the variable is zero.
     pub centre: Centre,
-    /// How often the angle is halved.
     pub halvings: u32,
     /// The degrees of the fits to sine and cosine.
     pub degrees: [usize; 2],
@@ -72,16 +69,13 @@ impl Form {
             true => reduction::write(&mut kernel, reduction::constants(scalar), scalar),
             false => kernel.angle(),
         };
-        let shift = match self.centre {
-            Centre::Quarter(0) => None,
+        let x = match self.centre {
+            Centre::Quarter(0) => rest,
             Centre::Quarter(k) => {
-                Some(scalar.round_rational(&Angle::right_angles(k.into()).radians()))
+                let angle = Angle::right_angles(k.into()).radians();
+                kernel.add_literal(rest, -scalar.round_rational(&angle))
             }
-            Centre::At(x) => Some(x),
-        };
-        let x = match shift {
-            None => rest,
-            Some(shift) => kernel.add_literal(rest, -shift),
+            Centre::At(x) => kernel.add_literal(rest, -x),
         };
         let lambdas = factors(self.halvings);
         let coefficients = |wave: Wave, degree: usize| match fit {
@@ -141,8 +135,7 @@ impl Form {
     }
 }
 
-/// Returns λ_0 … λ_h, to 40 digits. That they are cut short costs nothing: the proof
-/// is of the literals.
+/// Returns λ_0 … λ_h to 40 digits, which is enough: the proof is of the literals.
 fn factors(halvings: u32) -> Vec<Rational> {
     const BITS: u32 = 140;
     let mut factors = vec![Rational::one()];

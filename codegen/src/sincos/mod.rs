@@ -1,13 +1,5 @@
 //! Sine and cosine by polynomials with proved errors, instead of a library.
 //!
-//! - this file: [`SinCos`], the choice; [`Sines`], the code of each angle
-//! - [`proof`]: how far a kernel is from sine and cosine
-//! - [`choose`]: the cheapest kernel of [`forms`] that is near enough; [`reach`]: where none is
-//! - [`series`]: Taylor's series and near-minimax fits
-//! - [`reduction`]: whole turns taken off where the range is wider than one
-//! - [`routine`]: the operations of the sines that emitted code calls by default
-//! - [`poly`]: exact polynomials
-//!
 //! A robot's joints have limits, so most angles need none of what a library's
 //! sine does for large ones; and a tolerance of 1e-6 needs no sixteen digits.
 
@@ -68,15 +60,12 @@ impl SinCos {
 /// The code of one angle's sine and cosine, and what was proved of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AngleKernel {
-    /// The joint whose angle it is.
     pub joint: usize,
     /// Where the errors hold: every float of the scalar in it.
     pub range: Interval,
     /// What kind of polynomials, in words.
     pub form: String,
-    /// The code.
     pub kernel: Kernel,
-    /// The proved errors.
     pub errors: Errors,
 }
 
@@ -91,14 +80,14 @@ pub fn stated(scalar: ScalarType) -> f64 {
 
 /// The limits, or what is [`stated`] where there are none. Joints that slide have no angle.
 pub(crate) fn positions(robot: &Robot, scalar: ScalarType) -> Vec<Interval> {
-    let joints = robot.joints.iter();
-    let ranges = joints.map(|joint| match (&joint.limits.position, joint.kind) {
-        (Some([low, high]), JointKind::Revolute) => Interval::new(low.to_f64(), high.to_f64()),
-        _ => None,
+    let ranges = robot.joints.iter().map(|joint| {
+        let range = match (&joint.limits.position, joint.kind) {
+            (Some([low, high]), JointKind::Revolute) => Interval::new(low.to_f64(), high.to_f64()),
+            _ => None,
+        };
+        range.unwrap_or(Interval::symmetric(stated(scalar)))
     });
-    ranges
-        .map(|range| range.unwrap_or(Interval::symmetric(stated(scalar))))
-        .collect()
+    ranges.collect()
 }
 
 pub(crate) fn range_of(joint: usize, positions: &[Interval]) -> Interval {
@@ -115,8 +104,7 @@ pub(crate) fn polynomials(
     for trig in &program.trig() {
         let range = range_of(trig.joint, positions);
         let is_same = |own: &&AngleKernel| own.range == range && own.kernel.need == trig.need;
-        let known = sines.iter().find(is_same);
-        let kernel = match known {
+        let kernel = match sines.iter().find(is_same) {
             Some(known) => AngleKernel {
                 joint: trig.joint,
                 ..known.clone()
@@ -135,9 +123,8 @@ fn one(
     error: f64,
 ) -> Result<AngleKernel, OutOfReach> {
     let best = Candidates::new(trig.need, scalar, range).cheapest(error);
-    let least = best
-        .as_ref()
-        .map_or(f64::INFINITY, |own| own.errors.worst());
+    let worst = best.as_ref().map(|own| own.errors.worst());
+    let least = worst.unwrap_or(f64::INFINITY);
     match best {
         Some(choice) if least <= error => Ok(AngleKernel {
             joint: trig.joint,

@@ -58,7 +58,6 @@ impl Poly {
         Rational::new_raw(numerator, BigInt::one() << self.exponent)
     }
 
-    #[must_use]
     pub(crate) fn add(&self, other: &Poly) -> Poly {
         let exponent = self.exponent.max(other.exponent);
         let (a, b) = (self.at(exponent), other.at(exponent));
@@ -68,12 +67,10 @@ impl Poly {
         Poly::new(coefficients.collect(), exponent)
     }
 
-    #[must_use]
     pub(crate) fn sub(&self, other: &Poly) -> Poly {
         self.add(&other.scaled(&BigInt::from(-1)))
     }
 
-    #[must_use]
     pub(crate) fn mul(&self, other: &Poly) -> Poly {
         let len = self.coefficients.len() + other.coefficients.len();
         let mut coefficients = vec![BigInt::zero(); len];
@@ -85,13 +82,11 @@ impl Poly {
         Poly::new(coefficients, self.exponent + other.exponent)
     }
 
-    #[must_use]
     pub(crate) fn scaled(&self, factor: &BigInt) -> Poly {
         let coefficients = self.coefficients.iter().map(|c| c * factor);
         Poly::new(coefficients.collect(), self.exponent)
     }
 
-    #[must_use]
     pub(crate) fn compose(&self, inner: &Poly) -> Poly {
         let mut sum = Poly::integers(Vec::new());
         for c in self.coefficients.iter().rev() {
@@ -101,9 +96,7 @@ impl Poly {
         sum
     }
 
-    /// Cuts the coefficients to few bits. The number is the most that this changes where |x| is up
-    /// to `reach`.
-    #[must_use]
+    /// Cuts the coefficients to few bits; also the most that this changes for |x| up to `reach`.
     pub(crate) fn divided(&self, divisor: &BigInt, reach: f64) -> (Poly, f64) {
         let exponent = BITS + digits(reach) * self.degree() as u64;
         let divisor = divisor << self.exponent;
@@ -122,7 +115,6 @@ impl Poly {
     /// Returns p((centre + radius·y)/2^`bits`) as a polynomial in y, of a p that is
     /// [divided](Poly::divided), and the most by which it is off for |y| ≤ 1: then x is in the reach
     /// for which p was divided.
-    #[must_use]
     pub(crate) fn on(&self, centre: i64, radius: i64, bits: u64) -> (Poly, f64) {
         let mut sum: Vec<BigInt> = Vec::with_capacity(self.coefficients.len());
         for c in self.coefficients.iter().rev() {
@@ -155,7 +147,6 @@ impl Poly {
 
     /// Returns the a_k of Σ a_k·T_k(x), by Horner's scheme with x·T_0 = T_1 and 2x·T_k = T_(k+1) +
     /// T_(k−1).
-    #[must_use]
     pub(crate) fn chebyshev(&self) -> Poly {
         let mut sum: Vec<BigInt> = Vec::new();
         for (halvings, c) in self.coefficients.iter().rev().enumerate() {
@@ -178,7 +169,6 @@ impl Poly {
     }
 
     /// Returns Σ a_k·T_k for k up to a degree, as Σ c_k·x^k.
-    #[must_use]
     pub(crate) fn in_powers(&self, degree: usize) -> Poly {
         let two_x = Poly::integers(vec![BigInt::zero(), BigInt::from(2)]);
         let (mut low, mut high) = (Poly::integers(vec![BigInt::one()]), Poly::variable());

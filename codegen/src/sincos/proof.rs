@@ -26,14 +26,11 @@ use crate::program::{Literal, Operation, ScalarType};
 /// Proved bounds of |computed − true|; zero for what is not computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Errors {
-    /// Of the sine.
     pub sin: f64,
-    /// Of the cosine.
     pub cos: f64,
 }
 
 impl Errors {
-    /// Returns the larger one.
     pub fn worst(self) -> f64 {
         self.sin.max(self.cos)
     }
@@ -53,9 +50,7 @@ impl Errors {
 const MAX_OPERATIONS: usize = 128;
 const MAX_DEGREE: usize = 160;
 const MAX_BITS: u64 = 1 << 18;
-
 const PIECE: f64 = 0.5;
-
 const CELLS: usize = 48;
 
 /// Returns none also where rounding alone costs `most` or more: a small part of the proof shows it.
@@ -109,30 +104,23 @@ fn approximations(kernel: &Kernel, range: Interval) -> Option<Errors> {
 fn expand(kernel: &Kernel) -> Option<Vec<Poly>> {
     let mut values: Vec<Poly> = Vec::with_capacity(kernel.dag.nodes.len());
     for node in &kernel.dag.nodes {
-        let (operation, [left, right]) = match node {
-            Node::Input(_) => {
-                values.push(Poly::variable());
-                continue;
-            }
-            Node::Constant(value) => {
-                values.push(Poly::constant(value.0)?);
-                continue;
-            }
+        values.push(match node {
+            Node::Input(_) => Poly::variable(),
+            Node::Constant(value) => Poly::constant(value.0)?,
             Node::Apply(operation, operands) => {
-                (operation, operands.map(|id| &values[id as usize]))
+                let [left, right] = operands.map(|id| &values[id as usize]);
+                let is_large = left.degree() + right.degree() > MAX_DEGREE;
+                if is_large || left.bits() + right.bits() > MAX_BITS {
+                    return None;
+                }
+                match operation {
+                    Operation::Add => left.add(right),
+                    Operation::Sub => left.sub(right),
+                    Operation::Mul | Operation::Fused => left.mul(right),
+                    Operation::Div => return None,
+                }
             }
-        };
-        let large = left.degree() + right.degree() > MAX_DEGREE;
-        if large || left.bits() + right.bits() > MAX_BITS {
-            return None;
-        }
-        let value = match operation {
-            Operation::Add => left.add(right),
-            Operation::Sub => left.sub(right),
-            Operation::Mul | Operation::Fused => left.mul(right),
-            Operation::Div => return None,
-        };
-        values.push(value);
+        });
     }
     Some(values)
 }
@@ -150,14 +138,13 @@ fn approximation(poly: &Poly, wave: Wave, range: Interval) -> Option<f64> {
         let bits = libm::ceil(-libm::log2(width.max(1e-9))).clamp(-2.0, 30.0) as i32 + 10;
         let grid = libm::exp2(f64::from(bits));
         let radius = libm::ceil(0.5 * width * grid) as i64 + 1;
-        let mut most = 0.0f64;
-        for piece in 0..pieces {
+        let most = (0..pieces).map(|piece| {
             let middle = range.low() + (piece as f64 + 0.5) * width;
             let centre = libm::round(middle * grid) as i64;
             let (form, cut) = difference.on(centre, radius, bits.unsigned_abs().into());
-            most = most.max(form.chebyshev().sum_from(0, &BigInt::one()) + cut);
-        }
-        most
+            form.chebyshev().sum_from(0, &BigInt::one()) + cut
+        });
+        most.fold(0.0, f64::max)
     };
     let pieces = libm::ceil(range.width() / PIECE).max(1.0) as usize;
     let most = over(1).min(over(pieces));
@@ -174,11 +161,10 @@ fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
         };
         let cell = Interval::new(end(cell), end(cell + 1)).unwrap_or(range);
         let ran = ranges(kernel, scalar, cell);
-        let errors = kernel
-            .results()
-            .map(|edge| edge.map_or(0.0, |edge| error(kernel, &ran, edge)));
-        worst.sin = worst.sin.max(errors[0]);
-        worst.cos = worst.cos.max(errors[1]);
+        let own = |edge: Option<Edge>| edge.map_or(0.0, |edge| error(kernel, &ran, edge));
+        let [sin, cos] = kernel.results().map(own);
+        worst.sin = worst.sin.max(sin);
+        worst.cos = worst.cos.max(cos);
     }
     worst
 }
@@ -205,10 +191,9 @@ fn error(kernel: &Kernel, ran: &Forward, result: Edge) -> f64 {
     let mut sum = Interval::ZERO;
     for (adjoint, own) in adjoints.iter().zip(&ran.own).rev() {
         // Products of zero are rounded outward, too.
-        if *adjoint == Interval::ZERO || *own == 0.0 {
-            continue;
+        if *adjoint != Interval::ZERO && *own != 0.0 {
+            sum = sum + Interval::point(adjoint.magnitude()) * Interval::point(*own);
         }
-        sum = sum + Interval::point(adjoint.magnitude()) * Interval::point(*own);
     }
     sum.high()
 }

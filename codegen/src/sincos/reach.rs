@@ -51,18 +51,16 @@ impl OutOfReach {
 impl fmt::Display for OutOfReach {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [low, high] = [self.range.low(), self.range.high()].map(angle);
-        let (scalar, joint) = (self.scalar, self.joint + 1);
+        let angle = format!("q{} in [{low}, {high}]", self.joint + 1);
+        let scalar = self.scalar;
         if !self.least.is_finite() {
-            return write!(
-                f,
-                "no {scalar} polynomial is known for q{joint} in [{low}, {high}]"
-            );
+            return write!(f, "no {scalar} polynomial is known for {angle}");
         }
         let least = bound_of(self.least, 3);
         let wanted = format!("{:.2e}", self.wanted).replace(".00e", "e");
         write!(
             f,
-            "{scalar} polynomials reach {least} for q{joint} in [{low}, {high}], not {wanted}"
+            "{scalar} polynomials reach {least} for {angle}, not {wanted}"
         )
     }
 }

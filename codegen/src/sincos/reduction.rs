@@ -53,21 +53,18 @@ pub(crate) fn write(
     let magic = kernel.literal(magic(scalar));
     let shifted = kernel.apply(Operation::Add, [turns, magic]);
     let k = kernel.apply(Operation::Sub, [shifted, magic]);
-    let much = kernel.literal(much);
-    let much = kernel.mul(k, much);
-    let rest = kernel.apply(Operation::Sub, [angle, much]);
-    let little = kernel.literal(little);
-    let little = kernel.mul(k, little);
-    kernel.apply(Operation::Sub, [rest, little])
+    [much, little].into_iter().fold(angle, |rest, part| {
+        let part = kernel.literal(part);
+        let part = kernel.mul(k, part);
+        kernel.apply(Operation::Sub, [rest, part])
+    })
 }
 
 pub(crate) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Kernel)> {
     let dag = &kernel.dag;
-    let literal = |place: usize| match dag.operations().nth(place)?.2 {
-        [_, right] => match dag.node(right) {
-            Node::Constant(Literal(value)) => Some(*value),
-            _ => None,
-        },
+    let literal = |place: usize| match dag.node(dag.operations().nth(place)?.2[1]) {
+        Node::Constant(Literal(value)) => Some(*value),
+        _ => None,
     };
     let constants = [literal(0)?, literal(3)?, literal(5)?];
     let mut expected = KernelWriter::default();
@@ -123,10 +120,9 @@ pub(crate) fn rest(
     let left = Interval::rational(&whole) * half;
     // k·A, q − k·A, k·B and the last difference are each rounded once.
     let big = turns * point(much.abs());
-    let first = if is_exact(much, turns.high(), scalar) {
-        Interval::ZERO
-    } else {
-        u * big + eta
+    let first = match is_exact(much, turns.high(), scalar) {
+        true => Interval::ZERO,
+        false => u * big + eta,
     };
     let away = turns * off(&(&whole - exact(much)?));
     let second = u * (left + away + first);
@@ -170,10 +166,8 @@ mod tests {
             assert!(matches!(left.dag.nodes[..], [Node::Input(_)]));
             let rest = rest(constants, scalar, Interval::symmetric(reach)).unwrap();
             let u = scalar.unit_roundoff();
-            assert!(
-                rest.error < 8.0 * u && rest.range.high() < std::f64::consts::PI * 1.0001,
-                "{rest:?}"
-            );
+            let most = std::f64::consts::PI * 1.0001;
+            assert!(rest.error < 8.0 * u && rest.range.high() < most);
             for _ in 0..2000 {
                 let q = reach * (2.0 * random.unit() - 1.0);
                 let (q, r) = match scalar {

@@ -15,8 +15,7 @@ struct Recorded<'t> {
     id: Id,
 }
 
-/// Records the operations by which sine and cosine follow from an angle, before both trade
-/// places or change their signs.
+/// Records the operations from an angle to both sines, before they trade places or change signs.
 pub(crate) fn routine(scalar: ScalarType) -> Kernel {
     let tape = RefCell::new(KernelWriter::default());
     let id = tape.borrow_mut().angle();
@@ -26,11 +25,7 @@ pub(crate) fn routine(scalar: ScalarType) -> Kernel {
         ScalarType::F32 => rest::<f32, Rounded, _>(angle),
     };
     let results = [sin, cos].map(|result| Edge::from(result.id));
-    let need = Need {
-        sin: true,
-        cos: true,
-    };
-    tape.take().kernel(need, results)
+    tape.take().kernel(Need::BOTH, results)
 }
 
 /// The routine of rounded products negates nothing.
@@ -46,11 +41,8 @@ macro_rules! operation {
         impl $operation for Recorded<'_> {
             type Output = Self;
             fn $method(self, other: Self) -> Self {
-                let operands = [self.id, other.id];
-                let id = self
-                    .tape
-                    .borrow_mut()
-                    .apply(Operation::$operation, operands);
+                let mut tape = self.tape.borrow_mut();
+                let id = tape.apply(Operation::$operation, [self.id, other.id]);
                 Recorded { id, ..self }
             }
         }

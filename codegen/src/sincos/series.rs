@@ -14,15 +14,11 @@ use super::poly::Poly;
 use crate::program::ScalarType;
 
 pub(crate) const FARTHEST: f64 = 40.0;
-
 const NEGLIGIBLE: f64 = 1e-26;
 
-/// Which of the two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wave {
-    /// The sine.
     Sin,
-    /// The cosine.
     Cos,
 }
 
@@ -36,8 +32,7 @@ pub(crate) struct Taylor {
 }
 
 impl Taylor {
-    /// Every derivative of a sine is at most one, so degree n leaves out at most
-    /// reach^(n+1)/(n+1)!.
+    /// Derivatives of a sine are at most one, so degree n leaves out at most reach^(n+1)/(n+1)!.
     pub(crate) fn up_to(reach: f64) -> Option<Taylor> {
         if reach.is_nan() || reach > FARTHEST {
             return None;
@@ -97,8 +92,7 @@ impl Fit {
         self.waves[wave as usize].sum_from(degree + 1, &self.factorial)
     }
 
-    /// Returns the coefficients of factor · series up to a degree in powers of x,
-    /// each rounded once.
+    /// Returns the coefficients of factor · series up to a degree, each rounded once.
     pub fn coefficients(
         &self,
         wave: Wave,
@@ -110,15 +104,14 @@ impl Fit {
         let radius = Rational::from_float(self.radius).unwrap_or_else(Rational::one);
         let mut above = factor.numer().clone();
         let mut below = factor.denom() * &self.factorial;
-        (0..=degree)
-            .map(|k| {
-                let c = cut.coefficient(k);
-                let c = Rational::new_raw(c.numer() * &above, c.denom() * &below);
-                above *= radius.denom();
-                below *= radius.numer();
-                scalar.round_rational(&c)
-            })
-            .collect()
+        let coefficient = |k| {
+            let c = cut.coefficient(k);
+            let c = Rational::new_raw(c.numer() * &above, c.denom() * &below);
+            above *= radius.denom();
+            below *= radius.numer();
+            scalar.round_rational(&c)
+        };
+        (0..=degree).map(coefficient).collect()
     }
 }
 
@@ -163,10 +156,8 @@ mod tests {
                 most = most.max((value - libm::cos(centre + x / 2.0)).abs());
             }
             let tail = fit.tail(Wave::Cos, degree);
-            assert!(
-                most <= tail + 1e-15 && tail <= 1.4 * most + 1e-15,
-                "{most} {tail}"
-            );
+            let is_near = most <= tail + 1e-15 && tail <= 1.4 * most + 1e-15;
+            assert!(is_near, "{most} {tail}");
         }
     }
 }

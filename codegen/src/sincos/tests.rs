@@ -8,10 +8,7 @@ use crate::program::Literal;
 use crate::program::kernel::{Kernel, KernelWriter, Need};
 use crate::random::Random;
 
-const BOTH: Need = Need {
-    sin: true,
-    cos: true,
-};
+const BOTH: Need = Need::BOTH;
 
 pub(super) fn alone(kernel: KernelWriter, node: Id) -> Kernel {
     let need = Need {
@@ -25,11 +22,7 @@ fn seen(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
     let mut random = Random::new(11);
     let mut worst = Errors::default();
     for i in 0..4000 {
-        let t = match i {
-            0 => 0.0,
-            1 => 1.0,
-            _ => random.unit(),
-        };
+        let t = if i < 2 { f64::from(i) } else { random.unit() };
         let q = (range.low() + range.width() * t).clamp(range.low(), range.high());
         let (q, (s, c)) = match scalar {
             ScalarType::F64 => (q, kernel.run(q)),
@@ -85,11 +78,8 @@ fn errors_are_as_proved_and_not_far_below() {
         // libm's own errors, of which the samples are not free.
         let own = 2.0 * f64::EPSILON;
         assert!(seen.sin <= proved.sin + own && seen.cos <= proved.cos + own);
-        assert!(
-            proved.worst() <= 4.0 * seen.worst() + own,
-            "{}: {proved:?} {seen:?}",
-            choice.form
-        );
+        let is_near = proved.worst() <= 4.0 * seen.worst() + own;
+        assert!(is_near, "{}: {proved:?} {seen:?}", choice.form);
     }
 }
 
@@ -105,15 +95,10 @@ fn a_changed_literal_shows() {
             };
             *value = scalar.nearest(*value * 1.01);
             let wrong = seen(&kernel, scalar, over);
-            match prove(&kernel, scalar, over, f64::INFINITY) {
-                None => {}
-                Some(found) => {
-                    assert!(
-                        wrong.sin <= found.sin && wrong.cos <= found.cos,
-                        "node {index}"
-                    );
-                    assert!(found.worst() > honest.errors.worst(), "node {index}");
-                }
+            if let Some(found) = prove(&kernel, scalar, over, f64::INFINITY) {
+                let is_bound = wrong.sin <= found.sin && wrong.cos <= found.cos;
+                let is_seen = found.worst() > honest.errors.worst();
+                assert!(is_bound && is_seen, "node {index}");
             }
         }
     }
@@ -170,16 +155,10 @@ fn nothing_unbounded_is_proved() {
     for _ in 0..100 {
         node = kernel.mul(node, node);
     }
-    let kernel = alone(kernel, node);
-    assert_eq!(
-        prove(&kernel, ScalarType::F64, range(0.0, 1.0), f64::INFINITY),
-        None
-    );
     let mut wild = KernelWriter::default();
     let infinite = wild.literal(f64::INFINITY);
-    let wild = alone(wild, infinite);
-    assert_eq!(
-        prove(&wild, ScalarType::F64, range(0.0, 1.0), f64::INFINITY),
-        None
-    );
+    for kernel in [alone(kernel, node), alone(wild, infinite)] {
+        let found = prove(&kernel, ScalarType::F64, range(0.0, 1.0), f64::INFINITY);
+        assert_eq!(found, None);
+    }
 }

@@ -25,7 +25,6 @@ const MAX_WRITTEN: usize = 7;
 /// A program with fewer operations than the one taken, and a larger error than is allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Refused {
-    /// Its counts.
     pub counts: Counts,
     /// Its estimated normwise error, in units of u.
     pub error: f64,

@@ -26,10 +26,9 @@ fn ratio(matrix: Vec<Vec<f64>>) -> f64 {
     let values = eigenvalues(matrix);
     let largest = values.iter().copied().fold(0.0, f64::max);
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-    if least > 0.0 {
-        largest / least
-    } else {
-        f64::INFINITY
+    match least > 0.0 {
+        true => largest / least,
+        false => f64::INFINITY,
     }
 }
 

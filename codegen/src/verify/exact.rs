@@ -6,7 +6,7 @@
 //! convention at up to that many joints by tests.
 //!
 //! **The chance of a miss.** A difference that does not vanish modulo p is a polynomial of degree
-//! k in the points' parameters ([`degree`](super::degree)). It vanishes at a random point with
+//! k in the points' parameters ([`points`](super::points)). It vanishes at a random point with
 //! probability at most k/2⁶⁰ (Schwartz–Zippel; a residue is drawn with at most 2⁻⁶⁰), so at four
 //! with at most (2³⁰/2⁶⁰)⁴ < 1e-36: larger degrees are refused. A difference all of whose
 //! coefficients p divides is not seen here, and has to get past the check of what was generated in
@@ -23,8 +23,7 @@ use std::fmt;
 use dalembert_model::equations::Formulation;
 use dalembert_model::scalar::Divide;
 
-use super::degree::Degrees;
-use super::points::{POINTS, Point, Residue, integers, points, written};
+use super::points::{Degrees, POINTS, Point, Residue, integers, points, written};
 use crate::dag::Leaves;
 use crate::function::{Argument, Function};
 use crate::program::{Input, Program};
@@ -42,7 +41,6 @@ pub(super) fn reference_formulation(setup: &Setup) -> Formulation {
     }
 }
 
-/// A successful proof.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Proof {
     /// The formulation that the program equals; none of a load, which has its definition.
@@ -54,7 +52,6 @@ impl Proof {
     pub const FAILURE_EXPONENT: i32 = -36;
 }
 
-/// Why a program is not the formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Disproof {
     /// The output of this name, one-based, differs at a point.
@@ -62,10 +59,7 @@ pub enum Disproof {
     /// The formula does not solve its own equation of motion: a defect of this library.
     Equation,
     /// The base parameters do not give what a parameter takes of torque: a defect of this library.
-    Dependence {
-        /// The parameter's name.
-        parameter: String,
-    },
+    Dependence(String),
     /// The program has another number of outputs.
     Shape,
     /// Constants or divisors vanish, or have no value, modulo 2⁶¹ − 45.
@@ -95,7 +89,7 @@ impl fmt::Display for Disproof {
         match self {
             Disproof::Output(entry) => write!(f, "{entry} differs from the formula as written"),
             Disproof::Equation => f.write_str("the formula does not solve its own equation"),
-            Disproof::Dependence { parameter } => write!(
+            Disproof::Dependence(parameter) => write!(
                 f,
                 "the base parameters do not give what {parameter} takes of torque"
             ),
@@ -149,10 +143,7 @@ pub fn prove(setup: &Setup, program: &Program) -> Result<Proof, Disproof> {
     })
 }
 
-/// Proves that two programs compute the same.
-///
-/// # Errors
-/// The first output that differs.
+/// Proves that two programs compute the same, or returns the first output that differs.
 pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
     if a.speeds != b.speeds {
         return Err(Disproof::Shape);

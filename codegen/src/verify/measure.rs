@@ -24,16 +24,11 @@ use crate::states::JointState;
 /// an error relative to the torque says nothing about the code.
 pub const LEAST_PART: f64 = 1.0 / 16.0;
 
-/// An emitted function, read back.
 #[derive(Clone, Debug)]
 pub struct Emitted {
-    /// The function.
     pub function: Function,
-    /// Its scalar.
     pub scalar: ScalarType,
-    /// The numbers that the lengths of its results follow from.
     pub sizes: Sizes,
-    /// Its text.
     pub text: Code,
 }
 
@@ -68,8 +63,7 @@ impl Runtime {
         Runtime::in_scene(Setup::whole(robot))
     }
 
-    /// Creates the runtime of a robot in a scene, with the scene's constants in place of the
-    /// state's.
+    /// Creates the runtime of a robot in a scene, whose constants take the place of the state's.
     pub fn in_scene(setup: Setup) -> Runtime {
         let whole = setup.arm(Exact::clone);
         Runtime {
@@ -93,12 +87,10 @@ impl Runtime {
         let of_inertia = scaled_condition(&floats(&d)).max(1.0);
         let divisors = posed.divisors();
         let quantities = function.quantities().iter().zip(&divisors);
-        let factors = quantities.map(|(quantity, divisor)| {
+        let factors = quantities.map(|(&quantity, divisor)| {
             let own = condition(&floats(divisor)).max(1.0);
-            match quantity.facts().inverts_inertia {
-                true => (*quantity, of_inertia * own),
-                false => (*quantity, own),
-            }
+            let inverts = quantity.facts().inverts_inertia;
+            (quantity, if inverts { of_inertia * own } else { own })
         });
         Granted(factors.collect())
     }
@@ -106,15 +98,12 @@ impl Runtime {
     fn posed(&self, function: Function, state: &JointState) -> Posed<'_, AnyValue> {
         let input = |input: Input| Sparse::Value(Double(self.setup.input_at(input, state)));
         let mut quantities = function.quantities().iter();
-        let arm = match quantities.any(|quantity| quantity.facts().depends_on_base) {
-            true => &self.whole,
-            false => &self.arm,
-        };
+        let is_whole = quantities.any(|quantity| quantity.facts().depends_on_base);
+        let arm = if is_whole { &self.whole } else { &self.arm };
         let task = self.setup.task(function);
         task.posed_arm(arm.clone(), &(constant, input))
     }
 
-    /// Returns the results of a function at a state, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<f64> {
         let posed = self.posed(function, state);
         floats(&posed.results(Formulation::NewtonEulerLink))
@@ -137,7 +126,6 @@ impl Emitted {
         self.text.run_at(state)
     }
 
-    /// Returns the function with libm's sines in place of polynomials.
     #[must_use]
     pub fn with_libm(&self) -> Emitted {
         Emitted {
@@ -156,17 +144,15 @@ impl Emitted {
     /// Returns the largest |polynomial − libm's f64| of each joint over the states, in
     /// the order of the text; none for angles that are libm's.
     pub fn sines(&self, states: &[JointState]) -> Vec<(usize, f64)> {
-        let pairs = self.text.pairs.iter();
-        let own = pairs.filter_map(|pair| Some((pair, pair.kernel.as_ref()?)));
-        own.map(|(pair, kernel)| {
+        let worst = |pair: &Pair| {
+            let kernel = pair.kernel.as_ref()?;
             let error = |state: &JointState| match self.scalar {
                 ScalarType::F64 => off::<f64>(pair, kernel, state),
                 ScalarType::F32 => off::<f32>(pair, kernel, state),
             };
-            let worst = states.iter().map(error).fold(0.0, f64::max);
-            (pair.joint, worst)
-        })
-        .collect()
+            Some((pair.joint, states.iter().map(error).fold(0.0, f64::max)))
+        };
+        self.text.pairs.iter().filter_map(worst).collect()
     }
 }
 

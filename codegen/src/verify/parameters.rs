@@ -1,6 +1,5 @@
-//! The exact proof that base parameters give every torque: the column of each
-//! parameter of the robot file is the combination of the regressor's columns
-//! that its base parameters say.
+//! The exact proof that base parameters give every torque: the column of each parameter of the
+//! robot file is the combination of the regressor's columns that its base parameters say.
 //!
 //! Let B be what [`BaseParameters`] holds, π' = B π. Then τ = Y_full π = Y π' for
 //! every π exactly if Y_full = Y B, entry by entry, and that is what is evaluated
@@ -15,9 +14,8 @@ use dalembert_model::number::Exact;
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
 
-use super::degree::Degrees;
 use super::exact::{Disproof, compare, reference_formulation};
-use super::points::{Residue, written};
+use super::points::{Degrees, Residue, written};
 use crate::dag::Leaves;
 use crate::function::{Columns, Quantity};
 use crate::scalar::{Erase, Erased, restored};
@@ -53,9 +51,7 @@ pub fn prove_base(task: Task<'_>, base: &BaseParameters) -> Result<(), Disproof>
         &["base parameters", &written(setup), &base],
         |_| Ok(Some(vec![Residue::zero(); length])),
         |point| Some(statement.differences(point)),
-        |wrong| Disproof::Dependence {
-            parameter: parameters[wrong % parameters.len()].to_string(),
-        },
+        |wrong| Disproof::Dependence(parameters[wrong % parameters.len()].to_string()),
     )?;
     let degrees = Degrees::default();
     let differences = statement.differences(&degrees);
@@ -69,9 +65,8 @@ fn parameters(robot: &Robot) -> Vec<Parameter> {
         all.map(move |own| Parameter::Link(joint, own))
     });
     let drives = of_drives::<Exact>(robot);
-    links
-        .chain(drives.iter().map(Parameter::of_drive))
-        .collect()
+    let drives = drives.iter().map(Parameter::of_drive);
+    links.chain(drives).collect()
 }
 
 struct Statement<'a> {

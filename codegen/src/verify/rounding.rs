@@ -20,7 +20,6 @@ use crate::setup::Setup;
 use crate::states::JointState;
 
 const STATES: usize = 64;
-
 const SEED: u64 = 0xacc;
 
 /// The largest estimated errors over the states, in units of u, one a quantity.
@@ -48,10 +47,8 @@ impl Rounding {
         let dag = &program.dag;
         let is_exact: Vec<bool> = dag.nodes.iter().map(|node| is_exact(dag, node)).collect();
         let states = setup.states(STATES, SEED);
-        let runs = states
-            .chunks(LANES)
-            .map(|states| values(setup, dag, states));
-        let mut runs: Vec<(usize, Vec<Lanes<Sticky>>)> = runs.enumerate().collect();
+        let run = |states: &[JointState]| values(setup, dag, states);
+        let mut runs: Vec<_> = states.chunks(LANES).map(run).enumerate().collect();
         let size = |output: &Edge| {
             let values = runs.iter().flat_map(|(_, values)| values[output.index()].0);
             largest(values.map(|value| value.0.abs()))
@@ -70,10 +67,8 @@ impl Rounding {
         runs.sort_by_key(|(index, _)| *index != first.get());
         let mut adjoints = Vec::new();
         for (index, values) in runs {
-            let outputs = dag.outputs.iter();
-            let errors =
-                outputs.map(|output| error(dag, *output, &values, &is_exact, &mut adjoints));
-            let errors: Vec<[f64; LANES]> = errors.collect();
+            let error = |output: &Edge| error(dag, *output, &values, &is_exact, &mut adjoints);
+            let errors: Vec<[f64; LANES]> = dag.outputs.iter().map(error).collect();
             for (quantity, range) in ranges.iter().enumerate() {
                 let normwise = (0..LANES).map(|lane| {
                     let results = dag.outputs[range.clone()].iter();
@@ -84,8 +79,7 @@ impl Rounding {
                 let worst = &mut rounding.normwise[quantity];
                 *worst = worst.max(largest(normwise));
                 let each = errors[range.clone()].iter().zip(&sizes[range.clone()]);
-                let per_output =
-                    each.map(|(error, size)| ratio(largest(error.iter().copied()), *size));
+                let per_output = each.map(|(own, size)| ratio(largest(own.iter().copied()), *size));
                 let worst = &mut rounding.per_output[quantity];
                 *worst = worst.max(largest(per_output));
             }
@@ -102,14 +96,11 @@ impl Rounding {
     pub fn factor(&self, than: &Rounding, floor: f64) -> f64 {
         let worst = |own: &[f64], other: &[f64]| {
             let pairs = own.iter().zip(other);
-            pairs.fold(0.0, |worst: f64, (own, other)| {
-                worst.max(own / other.max(floor))
-            })
+            largest(pairs.map(|(own, other)| own / other.max(floor)))
         };
         worst(&self.normwise, &than.normwise).max(worst(&self.per_output, &than.per_output))
     }
 
-    /// Returns the largest normwise error of a quantity.
     pub fn worst(&self) -> f64 {
         largest(self.normwise.iter().copied())
     }
@@ -171,10 +162,8 @@ impl Divide for Sticky {
 fn values(setup: &Setup, dag: &Dag, states: &[JointState]) -> Vec<Lanes<Sticky>> {
     let constant = |constant: &Exact| Lanes([Sticky(f64::nearest(constant)); LANES]);
     let input = |input: Input| {
-        let values = states
-            .iter()
-            .map(|state| Sticky(setup.input_at(input, state)));
-        let lanes = Lanes::new(&values.collect::<Vec<_>>());
+        let value = |state: &JointState| Sticky(setup.input_at(input, state));
+        let lanes = Lanes::new(&states.iter().map(value).collect::<Vec<_>>());
         lanes.unwrap_or(Lanes([Sticky(f64::NAN); LANES]))
     };
     dag.values(&(constant, input))

@@ -16,14 +16,11 @@ use crate::setup::Task;
 /// The joint nearest to the hand; none if D has an inverse almost everywhere.
 pub(crate) fn without_inertia(task: Task<'_>) -> Option<usize> {
     let Task { setup, function: _ } = task;
-    let mut found = None;
     let statement = ["inertia", &written(setup)];
     // A point without values tells nothing; without any that has them the proof will say so.
     let pivots = points(&statement).filter_map(|point| zero_pivot(task, &point));
-    for joint in pivots.take(POINTS) {
-        found = Some(joint?);
-    }
-    found
+    let joints: Option<Vec<usize>> = pivots.take(POINTS).collect();
+    joints?.pop()
 }
 
 /// Counts from the hand inward; the outer option is none at a point without values.

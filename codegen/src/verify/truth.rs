@@ -22,7 +22,6 @@ use crate::scalar::{AnyValue, Erase, Erased, restored};
 use crate::setup::Setup;
 use crate::states::JointState;
 
-/// A robot, or a robot in a scene.
 #[derive(Clone, Debug)]
 pub struct Reference {
     setup: Setup,
@@ -35,7 +34,6 @@ pub struct Reference {
 const MAX_PAIRS: usize = 1 << 13;
 
 impl Reference {
-    /// Creates the reference of a robot in its scene.
     pub fn new(setup: &Setup) -> Reference {
         Reference {
             arm: setup.arm(|constant| TrueValue::constant(constant).erase()),
@@ -44,7 +42,6 @@ impl Reference {
         }
     }
 
-    /// Returns the robot in its scene.
     pub fn setup(&self) -> &Setup {
         &self.setup
     }

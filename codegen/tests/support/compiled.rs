@@ -27,10 +27,8 @@ const MACROS: &str = "#define IN(real, name, length, from) real name[(length) * 
 
 pub fn there(names: &[&'static str]) -> Vec<&'static str> {
     let is_there = |name: &&&str| {
-        let run = Command::new(name)
-            .arg("--version")
-            .stdout(Stdio::null())
-            .status();
+        let mut command = Command::new(name);
+        let run = command.arg("--version").stdout(Stdio::null()).status();
         run.is_ok_and(|status| status.success())
     };
     let found: Vec<&str> = names.iter().filter(is_there).copied().collect();
@@ -153,11 +151,8 @@ fn expected(generated: &Generated, state: &[f64]) -> Vec<u64> {
 /// `what` names a folder; every compiler that is there makes the program with each of these flags.
 pub fn same_bits(what: &str, case: &Case, count: usize, flags: &[&str]) {
     let (generated, language) = (case.generated(), case.request.language);
-    let batch = if case.request.batch {
-        "batch"
-    } else {
-        "single"
-    };
+    let is_batch = case.request.batch;
+    let batch = if is_batch { "batch" } else { "single" };
     let folder = folder(&format!("{what}_{}_{batch}", language.name()));
     fs::write(folder.join("arm.h"), generated.text()).unwrap();
     fs::write(folder.join("main.c"), main_of(case, &generated)).unwrap();
@@ -179,14 +174,13 @@ pub fn same_bits(what: &str, case: &Case, count: usize, flags: &[&str]) {
         let states: Vec<Vec<f64>> = states.by_ref().take(AT_ONCE.min(count - start)).collect();
         let input = states.iter().flatten().flat_map(|x| x.to_ne_bytes());
         fs::write(folder.join("states"), input.collect::<Vec<u8>>()).unwrap();
-        let expected = states.iter().flat_map(|state| expected(&generated, state));
-        let expected: Vec<u64> = expected.collect();
+        let expected = |state: &Vec<f64>| expected(&generated, state);
+        let expected: Vec<u64> = states.iter().flat_map(expected).collect();
         for (how, program) in &programs {
             let states = fs::File::open(folder.join("states")).unwrap();
             let run = Command::new(program).stdin(states).output().unwrap();
-            let found = run.stdout.chunks_exact(8);
-            let found = found.map(|bytes| u64::from_ne_bytes(bytes.try_into().unwrap()));
-            let found: Vec<u64> = found.collect();
+            let found = |bytes: &[u8]| u64::from_ne_bytes(bytes.try_into().unwrap());
+            let found: Vec<u64> = run.stdout.chunks_exact(8).map(found).collect();
             assert_eq!(found.len(), expected.len(), "{what}");
             let differ = found.iter().zip(&expected).filter(|(a, b)| a != b).count();
             assert_eq!(differ, 0, "{what} by {how}, states from {start}");

@@ -316,11 +316,8 @@ impl Case {
         let setup = self.request.setup(self.robot()).unwrap();
         let mut states = setup.states(count, seed);
         let is_rubbed = self.robot().joints.iter().any(|joint| joint.has_coulomb());
-        let factors: &[f64] = if is_rubbed {
-            &[1.0, 1e-2, 1e-4, 0.0]
-        } else {
-            &[1.0]
-        };
+        let all = [1.0, 1e-2, 1e-4, 0.0];
+        let factors = if is_rubbed { &all[..] } else { &all[..1] };
         for (state, factor) in states.iter_mut().zip(factors.iter().cycle()) {
             state.qd.iter_mut().for_each(|qd| *qd *= factor);
         }
@@ -396,11 +393,9 @@ pub fn errors(emitted: &Emitted, compared: &[Compared]) -> Vec<f64> {
 
 #[track_caller]
 pub fn hold(emitted: &Emitted, compared: &[Compared], what: &str) {
-    for (error, quantity) in errors(emitted, compared)
-        .iter()
-        .zip(emitted.function.quantities())
-    {
-        assert!(*error <= BOUND, "{what} {quantity:?}: {error} u");
+    let errors = errors(emitted, compared).into_iter();
+    for (error, quantity) in errors.zip(emitted.function.quantities()) {
+        assert!(error <= BOUND, "{what} {quantity:?}: {error} u");
     }
 }
 

@@ -8,8 +8,7 @@ use pulp::x86::{V3, V4};
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 use crate::Vector;
-use crate::block::ending;
-use crate::slices::{check_columns, run_columns};
+use crate::slices::{check_columns, ending, run_columns};
 use crate::vector::BLOCK;
 use crate::{Float, Function, Unequal};
 

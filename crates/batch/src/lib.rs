@@ -43,11 +43,10 @@
 //! compiled for the target as it is, and the crate needs `core` alone. The
 //! feature `rayon` has the same on all cores, in `parallel`.
 //!
-//! - `function`: what a generator says of a function
+//! - `function`: what a generator says of a function; which vectors there are of a float
 //! - `unequal`: slices of different lengths
-//! - `vector`: floats side by side, `x86` and `portable`: those of a processor; `float`: which
-//!   there are of a float
-//! - `block`: so many states of columns; `slices`: from columns to vectors and back
+//! - `vector`: floats side by side, `x86` and `portable`: those of a processor
+//! - `slices`: from columns to vectors and back
 //! - `dispatch`: as wide as the processor's vectors are
 //! - `parallel`: on all cores
 #![no_std]
@@ -55,7 +54,6 @@
 #![cfg_attr(docsrs, feature(doc_cfg), doc(auto_cfg))]
 #![warn(missing_docs)]
 
-mod float;
 mod function;
 mod unequal;
 mod vector;
@@ -64,7 +62,6 @@ mod portable;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod x86;
 
-mod block;
 mod slices;
 
 mod dispatch;
@@ -75,8 +72,7 @@ pub mod parallel;
 #[doc(no_inline)]
 pub use dalembert_sines::text::Floats;
 pub use dispatch::{Vectors, columns, columns_in};
-pub use float::Float;
-pub use function::Function;
+pub use function::{Float, Function};
 pub use unequal::{Slice, Unequal};
 pub use vector::Vector;
 #[doc(hidden)]

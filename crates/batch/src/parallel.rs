@@ -34,7 +34,7 @@ where
     F::Scalar: Send + Sync,
 {
     let states = check_columns(&arguments, results)?;
-    let Some(task) = task::<F, A, N, M, K>(states) else {
+    let Some(task) = task(states, (A * N + M) * size_of::<F::Scalar>()) else {
         return crate::columns::<F, A, N, M, K>(arguments, results);
     };
     let results = results.each_mut().map(|column| &mut **column);
@@ -57,14 +57,9 @@ where
     )
 }
 
-/// Whole blocks; `None` where the states are not worth a second thread, or there is none.
-fn task<F, const A: usize, const N: usize, const M: usize, const K: usize>(
-    states: usize,
-) -> Option<usize>
-where
-    F: Function<A, N, M, K>,
-{
-    let bytes = (A * N + M) * size_of::<F::Scalar>();
+/// Whole blocks of states, each of so many bytes; `None` where the states are not worth a second
+/// thread, or there is none.
+fn task(states: usize, bytes: usize) -> Option<usize> {
     let is_much = states.saturating_mul(bytes) >= LEAST && rayon::current_num_threads() > 1;
     is_much.then(|| (TASK / bytes).next_multiple_of(BLOCK))
 }

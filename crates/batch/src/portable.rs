@@ -21,13 +21,8 @@ mod vectors {
             impl Vector<$float> for $vector {
                 type Token = ();
 
-                lanes!(
-                    $float,
-                    $lanes,
-                    |vector| vector.to_array(),
-                    |_vector| (),
-                    |_token, from| $vector::from_array(from)
-                );
+                lanes!($float, $lanes; |vector| vector.to_array(); |_vector| ();
+                       |_token, from| $vector::from_array(from));
 
                 #[inline(always)]
                 fn sqrt(self) -> Self {
@@ -54,13 +49,7 @@ mod numbers {
             impl Vector<$float> for $float {
                 type Token = ();
 
-                lanes!(
-                    $float,
-                    1,
-                    |number| [number],
-                    |_number| (),
-                    |_token, from| from[0]
-                );
+                lanes!($float, 1; |number| [number]; |_number| (); |_token, from| from[0]);
 
                 #[inline(always)]
                 fn sqrt(self) -> Self {

@@ -37,9 +37,7 @@ impl Unequal {
 
 impl fmt::Display for Unequal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Unequal {
-            found, expected, ..
-        } = self;
+        let (found, expected) = (self.found, self.expected);
         match self.slice {
             Slice::Entry(a, i) => write!(
                 f,

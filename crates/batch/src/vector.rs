@@ -57,7 +57,7 @@ pub fn sqrtf<V: Vector<f32>>(vector: V) -> V {
 }
 
 macro_rules! lanes {
-    ($float:ident, $lanes:literal, |$vector:ident| $array:expr, |$own:ident| $shown:expr,
+    ($float:ident, $lanes:literal; |$vector:ident| $array:expr; |$own:ident| $shown:expr;
      |$token:ident, $from:ident| $made:expr) => {
         const LANES: usize = $lanes;
 

@@ -111,13 +111,8 @@ macro_rules! vector {
         impl Vector<$float> for $vector {
             type Token = $token;
 
-            lanes!(
-                $float,
-                $lanes,
-                |vector| cast(vector.1),
-                |vector| vector.0,
-                |token, from| $vector(token, cast(from))
-            );
+            lanes!($float, $lanes; |vector| cast(vector.1); |vector| vector.0;
+                   |token, from| $vector(token, cast(from)));
 
             #[inline(always)]
             fn sqrt(self) -> Self {
@@ -128,8 +123,8 @@ macro_rules! vector {
 }
 
 macro_rules! doubles {
-    ($token:ident, $lanes:literal, $vector:ident, $raw:ident, $bits:ident, $raw_bits:ident,
-     $shift:ident, |$mask:ident| $every:expr) => {
+    ($token:ident, $lanes:literal; $vector:ident, $raw:ident; $bits:ident, $raw_bits:ident,
+     $shift:ident; |$mask:ident| $every:expr) => {
         vector!(
             $token, $lanes, f64, $vector, $raw, $bits, $raw_bits, 62;
             add_f64s, sub_f64s, mul_f64s, div_f64s, neg_f64s, sqrt_f64s, mul_add_f64s, abs_f64s,
@@ -140,8 +135,8 @@ macro_rules! doubles {
 }
 
 macro_rules! floats {
-    ($token:ident, $lanes:literal, $vector:ident, $raw:ident, $bits:ident, $raw_bits:ident,
-     $shift:ident, |$mask:ident| $every:expr) => {
+    ($token:ident, $lanes:literal; $vector:ident, $raw:ident; $bits:ident, $raw_bits:ident,
+     $shift:ident; |$mask:ident| $every:expr) => {
         vector!(
             $token, $lanes, f32, $vector, $raw, $bits, $raw_bits, 30;
             add_f32s, sub_f32s, mul_f32s, div_f32s, neg_f32s, sqrt_f32s, mul_add_f32s, abs_f32s,
@@ -151,43 +146,11 @@ macro_rules! floats {
     };
 }
 
-doubles!(
-    V4,
-    8,
-    EightDoubles,
-    f64x8,
-    EightWords,
-    u64x8,
-    shl_const_u64x8,
-    |mask| mask.0 == u8::MAX
-);
-floats!(
-    V4,
-    16,
-    SixteenFloats,
-    f32x16,
-    SixteenHalves,
-    u32x16,
-    shl_const_u32x16,
-    |mask| mask.0 == u16::MAX
-);
-doubles!(
-    V3,
-    4,
-    FourDoubles,
-    f64x4,
-    FourWords,
-    u64x4,
-    shl_const_u64x4,
-    |mask| cast::<_, [u64; 4]>(mask) == [u64::MAX; 4]
-);
-floats!(
-    V3,
-    8,
-    EightFloats,
-    f32x8,
-    EightHalves,
-    u32x8,
-    shl_const_u32x8,
-    |mask| cast::<_, [u32; 8]>(mask) == [u32::MAX; 8]
-);
+doubles!(V4, 8; EightDoubles, f64x8; EightWords, u64x8, shl_const_u64x8;
+         |mask| mask.0 == u8::MAX);
+floats!(V4, 16; SixteenFloats, f32x16; SixteenHalves, u32x16, shl_const_u32x16;
+        |mask| mask.0 == u16::MAX);
+doubles!(V3, 4; FourDoubles, f64x4; FourWords, u64x4, shl_const_u64x4;
+         |mask| cast::<_, [u64; 4]>(mask) == [u64::MAX; 4]);
+floats!(V3, 8; EightFloats, f32x8; EightHalves, u32x8, shl_const_u32x8;
+        |mask| cast::<_, [u32; 8]>(mask) == [u32::MAX; 8]);

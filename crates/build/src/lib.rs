@@ -57,7 +57,6 @@
 #![warn(missing_docs, clippy::missing_errors_doc)]
 
 mod cargo;
-mod write;
 
 use std::env;
 use std::fmt;
@@ -65,9 +64,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 pub use dalembert_stamp::Asked;
-use dalembert_stamp::{Comment, Stale, Stamp, hash};
+use dalembert_stamp::{Comment, Stale, Stamp, beside, hash, write_whole};
 #[cfg(feature = "search")]
-use dalembert_stamp::{is_as_written, relative};
+use dalembert_stamp::{refusal, relative};
 
 /// A robot file, and the options that were asked for.
 #[derive(Clone, Debug)]
@@ -136,9 +135,8 @@ impl Generator {
         }
         let base = path.file_stem().unwrap_or_default().to_string_lossy();
         let mut text = String::new();
-        for (suffix, code) in self.generated(&path)?.texts {
-            let name = format!("{base}{suffix}");
-            text += &format!("#[rustfmt::skip]\npub mod {name} {{\n{code}}}\n");
+        for (suffix, code, _) in self.generated(&path)? {
+            text += &format!("#[rustfmt::skip]\npub mod {base}{suffix} {{\n{code}}}\n");
         }
         let stamp = Stamp {
             version: VERSION.to_owned(),
@@ -147,8 +145,7 @@ impl Generator {
             chain: Vec::new(),
             asked: self.asked.clone(),
         };
-        write::whole(&path, &stamp.write(Comment::Line, &text))
-            .map_err(|error| cannot_write(&path, &error))
+        write(&path, &stamp.write(Comment::Line, &text))
     }
 
     /// Writes the file to a path, so that it can be checked in and read in review; the second of two
@@ -208,24 +205,18 @@ impl Generator {
 
     #[cfg(feature = "search")]
     fn renew(&self, path: &Path, _: &Path, _: Stale) -> Result<(), BuildError> {
-        let generated = self.generated(path)?;
-        let files = generated.stamped.into_iter();
-        let files: Vec<_> = files
-            .map(|(suffix, text)| (beside(path, suffix), text))
-            .collect();
-        let kept = files.iter().filter_map(|(file, _)| kept(file));
-        let kept: Vec<String> = kept.collect();
+        let generated = self.generated(path)?.into_iter();
+        let files = generated.map(|(suffix, _, text)| (beside(path, suffix), text));
+        let files: Vec<(PathBuf, String)> = files.collect();
+        let kept: Vec<String> = files.iter().filter_map(|(file, _)| kept(file)).collect();
         if !kept.is_empty() {
             return Err(BuildError(kept));
         }
-        for (file, text) in files {
-            write::whole(&file, &text).map_err(|error| cannot_write(&file, &error))?;
-        }
-        Ok(())
+        files.iter().try_for_each(|(file, text)| write(file, text))
     }
 
     #[cfg(not(feature = "search"))]
-    fn generated(&self, _: &Path) -> Result<Texts, BuildError> {
+    fn generated(&self, _: &Path) -> Result<Vec<Text>, BuildError> {
         let robot = self.robot.display();
         Err(one(format!(
             "`OUT_DIR` has no code of `{robot}`, and what generates it is the feature `search`\n  = help: \
@@ -234,7 +225,7 @@ impl Generator {
     }
 
     #[cfg(feature = "search")]
-    fn generated(&self, path: &Path) -> Result<Texts, BuildError> {
+    fn generated(&self, path: &Path) -> Result<Vec<Text>, BuildError> {
         use dalembert_codegen::{Language, RobotFile, ask};
         let language = Language::of(path).map_err(|known| {
             one(format!(
@@ -255,10 +246,11 @@ impl Generator {
         made.warnings.iter().for_each(|said| cargo::warn(said));
         let robot = relative(&self.robot, path);
         let files = made.generated.files(&made.request, &robot, &file.source);
-        let suffixes = made.generated.suffixes();
-        let texts = suffixes.iter().copied().zip(made.generated.texts).collect();
-        let stamped = suffixes.iter().copied().zip(files).collect();
-        Ok(Texts { texts, stamped })
+        let suffixes = made.generated.suffixes().into_iter();
+        let texts = suffixes.zip(made.generated.texts).zip(files);
+        Ok(texts
+            .map(|((suffix, text), file)| (suffix, text, file))
+            .collect())
     }
 }
 
@@ -266,32 +258,20 @@ impl Generator {
 #[cfg(feature = "search")]
 fn kept(file: &Path) -> Option<String> {
     let bytes = fs::read(file).unwrap_or_default();
-    let why = match is_as_written(&String::from_utf8_lossy(&bytes)) {
-        _ if bytes.is_empty() => return None,
-        Some(true) => return None,
-        Some(false) => "was edited since dalembert wrote it",
-        None => "was not written by dalembert",
-    };
-    let file = file.display();
-    Some(format!(
-        "`{file}` {why}\n  = help: delete it, or write to another file"
-    ))
+    let edited = "was edited since dalembert wrote it";
+    let why = refusal(&bytes, edited, "was not written by dalembert")?;
+    let (file, help) = (file.display(), "delete it, or write to another file");
+    Some(format!("`{file}` {why}\n  = help: {help}"))
 }
 
-#[cfg_attr(not(feature = "search"), allow(dead_code))]
-struct Texts {
-    texts: Vec<(&'static str, String)>,
-    stamped: Vec<(&'static str, String)>,
-}
+/// The end of a file's name, the code, and the whole file.
+type Text = (&'static str, String, String);
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-fn beside(path: &Path, suffix: &str) -> PathBuf {
-    let base = path.file_stem().unwrap_or_default().to_string_lossy();
-    let ending = path.extension().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!("{base}{suffix}.{ending}"))
-}
-
-fn cannot_write(path: &Path, error: &std::io::Error) -> BuildError {
-    one(format!("cannot write {}: {error}", path.display()))
+/// Writes a file, and creates its folder.
+fn write(path: &Path, text: &str) -> Result<(), BuildError> {
+    let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
+    let written = folder.and_then(|()| write_whole(path, text));
+    written.map_err(|error| one(format!("cannot write {}: {error}", path.display())))
 }

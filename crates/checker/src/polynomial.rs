@@ -71,7 +71,7 @@ const MARK: u64 = 1 << 63;
 
 const fn of_joints(bits: u64) -> [u64; WORDS] {
     let last = (1 << (WIDTH * (MAX_JOINTS - JOINTS * (WORDS - 1)))) - 1;
-    [EACH * bits, EACH * bits, EACH * bits, EACH * bits & last]
+    [EACH * bits, EACH * bits, EACH * bits, (EACH * bits) & last]
 }
 
 /// Returns the monomial that is a variable of a joint, or of an entry of the load.

@@ -66,10 +66,7 @@ pub fn svg(title: &str, relative_to: &str, dots: &[Dot]) -> String {
     paper.text("i", [LEFT, 38.0], &cost);
     up.draw(&mut paper);
     across.draw(&mut paper);
-    let whiskers = match observed.is_empty() {
-        true => "",
-        false => "; whiskers: observed",
-    };
+    let whiskers = observed.first().map_or("", |_| "; whiskers: observed");
     let error = format!("bound of the error, relative to {relative_to}{whiskers}");
     paper.text("i m", [0.5 * (LEFT + RIGHT), BOTTOM + 40.0], &error);
     let mut ends: Vec<([f64; 2], usize)> = Vec::new();
@@ -232,17 +229,14 @@ mod tests {
         rows.map(|row| {
             let cell = |name: &str| row[head.iter().position(|cell| *cell == name).unwrap()];
             let number = |name: &str| cell(name).parse::<f64>().unwrap();
-            let scalar = match cell("scalar") {
-                "f32" => ScalarType::F32,
-                _ => ScalarType::F64,
-            };
+            let kind = usize::from(cell("scalar") == "f32");
             let is_called = cell("sincos_by") == "libm";
             let sines = match is_called {
-                true => number("sincos") * called(scalar) as f64,
+                true => number("sincos") * called(ScalarType::ALL[kind]) as f64,
                 false => number("trig_mul") + number("trig_add"),
             };
             Dot {
-                kind: usize::from(scalar == ScalarType::F32) + 2 * usize::from(!is_called),
+                kind: kind + 2 * usize::from(!is_called),
                 cost: number("mul") + number("add") + sines,
                 bound: number("bound"),
                 observed: cell("observed").parse().ok(),

@@ -70,8 +70,7 @@ fn operations(generated: &Generated, detail: Detail) -> Table {
         table.row(row);
     }
     // The operations of polynomials have a table of their own.
-    let table = table.without("trig_mul|trig_add");
-    table.without_zeros("fma|sqrt")
+    table.without("trig_mul|trig_add").without_zeros("fma|sqrt")
 }
 
 fn sines(function: &GeneratedFunction) -> impl Iterator<Item = Vec<Cell>> {
@@ -136,13 +135,10 @@ fn tolerance(report: &mut Report, function: Function, admitted: &Admitted, ended
     }
     if !admitted.is_other() {
         let why = match ended {
-            false => "no cheaper program was found within the tolerance",
-            true => {
-                "the search was ended early, and the quick one found no cheaper program within the \
-                 tolerance"
-            }
+            false => "no cheaper program was found",
+            true => "the search was ended early, and the quick one found no cheaper program",
         };
-        report.line(format!("nothing was left out: {why}"));
+        report.line(format!("nothing was left out: {why} within the tolerance"));
     }
 }
 
@@ -174,10 +170,9 @@ fn refused(function: &GeneratedFunction) -> Option<String> {
         true => format!("one result less accurate; the worst stays at about {taken} u"),
         false => format!("a rounding error of about {error} u instead of {taken}"),
     };
+    let saved = format!("save {fewer} operations, with {price}");
     let name = function.function;
-    Some(format!(
-        "{name}: `--prefer operations` would save {fewer} operations, with {price}"
-    ))
+    Some(format!("{name}: `--prefer operations` would {saved}"))
 }
 
 /// The reference's work grows with the cube of the number of joints where it returns D.

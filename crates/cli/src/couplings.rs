@@ -60,8 +60,10 @@ pub fn couplings(robot: &Robot) -> Option<Vec<Coupling>> {
     let mut couplings = Vec::new();
     let mut known = HashMap::new();
     for &quantity in function.quantities() {
+        // D and h are symmetric.
+        let is_first = |i: usize| quantity == Quantity::Gravity || i / n % n <= i % n;
         let edges = outputs.by_ref().take(quantity.len(sizes)).enumerate();
-        for (index, &edge) in edges.filter(|(index, _)| is_first(quantity, *index, n)) {
+        for (index, &edge) in edges.filter(|(index, _)| is_first(*index)) {
             let name = quantity.entry(index, &rows, sizes);
             let negative = edge.negative;
             let value = if graph.is_zero(edge) {
@@ -91,18 +93,11 @@ pub fn couplings(robot: &Robot) -> Option<Vec<Coupling>> {
 /// Counts the coefficients of one quantity, symmetric ones once: all, those that vanish, and the
 /// others, with equal and opposite ones counted once.
 pub fn summary(couplings: &[Coupling], quantity: Quantity) -> [usize; 3] {
-    let mut summary = [0; 3];
-    for own in couplings.iter().filter(|own| own.quantity == quantity) {
-        summary[0] += 1;
-        match own.value {
-            Value::Zero => summary[1] += 1,
-            Value::Constant | Value::Distinct => summary[2] += 1,
-            Value::Equals(_) | Value::OppositeOf(_) => {}
-        }
-    }
-    summary
-}
-
-fn is_first(quantity: Quantity, index: usize, n: usize) -> bool {
-    quantity == Quantity::Gravity || index / n % n <= index % n
+    let own = couplings.iter().filter(|own| own.quantity == quantity);
+    let count = |is: fn(&Value) -> bool| own.clone().filter(|own| is(&own.value)).count();
+    [
+        count(|_| true),
+        count(|value| *value == Value::Zero),
+        count(|value| matches!(value, Value::Constant | Value::Distinct)),
+    ]
 }

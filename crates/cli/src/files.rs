@@ -6,11 +6,10 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf, is_separator};
 
 use dalembert_import::first_bytes;
-use dalembert_stamp::is_as_written;
+use dalembert_stamp::refusal;
 use tempfile::{Builder, NamedTempFile};
 
-use crate::context::Context;
-use crate::failure::Failure;
+use crate::output::{Context, Failure};
 use crate::terminal::print;
 
 const STANDARD: &str = "-";
@@ -18,7 +17,7 @@ const STANDARD: &str = "-";
 /// Paths of this process's open files: output is appended to them, whatever they are.
 const OPEN: [&str; 4] = ["/dev/stdout", "/dev/stderr", "/dev/fd", "/proc/self/fd"];
 
-const MAX_BYTES: u64 = 1 << 28;
+pub const MAX_BYTES: u64 = 1 << 28;
 
 /// The destination of an output.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -61,19 +60,15 @@ pub struct Files<'c> {
 
 impl<'c> Files<'c> {
     pub fn new(context: &'c Context, inputs: &[&Path]) -> Files<'c> {
-        // An input that does not exist is kept, too: the next run may read it.
-        let inputs = inputs.iter().filter_map(|path| target(path).ok());
         Files {
             context,
-            inputs: inputs.collect(),
+            // An input that does not exist is kept, too: the next run may read it.
+            inputs: inputs.iter().filter_map(|path| target(path).ok()).collect(),
             targets: Vec::new(),
         }
     }
 
-    /// Adds the output of `-o`, by default standard output.
-    ///
-    /// # Errors
-    /// Standard output, which `--json` uses for the report, and the errors of [`Files::add`].
+    /// Adds the output of `-o`, by default standard output, which `--json` uses for the report.
     pub fn output(&mut self, path: Option<&Path>) -> Result<Target, Failure> {
         let path = path.unwrap_or(Path::new(STANDARD));
         if self.context.json && path == Path::new(STANDARD) {
@@ -86,25 +81,23 @@ impl<'c> Files<'c> {
         self.add(path)
     }
 
-    /// Adds an output and checks that it can be written; `-` is standard output.
-    ///
-    /// # Errors
-    /// It cannot be written, is an input or another output, or is not as dalembert wrote it.
+    /// Adds an output; `-` is standard output. Refuses what cannot be written, is an input or another
+    /// output, or is not as dalembert wrote it.
     pub fn add(&mut self, path: &Path) -> Result<Target, Failure> {
         let target = target(path).map_err(|why| refused(path, why))?;
         match &target.place {
             Place::Standard => {}
             Place::Stream(stream) => enter(stream).map_err(|error| refused(path, error))?,
             Place::File(file) => {
-                if self.inputs.iter().any(|input| input.place == target.place) {
-                    let why = "this run reads it\n  = help: give another name";
-                    return Err(refused(path, why));
-                }
-                if self.targets.iter().any(|other| other.place == target.place) {
-                    let why = "it is another output of this run\n  = help: give another name";
-                    return Err(refused(path, why));
-                }
-                if let Some(why) = foreign(file).filter(|_| !self.context.force) {
+                let is_in = |all: &[Target]| all.iter().any(|other| other.place == target.place);
+                let why = if is_in(&self.inputs) {
+                    Some("this run reads it\n  = help: give another name")
+                } else if is_in(&self.targets) {
+                    Some("it is another output of this run\n  = help: give another name")
+                } else {
+                    foreign(file).filter(|_| !self.context.force)
+                };
+                if let Some(why) = why {
                     return Err(refused(path, why));
                 }
                 unfinished(folder(file)).map_err(|error| refused(path, error))?;
@@ -115,9 +108,6 @@ impl<'c> Files<'c> {
     }
 
     /// Adds a file in a folder; missing folders are made when the file is written.
-    ///
-    /// # Errors
-    /// `into` is no folder or cannot be written in, and the errors of [`Files::add`].
     pub fn add_in(&mut self, into: &Path, name: &str) -> Result<Target, Failure> {
         if into == Path::new(STANDARD) {
             let why = "it is standard output, and a folder is needed";
@@ -126,8 +116,7 @@ impl<'c> Files<'c> {
         let path = into.join(name);
         let inside = folder(&path);
         let is_there = |folder: &&Path| fs::symlink_metadata(folder).is_ok();
-        let there = inside.ancestors().find(is_there);
-        let there = there.unwrap_or(Path::new("."));
+        let there = inside.ancestors().find(is_there).unwrap_or(Path::new("."));
         if !there.is_dir() {
             let why = format!("`{}` is not a folder", there.display());
             return Err(refused(into, why));
@@ -136,19 +125,14 @@ impl<'c> Files<'c> {
             return self.add(&path);
         }
         unfinished(there).map_err(|error| refused(into, error))?;
-        Ok(Target {
-            name: path.clone(),
-            place: Place::File(path),
-        })
+        let place = Place::File(path.clone());
+        Ok(Target { name: path, place })
     }
 }
 
 /// Writes texts to their targets: first to temporary files beside them, then to streams. If all of
-/// that succeeds, the temporary files get their names.
-///
-/// # Errors
-/// Something cannot be written: then no file has changed, unless the system refused to rename a
-/// later one.
+/// that succeeds, the temporary files get their names; else no file has changed, unless the system
+/// refused to rename a later one.
 pub fn write(outputs: &[(Target, String)]) -> Result<(), Failure> {
     let mut parts = Vec::new();
     for (target, text) in outputs {
@@ -166,9 +150,8 @@ pub fn write(outputs: &[(Target, String)]) -> Result<(), Failure> {
             Place::Stream(path) => {
                 // Appends: an open file may already have content.
                 let stream = OpenOptions::new().append(true).open(path);
-                stream
-                    .and_then(|mut stream| stream.write_all(text.as_bytes()))
-                    .map_err(|error| refused(&target.name, error))?;
+                let written = stream.and_then(|mut stream| stream.write_all(text.as_bytes()));
+                written.map_err(|error| refused(&target.name, error))?;
             }
             Place::File(_) => {}
         }
@@ -181,14 +164,12 @@ pub fn write(outputs: &[(Target, String)]) -> Result<(), Failure> {
 }
 
 /// Refuses a path with the extension of another format.
-///
-/// # Errors
-/// The path has an extension other than `ending`.
 pub fn ends_in(path: Option<&Path>, ending: &str) -> Result<(), Failure> {
-    let Some(path) = path.filter(|path| {
+    let other = path.filter(|path| {
         let found = path.extension();
         found.is_some_and(|found| !found.eq_ignore_ascii_case(ending))
-    }) else {
+    });
+    let Some(path) = other else {
         return Ok(());
     };
     Err(Failure::Input(format!(
@@ -199,8 +180,7 @@ pub fn ends_in(path: Option<&Path>, ending: &str) -> Result<(), Failure> {
 }
 
 fn refused(path: &Path, why: impl Display) -> Failure {
-    let path = path.display();
-    Failure::Input(format!("error: `{path}` cannot be written: {why}"))
+    Failure::input(format!("`{}` cannot be written: {why}", path.display()))
 }
 
 fn folder(path: &Path) -> &Path {
@@ -269,19 +249,15 @@ fn enter(path: &Path) -> io::Result<()> {
 fn foreign(file: &Path) -> Option<&'static str> {
     // If the file cannot be read, the write reports why.
     let bytes = first_bytes(file, MAX_BYTES).unwrap_or_default();
-    let text = String::from_utf8_lossy(&bytes);
     // These formats have no comments, and nobody writes them by hand.
-    let is_table = text.starts_with("tolerance,scalar,sincos_by,");
-    let is_document = text.starts_with("{\"claim\":");
-    match is_as_written(&text) {
-        _ if text.is_empty() || is_table || is_document => None,
-        Some(true) => None,
-        Some(false) => {
-            Some("it was edited since dalembert wrote it\n  = help: --force overwrites the edits")
-        }
-        None => Some(
-            "the file exists, and dalembert did not write it\n  = help: give another name, or --force to \
-             overwrite it",
-        ),
+    let is_table = bytes.starts_with(b"tolerance,scalar,sincos_by,");
+    if is_table || bytes.starts_with(b"{\"claim\":") {
+        return None;
     }
+    refusal(
+        &bytes,
+        "it was edited since dalembert wrote it\n  = help: --force overwrites the edits",
+        "the file exists, and dalembert did not write it\n  = help: give another name, or --force to \
+         overwrite it",
+    )
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::{claim, keep, plan_file};
 use dalembert_codegen::{Language, Request, ScalarType};
-use dalembert_stamp::relative;
+use dalembert_stamp::{beside, relative};
 
 use crate::args::values::word_parser;
 use crate::args::{CODE, TaskArgs};
@@ -33,13 +33,6 @@ pub struct GenerateArgs {
     save_plan: bool,
 }
 
-struct Places {
-    code: Vec<Target>,
-    /// `None` if the code goes into a device or a pipe.
-    claim: Option<Target>,
-    plan: Option<Target>,
-}
-
 pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
     let language = language(args);
     let scalars = language.as_ref().map_or(&[][..], |own| own.scalars());
@@ -49,8 +42,8 @@ pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
     }
     let mut request = source.request(&args.task.options.0, scalars)?;
     request.language = *language.as_ref().unwrap_or(&Language::Rust);
-    // Before the work: what cannot be written is no news after it.
-    let places = Places::new(args, context, &source, &request)?;
+    // Before the work, so that nothing is generated that cannot be written.
+    let (targets, [claim_target, plan_target]) = targets(args, context, &source, &request)?;
     language?;
     let kept = request.plan.take_if(|_| args.save_plan);
     request.renewed.clone_from(&kept);
@@ -58,7 +51,7 @@ pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
     let report = report(&source.robot, &request, &generated, Detail::Bounds);
     let mut files = Vec::new();
     let mut announced = None;
-    if let Some(target) = places.plan {
+    if let Some(target) = plan_target {
         let kept = keep(&source.robot, &request, &generated, kept);
         for (function, scalar) in kept.own {
             context.say(&format!(
@@ -69,23 +62,21 @@ pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
         announced = is_first.then(|| source.path.clone());
         files.push((target, kept.plan.write()));
     }
-    if let Some(target) = places.claim {
+    if let Some(target) = claim_target {
         let claim = claim(&source.robot, &source.robot_file, &request, &generated);
-        let claim = claim.map_err(|why| Failure::Input(format!("error: {why}")))?;
-        files.push((target, claim.write()));
+        files.push((target, claim.map_err(Failure::input)?.write()));
     }
-    let place = match args.output.as_deref() {
-        Some(file) if places.code.iter().any(|target| target.file().is_some()) => {
-            relative(&source.path, file)
-        }
+    let is_file = targets.iter().any(|target| target.file().is_some());
+    let place = match args.output.as_deref().filter(|_| is_file) {
+        Some(file) => relative(&source.path, file),
         // As if it were written beside the robot file.
-        _ => {
+        None => {
             let name = source.path.file_name().unwrap_or_default();
             name.to_string_lossy().into_owned()
         }
     };
     let code = generated.files(&request, &place, &source.text);
-    files.extend(places.code.into_iter().zip(code));
+    files.extend(targets.into_iter().zip(code));
     let notes = files.iter().filter_map(|(target, _)| target.note());
     Ok(Done {
         notes: notes.collect(),
@@ -96,42 +87,35 @@ pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
     })
 }
 
-impl Places {
-    /// Finds out where everything goes.
-    ///
-    /// # Errors
-    /// Something cannot be written, or would be written over something else.
-    fn new(
-        args: &GenerateArgs,
-        context: &Context,
-        source: &Source,
-        request: &Request,
-    ) -> Result<Places, Failure> {
-        let path = plan_file::path(&source.path);
-        if args.save_plan && source.is_model {
-            return Err(Failure::Input(format!(
-                "error: --save-plan: a plan stands beside a robot file\n  = help: `dalembert import {0} -o {1}` \
-                 makes one",
-                source.path.display(),
-                source.path.with_extension("toml").display()
-            )));
-        }
-        let mut inputs = vec![source.path.as_path()];
-        if !args.save_plan && !source.is_model {
-            // Whether it is there or not: the next run would read it.
-            inputs.push(&path);
-        }
-        let mut files = Files::new(context, &inputs);
-        let code = code(args, &mut files, request)?;
-        let file = code.first().and_then(Target::file);
-        let beside = file.and(args.output.as_ref());
-        let beside = beside.map(|file| file.with_extension("claim.json"));
-        Ok(Places {
-            claim: beside.map(|path| files.add(&path)).transpose()?,
-            code,
-            plan: args.save_plan.then(|| files.add(&path)).transpose()?,
-        })
+/// Returns where the code goes, its claim, unless the code goes into a device or a pipe, and the plan.
+fn targets(
+    args: &GenerateArgs,
+    context: &Context,
+    source: &Source,
+    request: &Request,
+) -> Result<(Vec<Target>, [Option<Target>; 2]), Failure> {
+    let path = plan_file::path(&source.path);
+    if args.save_plan && source.is_model {
+        return Err(Failure::Input(format!(
+            "error: --save-plan: a plan stands beside a robot file\n  = help: `dalembert import {0} -o {1}` \
+             makes one",
+            source.path.display(),
+            source.path.with_extension("toml").display()
+        )));
     }
+    let mut inputs = vec![source.path.as_path()];
+    if !args.save_plan && !source.is_model {
+        // Even if it does not exist yet, because the next run would read it.
+        inputs.push(&path);
+    }
+    let mut files = Files::new(context, &inputs);
+    let code = code(args, &mut files, request)?;
+    let file = code.first().and_then(Target::file);
+    let claim = file.and(args.output.as_ref());
+    let claim = claim.map(|file| files.add(&file.with_extension("claim.json")));
+    let claim = claim.transpose()?;
+    let plan = args.save_plan.then(|| files.add(&path)).transpose()?;
+    Ok((code, [claim, plan]))
 }
 
 fn code(
@@ -151,10 +135,7 @@ fn code(
                 .into(),
         ));
     };
-    // `arm_f32.rs` beside `arm.rs`.
-    let base = path.file_stem().unwrap_or_default().to_string_lossy();
-    let ending = path.extension().unwrap_or_default().to_string_lossy();
-    let second = files.add(&path.with_file_name(format!("{base}_f32.{ending}")))?;
+    let second = files.add(&beside(path, "_f32"))?;
     let target = |scalar: &ScalarType| match scalar {
         ScalarType::F64 => first.clone(),
         ScalarType::F32 => second.clone(),
@@ -163,9 +144,6 @@ fn code(
 }
 
 /// Returns the language of the code: that of the ending of `-o`, unless `--language` is given.
-///
-/// # Errors
-/// The ending is that of another language, or of none while `--language` is not given.
 fn language(args: &GenerateArgs) -> Result<Language, Failure> {
     let path = args.output.as_deref();
     let Some(path) = path.filter(|path| path.extension().is_some()) else {

@@ -13,6 +13,7 @@ use serde::Deserialize;
 
 use crate::output::Done;
 use crate::report::{Cell, Table, cells, counted};
+use crate::terminal::printable;
 
 /// The largest disagreement that counts as agreement: the largest error of an
 /// entry at a state, relative to the largest entry given at that state.
@@ -73,10 +74,9 @@ pub fn read(text: &str, n: usize) -> Result<Vec<GivenState>, String> {
     })?;
     let mut mistakes = Vec::new();
     let mut states = Vec::new();
-    for (index, keys) in file.states.iter().enumerate() {
+    for (at, keys) in (1..).zip(&file.states) {
         let (state, wrong) = state(keys, n);
         states.push(state);
-        let at = index + 1;
         mistakes.extend(wrong.iter().map(|why| format!("state {at}: {why}")));
     }
     let more = mistakes.len().saturating_sub(MOST);
@@ -137,7 +137,7 @@ fn state(keys: &BTreeMap<String, Numbers>, n: usize) -> (GivenState, Vec<String>
         if words.contains(&key.as_str()) || key == REMARK || at_frame(key).is_some() {
             continue;
         }
-        let shown: String = key.chars().take(40).map(plain).collect();
+        let shown: String = key.chars().take(40).map(printable).collect();
         let meant = closest(key, &words)
             .map_or_else(String::new, |word| format!("did you mean `{word}`? "));
         wrong.push(format!(
@@ -161,11 +161,6 @@ fn at_frame(key: &str) -> Option<(&'static str, Quantity)> {
     let quantity = *function.quantities().first()?;
     let own = quantity.facts().given.filter(|own| *own == key)?;
     Some((own, quantity))
-}
-
-/// A control character would move the cursor of whoever reads the message.
-fn plain(c: char) -> char {
-    if c.is_control() { '\u{fffd}' } else { c }
 }
 
 /// One quantity of one function, compared at every state that gives it.
@@ -301,13 +296,10 @@ pub(crate) fn describe(file: &str, states: &[GivenState], compared: &[Compared],
     let known = states.iter().flat_map(|state| state.known.keys().copied());
     let mut missed: BTreeSet<Quantity> = known.collect();
     missed.retain(|quantity| !compared.iter().any(|own| own.quantity == *quantity));
-    let missed = missed.into_iter();
-    let missed: Vec<&str> = missed.filter_map(|own| own.facts().given).collect();
+    let missed: Vec<&str> = missed.iter().filter_map(|own| own.facts().given).collect();
     if !missed.is_empty() {
-        let missed = missed.join(", ");
-        done.report.line(format!(
-            "not compared, since no function of --outputs returns it: {missed}"
-        ));
+        let why = "not compared, since no function of --outputs returns it";
+        done.report.line(format!("{why}: {}", missed.join(", ")));
     }
     let mut wrong: Vec<&Compared> = compared.iter().filter(|own| own.disagreeing > 0).collect();
     // Several functions return the same quantity: it is named once.

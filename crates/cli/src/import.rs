@@ -70,13 +70,11 @@ impl ImportArgs {
 pub(crate) fn run(args: &ImportArgs, context: &Context) -> Outcome {
     let path = &args.model;
     let mut files = Files::new(context, &[path]);
-    let target = match args.all {
-        true => None,
-        false => {
-            ends_in(args.output.as_deref(), "toml")?;
-            Some(files.output(args.output.as_deref())?)
-        }
-    };
+    let mut target = None;
+    if !args.all {
+        ends_in(args.output.as_deref(), "toml")?;
+        target = Some(files.output(args.output.as_deref())?);
+    }
     let source = open_text(path).map_err(|error| unopened(path, error))?;
     if !is_model(source.as_str().as_bytes()) {
         return Err(Failure::Input(format!(
@@ -151,9 +149,8 @@ fn one(made: &Imported, path: &Path, source: &Text) -> Report {
         return report;
     };
     let snaps = counted(made.snaps.len(), "rounded number");
-    report.line(format!(
-        "{snaps} replaced by exact ones; the torques change by: {change}"
-    ));
+    let replaced = format!("{snaps} replaced by exact ones");
+    report.line(format!("{replaced}; the torques change by: {change}"));
     let limits = change.limits();
     let bounds = change.torques(limits);
     // If no torque changes, the line before says so.
@@ -170,10 +167,9 @@ fn one(made: &Imported, path: &Path, source: &Text) -> Report {
     }
     let hand = change.hand(limits);
     if hand.position > 0.0 || hand.angle > 0.0 {
-        let [position, angle] = [hand.position, hand.angle].map(Change::in_digits);
-        report.line(format!(
-            "  the hand moves by ≤ {position} m and turns by ≤ {angle} rad"
-        ));
+        let [moves, turns] = [hand.position, hand.angle].map(Change::in_digits);
+        let hand = format!("moves by ≤ {moves} m and turns by ≤ {turns} rad");
+        report.line(format!("  the hand {hand}"));
     }
     report.line("  --exact keeps all numbers as the model has them");
     report

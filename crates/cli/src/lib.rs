@@ -19,13 +19,11 @@ mod args;
 mod certify;
 mod chart;
 mod code;
-mod context;
 mod count;
 pub mod couplings;
 pub mod drawing;
 pub mod explain;
 pub mod extremes;
-mod failure;
 mod files;
 mod generate;
 pub mod given;
@@ -46,6 +44,7 @@ mod terminal;
 mod tradeoff;
 mod verify;
 
+use std::cell::Cell;
 use std::ffi::OsString;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -110,7 +109,12 @@ enum Command {
 /// code of the process. Wrong arguments and `--help` end the process.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
     let args = Args::parse_from(args);
-    let context = Context::new(args.json, args.force, args.deny_warnings);
+    let context = Context {
+        json: args.json,
+        force: args.force,
+        denies_warnings: args.deny_warnings,
+        warned: Cell::new(false),
+    };
     let bar = terminal::begin();
     let outcome = match &args.command {
         Command::New(args) => new::run(args, &context),

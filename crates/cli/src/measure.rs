@@ -109,9 +109,8 @@ impl Bench {
     pub fn new(robot: Setup) -> Bench {
         let sizes = robot.robot().joints.iter();
         let sizes = sizes.flat_map(|joint| [&joint.mass, &joint.a, &joint.d]);
-        let largest = sizes
-            .map(f64::nearest_rational)
-            .fold(1.0, |most: f64, x| most.max(x.abs()));
+        let sizes = sizes.map(|size| f64::nearest_rational(size).abs());
+        let largest = sizes.fold(1.0, f64::max);
         Bench {
             reference: Reference::new(&robot),
             // Some thousand products, each off by half of it, times the robot's parameters.
@@ -154,12 +153,10 @@ impl Bench {
             let pairs = sizes.iter_mut().zip(values);
             pairs.for_each(|(size, x)| *size = size.max(x.abs()));
         }
+        let granted = |state: &JointState| self.runtime.granted(function, state);
         Samples {
             truths: states.iter().map(|s| self.truth(function, s)).collect(),
-            granted: states
-                .iter()
-                .map(|s| self.runtime.granted(function, s))
-                .collect(),
+            granted: states.iter().map(granted).collect(),
             sizes,
             states,
         }
@@ -182,40 +179,36 @@ impl Bench {
         let states = &samples.states;
         let found: Vec<Vec<f64>> = states.iter().map(|state| (code.run)(state)).collect();
         let mut start = 0;
-        let quantities = function.quantities().iter();
-        quantities
-            .map(|&quantity| {
-                let range = start..start + quantity.len(code.sizes);
-                start = range.end;
-                let mut worst = Worst {
-                    function,
-                    scalar,
-                    quantity,
-                    vector: 0.0,
-                    entry: 0.0,
-                    condition: 1.0,
-                    state: states.first().cloned().unwrap_or_default(),
-                    overflows: false,
-                };
-                let truths = samples.truths.iter().zip(&found);
-                let runs = states.iter().zip(&samples.granted).zip(truths);
-                for ((state, granted), (truth, found)) in runs {
-                    worst.overflows |= found[range.clone()].iter().any(|x| !x.is_finite());
-                    let condition = granted.factor(quantity);
-                    let unit = condition * scalar.unit_roundoff();
-                    let [vector, entry] =
-                        self.errors(code, range.clone(), truth, found, &samples.sizes);
-                    let [vector, entry] = [vector, entry].map(|error| relative(error, unit));
-                    worst.entry = worst.entry.max(entry);
-                    if vector > worst.vector {
-                        worst.vector = vector;
-                        worst.condition = condition;
-                        worst.state = state.clone();
-                    }
+        let worst = |&quantity: &Quantity| {
+            let range = start..start + quantity.len(code.sizes);
+            start = range.end;
+            let mut worst = Worst {
+                function,
+                scalar,
+                quantity,
+                vector: 0.0,
+                entry: 0.0,
+                condition: 1.0,
+                state: states.first().cloned().unwrap_or_default(),
+                overflows: false,
+            };
+            let truths = samples.truths.iter().zip(&found);
+            let runs = states.iter().zip(&samples.granted).zip(truths);
+            for ((state, granted), (truth, found)) in runs {
+                worst.overflows |= found[range.clone()].iter().any(|x| !x.is_finite());
+                let condition = granted.factor(quantity);
+                let unit = condition * scalar.unit_roundoff();
+                let errors = self.errors(code, range.clone(), truth, found, &samples.sizes);
+                let [vector, entry] = errors.map(|error| relative(error, unit));
+                worst.entry = worst.entry.max(entry);
+                if vector > worst.vector {
+                    (worst.vector, worst.condition) = (vector, condition);
+                    worst.state = state.clone();
                 }
-                worst
-            })
-            .collect()
+            }
+            worst
+        };
+        function.quantities().iter().map(worst).collect()
     }
 
     fn errors(

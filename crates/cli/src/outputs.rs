@@ -15,19 +15,17 @@ pub(crate) fn run() -> Outcome {
     for function in Function::ALL {
         let arguments = function.arguments().into_iter().map(Argument::name);
         let arguments: Vec<&str> = arguments.collect();
-        let results = function.quantities().iter();
-        let results: Vec<[String; 3]> = results.map(|&own| result(own)).collect();
+        let quantities = function.quantities().iter();
+        let results: Vec<[String; 3]> = quantities.map(|&own| result(own)).collect();
+        let of_each = |text: fn(&[String; 3]) -> String| results.iter().map(text);
         let json = results
             .iter()
             .map(|[symbol, shape, unit]| json!({ "symbol": symbol, "shape": shape, "unit": unit }));
-        let returned = results.iter();
-        let returned = returned.map(|[symbol, shape, _]| format!("{symbol} [{shape}]"));
+        let returned = of_each(|[symbol, shape, _]| format!("{symbol} [{shape}]"));
         let units: Vec<&str> = results.iter().map(|own| own[2].as_str()).collect();
         let (name, taken) = (function.name(), arguments.join(", "));
         report.line(format!("{name}({taken})"));
-        let described = results
-            .iter()
-            .map(|[symbol, shape, unit]| format!("{symbol} [{shape}] in {unit}"));
+        let described = of_each(|[symbol, shape, unit]| format!("{symbol} [{shape}] in {unit}"));
         let described = described.collect::<Vec<_>>().join("; ");
         for text in [&*described, function.summary()] {
             for line in broken(text, WIDTH - 4) {
@@ -69,10 +67,10 @@ fn result(quantity: Quantity) -> [String; 3] {
         Axis::BaseParameters => "p".to_owned(),
         Axis::Load => "l".to_owned(),
     };
-    let shape: Vec<String> = quantity.shape().0.iter().map(axis).collect();
-    let shape = match shape.is_empty() {
+    let axes: Vec<String> = quantity.shape().0.iter().map(axis).collect();
+    let shape = match axes.is_empty() {
         true => "1".to_owned(),
-        false => shape.join("×"),
+        false => axes.join("×"),
     };
     let robot = Robot {
         joints: vec![Joint::default(); 2],
@@ -105,10 +103,8 @@ mod tests {
     #[test]
     fn the_list_fits_a_terminal() {
         let text = run().unwrap().report.to_string();
-        assert!(
-            text.contains("gravity(q)\n    c [n] in N·m\n    Gravity load"),
-            "{text}"
-        );
+        let gravity = "gravity(q)\n    c [n] in N·m\n    Gravity load";
+        assert!(text.contains(gravity), "{text}");
         let wide: Vec<&str> = text.lines().filter(|line| width(line) > WIDTH).collect();
         assert!(wide.is_empty(), "{wide:#?}");
     }

@@ -67,10 +67,9 @@ impl Observer for Seen {
             (None, _) => String::new(),
         };
         let functions = &self.functions;
+        let count = functions.len();
         let place = match functions.iter().position(|one| *one == function) {
-            Some(at) if functions.len() > 1 => {
-                format!("function {} of {}: ", at + 1, functions.len())
-            }
+            Some(at) if count > 1 => format!("function {} of {count}: ", at + 1),
             _ => String::new(),
         };
         bar().set_message(format!("{place}{function}, {part}{reached}"));

@@ -10,13 +10,11 @@ use dalembert_import::{ChainArgs, first_bytes};
 use dalembert_stamp::Stamp;
 
 use crate::certify::claim_of;
-use crate::files::Files;
+use crate::files::{Files, MAX_BYTES};
 use crate::new::{EXPECTED, expected};
 use crate::output::{Context, Done, Failure, Outcome};
 use crate::report::{Cell, Report, Table, cells};
 use crate::source::{Source, text};
-
-const MAX_BYTES: u64 = 1 << 28;
 
 /// Arguments of `renew`.
 #[derive(Debug, clap::Args)]
@@ -135,8 +133,7 @@ fn stamped(path: &Path, text: String) -> Option<Found> {
 /// Leaves out hidden folders, build folders and links.
 fn walk(folder: &Path, all: &mut Vec<Found>) -> Result<(), Failure> {
     let fail = |error| Failure::Input(format!("error: `{}`: {error}", folder.display()));
-    let entries = fs::read_dir(folder).map_err(fail)?;
-    let mut entries: Vec<fs::DirEntry> = entries.flatten().collect();
+    let mut entries: Vec<fs::DirEntry> = fs::read_dir(folder).map_err(fail)?.flatten().collect();
     entries.sort_by_key(fs::DirEntry::file_name);
     for entry in entries {
         let (name, path) = (entry.file_name(), entry.path());
@@ -161,9 +158,8 @@ fn renewed(context: &Context, file: &Found) -> Result<Vec<New>, Failure> {
     let folder = file.path.parent().unwrap_or(Path::new(""));
     let chain = ChainArgs::from_pairs(&file.stamp.chain).ok_or_else(|| {
         let path = file.path.display();
-        Failure::Input(format!(
-            "error: `{path}` has options of its chain that are not known"
-        ))
+        let why = format!("`{path}` has options of its chain that are not known");
+        Failure::input(why)
     })?;
     let source = Source::open(context, &folder.join(&file.stamp.robot), &chain)?;
     let mut request = source.request(&file.stamp.asked, file.language.scalars())?;
@@ -177,9 +173,9 @@ fn renewed(context: &Context, file: &Found) -> Result<Vec<New>, Failure> {
         text: code,
     }];
     let claim = claim(&source.robot, &source.robot_file, &request, &generated);
-    let claim = claim.map_err(|why| Failure::Input(format!("error: {why}")))?;
+    let claim = claim.map_err(Failure::input)?.write();
     for (path, text) in [
-        (claim_of(&file.path), Ok(claim.write())),
+        (claim_of(&file.path), Ok(claim)),
         (file.path.with_extension(EXPECTED), expected(&source.robot)),
     ] {
         if let Ok(old) = fs::read_to_string(&path) {
@@ -216,7 +212,6 @@ fn difference(old: &str, new: &str) -> Option<usize> {
     if old == new {
         return None;
     }
-    let same = old.bytes().zip(new.bytes());
-    let same = same.take_while(|(a, b)| a == b);
+    let same = old.bytes().zip(new.bytes()).take_while(|(a, b)| a == b);
     Some(same.filter(|(byte, _)| *byte == b'\n').count() + 1)
 }

@@ -53,7 +53,7 @@ pub(crate) fn run(args: &ShowArgs, context: &Context) -> Outcome {
             context.say(&warning);
         }
     }
-    let wrong = |error| Failure::Input(format!("error: --at: {error}"));
+    let wrong = |error| Failure::input(format!("--at: {error}"));
     let svg = drawing::svg(robot, &at).map_err(wrong)?;
     let svg = sealed(Comment::Xml, "dalembert show", &svg);
     Ok(Done {
@@ -66,10 +66,7 @@ pub(crate) fn run(args: &ShowArgs, context: &Context) -> Outcome {
 fn poses(robot: &Robot, at: &[f64]) -> Result<Report, WrongLength> {
     let runtime = Reference::<f64>::from_robot(robot);
     let q = DVector::from_column_slice(at);
-    let rows = |pose: &Columns<f64>| -> Value {
-        let rows = pose.rows();
-        rows.chunks(4).map(Value::from).collect()
-    };
+    let rows = |pose: &Columns<f64>| -> Value { pose.rows().chunks(4).map(Value::from).collect() };
     let mut links = Table::new("joint|pose");
     for (joint, pose) in robot.rows().into_iter().zip(&runtime.poses(&q)?) {
         let name = Cell::json(joint.name.clone());
@@ -106,9 +103,8 @@ fn doubtful(robot: &Robot, index: usize, text: &str, q: f64) -> Option<String> {
         _ => String::new(),
     };
     let label = robot.joint_label(index);
-    Some(format!(
-        "warning: --at: {label} at {q} {unit} is {what}{help}"
-    ))
+    let at = format!("{label} at {q} {unit}");
+    Some(format!("warning: --at: {at} is {what}{help}"))
 }
 
 fn position(args: &ShowArgs, robot: &Robot) -> Result<Vec<f64>, Failure> {

@@ -3,12 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::{generate_anew, plan_file};
-use dalembert_codegen::{
-    Asked, Function, Generated, Plan, Problem, Request, RobotFileError, ScalarType,
-};
+use dalembert_codegen::{Asked, Function, Generated, Problem, Request, RobotFileError, ScalarType};
 use dalembert_import::{ChainArgs, Options, Unopened, first_bytes, open};
 use dalembert_model::number::Rational;
-use dalembert_model::read::Reading;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
@@ -34,10 +31,6 @@ pub struct Source {
 impl Source {
     /// Opens a robot and prints its warnings, and what the arm has otherwise than the model that it
     /// is a chain of.
-    ///
-    /// # Errors
-    /// The file cannot be read or has mistakes (all are listed), the options are for a model and the
-    /// file is none, or its warnings are denied.
     pub fn open(context: &Context, path: &Path, chain: &ChainArgs) -> Result<Source, Failure> {
         let opened = open(path, &chain.choose(defaults(path)));
         let opened = opened.map_err(|error| unopened(path, error))?;
@@ -52,17 +45,12 @@ impl Source {
             say_notes(context, &opened.reading.robot);
         }
         context.undenied()?;
-        let Reading {
-            robot,
-            outputs,
-            scenes,
-            ..
-        } = opened.reading;
+        let reading = opened.reading;
         Ok(Source {
             path: path.to_owned(),
-            robot,
-            scenes,
-            outputs,
+            robot: reading.robot,
+            scenes: reading.scenes,
+            outputs: reading.outputs,
             text: opened.source.as_str().to_owned(),
             robot_file: opened.robot_file,
             is_model,
@@ -71,36 +59,18 @@ impl Source {
     }
 
     /// Parses options to a request. Without a scalar option it asks for `scalars`; it has the plan
-    /// beside the robot file unless the options turn plans off.
-    ///
-    /// # Errors
-    /// The options have mistakes (all are listed, by flag), or the plan cannot be read.
+    /// beside the robot file unless the options turn plans off; a model has none.
     pub fn request(&self, asked: &Asked, scalars: &[ScalarType]) -> Result<Request, Failure> {
         let request = Request::parse(asked, scalars, &self.outputs, &self.scenes);
         let mut request = request.map_err(|problems| Failure::Input(problems_of(&problems)))?;
         request.chain = self.chain.pairs();
-        if !request.has_no_plan {
-            request.plan = self.plan()?;
+        if !request.has_no_plan && !self.is_model {
+            request.plan = plan_file::beside(&self.path).map_err(Failure::input)?;
         }
         Ok(request)
     }
 
-    /// Returns the plan beside a robot file; a model has none.
-    ///
-    /// # Errors
-    /// The plan cannot be read.
-    pub fn plan(&self) -> Result<Option<Plan>, Failure> {
-        match self.is_model {
-            true => Ok(None),
-            false => plan_file::beside(&self.path)
-                .map_err(|message| Failure::Input(format!("error: {message}"))),
-        }
-    }
-
     /// Generates code, watched by the bar and Ctrl-C, and prints its warnings, for example that the plan no longer fits.
-    ///
-    /// # Errors
-    /// The code cannot be generated.
     pub fn generate(&self, context: &Context, request: &mut Request) -> Result<Generated, Failure> {
         let _session = progress::watch(request);
         let shown = self.path.display().to_string();
@@ -142,33 +112,26 @@ pub fn unopened(path: &Path, error: Unopened) -> Failure {
 
 fn problems_of(problems: &[Problem]) -> String {
     let one = |problem: &Problem| {
-        let flag = problem.option.replace('_', "-");
-        let help = match problem.complaint.help.as_str() {
+        let (flag, complaint) = (problem.option.replace('_', "-"), &problem.complaint);
+        let help = match complaint.help.as_str() {
             "" => String::new(),
             help => format!("\n  = help: {help}"),
         };
-        as_flags(&format!(
-            "error: --{flag}: {}{help}",
-            problem.complaint.message
-        ))
+        as_flags(&format!("error: --{flag}: {}{help}", complaint.message))
     };
     problems.iter().map(one).collect::<Vec<_>>().join("\n\n")
 }
 
-/// Returns the text of a whole file.
-///
-/// # Errors
-/// The file cannot be read, is longer than `most` bytes, or is not UTF-8.
+/// Returns the text of a whole file of at most so many bytes.
 pub fn text(path: &Path, most: u64) -> Result<String, Failure> {
     let bytes = first_bytes(path, most + 1).map_err(|error| system(path, &error))?;
     let shown = path.display();
     if bytes.len() as u64 > most {
-        return Err(Failure::Input(format!(
-            "error: `{shown}` is longer than {} MiB, the limit",
-            most >> 20
-        )));
+        let most = most >> 20;
+        let why = format!("`{shown}` is longer than {most} MiB, the limit");
+        return Err(Failure::input(why));
     }
-    let no_text = |_| Failure::Input(format!("error: `{shown}` is not UTF-8 text"));
+    let no_text = |_| Failure::input(format!("`{shown}` is not UTF-8 text"));
     String::from_utf8(bytes).map_err(no_text)
 }
 

@@ -63,19 +63,12 @@ mod tests {
     /// The first, third and last of the rows that the paper prints for 1 to 7 joints.
     #[test]
     fn the_printed_rows() {
+        use Formulation::{Dalembert, LagrangeEuler, NewtonEulerLink};
+        let euler = [[513, 390], [10441, 7960], [173425, 132496]];
         for (formulation, rows) in [
-            (
-                Formulation::LagrangeEuler,
-                [[513, 390], [10441, 7960], [173425, 132496]],
-            ),
-            (
-                Formulation::NewtonEulerLink,
-                [[132, 107], [396, 329], [924, 773]],
-            ),
-            (
-                Formulation::Dalembert,
-                [[213, 139], [868, 623], [4010, 2999]],
-            ),
+            (LagrangeEuler, euler),
+            (NewtonEulerLink, [[132, 107], [396, 329], [924, 773]]),
+            (Dalembert, [[213, 139], [868, 623], [4010, 2999]]),
         ] {
             assert_eq!([1, 3, 7].map(|n| paper(formulation, n)), rows);
         }

@@ -8,7 +8,7 @@ use std::time::Duration;
 use anstream::{AutoStream, ColorChoice};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::failure::Failure;
+use crate::output::Failure;
 
 const QUIET: Duration = Duration::from_secs(2);
 
@@ -48,22 +48,19 @@ pub fn step(name: &str) {
     bar().inc(1);
 }
 
-/// Returns the bar of the run.
 pub fn bar() -> ProgressBar {
     let bar = BAR.lock().unwrap_or_else(PoisonError::into_inner).clone();
     bar.unwrap_or_else(ProgressBar::hidden)
 }
 
 /// Prints to standard output. A closed pipe, as in `… | head`, is no failure.
-///
-/// # Errors
-/// Standard output cannot be written.
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match bar().suspend(|| out.write_all(text.as_bytes()).and_then(|()| out.flush())) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Input(format!(
-            "error: standard output cannot be written: {error}"
-        ))),
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            let why = format!("standard output cannot be written: {error}");
+            Err(Failure::input(why))
+        }
         _ => Ok(()),
     }
 }
@@ -77,16 +74,18 @@ const COLOURS: [(&str, &str); 6] = [
     (" --> ", "1;34"),
 ];
 
+/// Hides a control character, which would move the cursor of whoever reads a message.
+pub fn printable(c: char) -> char {
+    if c.is_control() { '\u{fffd}' } else { c }
+}
+
 /// Writes control characters out, which would move the cursor of whoever reads a file's words.
 pub fn escaped(text: &str) -> String {
-    let mut plain = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c.is_control() && !['\n', '\t'].contains(&c) {
-            true => plain += &format!("\\u{:04x}", u32::from(c)),
-            false => plain.push(c),
-        }
-    }
-    plain
+    let plain = |c: char| match c.is_control() && !['\n', '\t'].contains(&c) {
+        true => format!("\\u{:04x}", u32::from(c)),
+        false => c.to_string(),
+    };
+    text.chars().map(plain).collect()
 }
 
 /// Prints lines on standard error: in colour on a terminal, unless the environment says otherwise
@@ -99,8 +98,7 @@ pub fn note(text: &str) {
         }
         _ => line.to_owned(),
     };
-    let text = escaped(text.trim_end());
-    let lines: Vec<String> = text.split('\n').map(coloured).collect();
+    let lines: Vec<String> = escaped(text.trim_end()).split('\n').map(coloured).collect();
     bar().suspend(|| {
         // No stream is left on which to report an error.
         let _ = writeln!(io::stderr().lock(), "{}", lines.join("\n"));

@@ -52,10 +52,7 @@ fn campaign(places: Range<usize>, each: usize, longest: usize) -> Worst {
                 let scalar = emitted.scalar;
                 for found in bench.measure(&Code::emitted(emitted), &states, &states) {
                     let (quantity, error) = (found.quantity, found.vector);
-                    assert!(
-                        error <= VECTOR,
-                        "{what}, {quantity:?} in {scalar}: {error} u"
-                    );
+                    assert!(error <= VECTOR, "{what}, {scalar}: {found:?}");
                     let (most, robots) = worst.entry((quantity, scalar)).or_default();
                     *most = most.max(error);
                     *robots += 1;

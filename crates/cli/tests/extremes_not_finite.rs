@@ -2,12 +2,12 @@
 //! emitted code, at least those in the generic runtime.
 
 use dalembert_codegen::workspace::{Input, JointState, Node, Runtime, seeded};
-use dalembert_codegen::{Function, Generated, Program, Request, ScalarType, generate};
+use dalembert_codegen::{Function, Program, Request, ScalarType, generate};
 
 use crate::robots::robot;
 
 /// An entry of the state: 0, 1 or 2 for q, q̇ or q̈, and the joint.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Entry(usize, usize);
 
 fn reads(input: Input, place: Entry) -> bool {
@@ -61,22 +61,17 @@ fn sensitive(
 fn what_is_not_finite_reaches_what_depends_on_it() {
     for name in ["planar2r", "planar3r", "stanford", "puma560"] {
         let robot = robot(name);
-        let request = Request {
-            functions: Function::ALL[..6].to_vec(),
-            ..Request::default()
-        };
-        let Generated {
-            functions, emitted, ..
-        } = generate(&robot, &request).unwrap();
+        let made = generate(&robot, &Request::new(&Function::ALL[..6])).unwrap();
         let states = seeded(&robot, 4, 11);
         let runtime = Runtime::new(&robot);
-        let doubles = emitted.iter().filter(|e| e.scalar == ScalarType::F64);
-        for (generated, emitted) in functions.iter().zip(doubles) {
+        let doubles = made.emitted.iter().filter(|e| e.scalar == ScalarType::F64);
+        for (generated, emitted) in made.functions.iter().zip(doubles) {
             let function = generated.function;
             assert_eq!(emitted.function, function);
             let run = |state: &JointState| runtime.run(function, state);
-            for place in (0..3).flat_map(|row| (0..robot.joints.len()).map(move |j| Entry(row, j)))
-            {
+            let joints = 0..robot.joints.len();
+            let places = (0..3).flat_map(|row| joints.clone().map(move |j| Entry(row, j)));
+            for place in places {
                 let dependent = dependent(&generated.program, place);
                 let sensitive = sensitive(run, &states, place);
                 for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -84,8 +79,7 @@ fn what_is_not_finite_reaches_what_depends_on_it() {
                     let results = emitted.run(&state);
                     let of_runtime = run(&state);
                     for index in 0..results.len() {
-                        let at =
-                            || format!("{name} {function} {index} {} {} {bad}", place.0, place.1);
+                        let at = || format!("{name} {function} {index} {place:?} {bad}");
                         let finite = results[index].is_finite();
                         // +, − and × may turn an infinity into a NaN, but never
                         // into a finite number.

@@ -15,16 +15,10 @@ use serde_json::Value;
 use crate::robots as support;
 
 fn held(category: &str) -> Held {
-    let starts = |prefixes: &[&str]| prefixes.iter().any(|p| category.starts_with(p));
-    let near_zero = [
-        "static_near_balance",
-        "tiny_",
-        "folded_2link",
-        "pointmass_tip",
-    ];
-    if starts(&near_zero) {
+    let starts = |prefixes: &str| prefixes.split(' ').any(|p| category.starts_with(p));
+    if starts("static_near_balance tiny_ folded_2link pointmass_tip") {
         Held::Entries
-    } else if starts(&["massratio", "length", "snake"]) {
+    } else if starts("massratio length snake") {
         Held::Vector
     } else {
         Held::Both
@@ -36,12 +30,7 @@ fn held(category: &str) -> Held {
 fn emitted(robot: &Robot, scalar: ScalarType, longest: usize) -> Vec<Emitted> {
     let n = robot.joints.len();
     let mut functions = vec![Function::InverseDynamics];
-    let is_short = n
-        <= if scalar == ScalarType::F64 {
-            longest
-        } else {
-            longest.min(4)
-        };
+    let is_short = n <= longest && (scalar == ScalarType::F64 || n <= 4);
     functions.extend(is_short.then_some(Function::ManipulatorEquation));
     let request = Request {
         scalars: vec![scalar],
@@ -84,8 +73,8 @@ fn categories_meet_their_criteria(scalar: ScalarType, longest: usize) {
     let is_tried = |case: &&Extreme| {
         let joints = case.robot.joints.len();
         let place = firsts.iter().position(|first| **first == case.id);
-        let is_daily =
-            place.is_some_and(|place| place % 2 == usize::from(scalar == ScalarType::F32));
+        let turn = usize::from(scalar == ScalarType::F32);
+        let is_daily = place.is_some_and(|place| place % 2 == turn);
         match longest {
             SHORT => is_daily,
             _ => !is_daily || (SHORT + 1..=LONG).contains(&joints),

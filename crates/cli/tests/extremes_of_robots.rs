@@ -13,10 +13,8 @@ use crate::robots as support;
 const STATES: usize = 10;
 
 fn all_good(rows: &[Row]) {
-    assert!(
-        rows.iter().all(|row| row.verdict == Verdict::Good),
-        "{rows:#?}"
-    );
+    let mut verdicts = rows.iter().map(|row| row.verdict);
+    assert!(verdicts.all(|own| own == Verdict::Good), "{rows:#?}");
 }
 
 #[test]
@@ -106,11 +104,7 @@ fn every_argument_has_a_value_at_the_extremes(cases: &[(&[RuntimeParameter], &[F
             assert_eq!(!rows.is_empty(), functions.contains(&function), "{what}");
             for row in &rows {
                 assert!(row.verdict != Verdict::Failed, "{what}: {row:?}");
-                let worst = row.worst.as_ref();
-                assert!(
-                    worst.is_ok_and(|worst| worst.function == function),
-                    "{what}"
-                );
+                assert_eq!(row.worst.as_ref().unwrap().function, function, "{what}");
             }
         }
     }
@@ -125,21 +119,15 @@ fn points(masses: [&str; 2]) -> Robot {
     };
     let head = "name = \"points\"\nconvention = \"standard\"\ngravity = [0, -9.81, 0]\n";
     let source = head.to_owned() + &masses.map(joint).concat();
-    read::parse(&source)
-        .unwrap_or_else(|errors| panic!("{errors}"))
-        .robot
+    support::read_robot(&source)
 }
 
 /// Stretched out, both joints move the second mass alike, and the first mass, a ten-thousandth
 /// of it, adds little. As many digits are lost as the condition number says, and no more.
 #[test]
 fn what_is_lost_next_to_singular_is_the_condition() {
-    let rows = divided(
-        &points(["1e-4", "1"]),
-        &Request::new(&Function::ALL),
-        STATES,
-    )
-    .unwrap();
+    let request = Request::new(&Function::ALL);
+    let rows = divided(&points(["1e-4", "1"]), &request, STATES).unwrap();
     all_good(&rows);
     let worst = rows.iter().flat_map(|row| &row.worst);
     let lost = worst.map(|worst| worst.vector * worst.condition);

@@ -27,7 +27,6 @@ pub struct Accumulator {
     states: u64,
 }
 
-#[derive(Clone, Debug)]
 pub(crate) struct Row<'a> {
     pub(crate) columns: &'a [usize],
     /// [R_i z_i; 0 ρ_i], whole rows.
@@ -60,10 +59,7 @@ impl Accumulator {
         let rows: Vec<Vec<usize>> = (0..model.joints()).map(|i| model.row(i).to_vec()).collect();
         Accumulator {
             fingerprint: *model.fingerprint(),
-            triangles: rows
-                .iter()
-                .map(|row| Triangle::new(row.len() + 1))
-                .collect(),
+            triangles: rows.iter().map(|of| Triangle::new(of.len() + 1)).collect(),
             rows,
             states: 0,
         }
@@ -91,9 +87,6 @@ impl Accumulator {
     }
 
     /// Adds a state by its regressor, as [`Model::regressor`] returns it.
-    ///
-    /// # Errors
-    /// As [`Accumulator::add`].
     pub fn add_rows(&mut self, model: &Model, y: &[f64], tau: &[f64]) -> Result<(), Error> {
         self.matches(model)?;
         let width = model.columns().len();
@@ -189,19 +182,15 @@ impl Accumulator {
     }
 
     pub(crate) fn matches(&self, model: &Model) -> Result<(), Error> {
-        match self.fingerprint == *model.fingerprint() {
-            true => Ok(()),
-            false => Err(Error::OtherModel),
-        }
+        let is_same = self.fingerprint == *model.fingerprint();
+        is_same.then_some(()).ok_or(Error::OtherModel)
     }
 
     pub(crate) fn factors(&self) -> Vec<Row<'_>> {
-        let each = self.rows.iter().zip(&self.triangles);
-        each.map(|(columns, triangle)| Row {
-            columns,
-            factor: triangle.clone().reduced(),
-        })
-        .collect()
+        let reduced = self.triangles.iter().map(|of| of.clone().reduced());
+        let rows = self.rows.iter().zip(reduced);
+        rows.map(|(columns, factor)| Row { columns, factor })
+            .collect()
     }
 
     /// Writes the accumulator: a version, the model's fingerprint and the triangles.

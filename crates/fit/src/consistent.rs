@@ -83,19 +83,13 @@ pub struct Bodies {
 impl Bodies {
     /// Returns π of the file by [`identified`](crate::identified): without the sensors' offsets.
     pub fn file_parameters(&self, model: &Model) -> Vec<f64> {
-        let entries = self.parameters.iter().zip(model.columns());
-        let entries = entries.map(|(value, column)| match column {
+        let entry = |(value, column): (&f64, &Column)| match column {
             Column::Offset(_) => 0.0,
             _ => *value,
-        });
-        entries.collect()
+        };
+        let entries = self.parameters.iter().zip(model.columns());
+        entries.map(entry).collect()
     }
-}
-
-struct Search {
-    distance: f64,
-    steps: usize,
-    stopped: Vec<usize>,
 }
 
 /// An entry of θ.
@@ -153,9 +147,8 @@ pub fn consistent(model: &Model, fit: &Fit) -> Result<Bodies, Error> {
             steps += 1;
             let mut length = 1.0;
             let next = loop {
-                let next: Vec<f64> = (theta.iter().zip(&along))
-                    .map(|(x, d)| x + length * d)
-                    .collect();
+                let moved = theta.iter().zip(&along).map(|(x, d)| x + length * d);
+                let next: Vec<f64> = moved.collect();
                 match value(&next) {
                     Some(then) if then <= now => break Some((next, now - then)),
                     _ if length < 1e-12 => break None,
@@ -178,19 +171,13 @@ pub fn consistent(model: &Model, fit: &Fit) -> Result<Bodies, Error> {
     }
     let stopped = barrier.stopped(&theta, NOTHING);
     stopped.iter().for_each(|at| theta[*at] = 0.0);
-    let distance = libm::sqrt(distance(&theta));
-    Ok(body::bodies(
-        model,
-        fit,
-        &unknowns,
-        &map,
-        &theta,
-        Search {
-            distance,
-            steps,
-            stopped,
-        },
-    ))
+    let named = stopped.iter().filter_map(|at| body::named(unknowns[*at]));
+    Ok(Bodies {
+        distance: libm::sqrt(distance(&theta)),
+        stopped: named.collect(),
+        steps,
+        ..body::bodies(model, fit, &unknowns, &map, &theta)
+    })
 }
 
 fn newton(
@@ -212,16 +199,13 @@ fn newton(
     }
     let (r, z) = split(&all.reduced(), count);
     let along = back_substitute(&r, &z);
-    match along.iter().all(|x| x.is_finite()) {
-        true => Ok(along),
-        false => Err(Error::NotConverged),
-    }
+    let is_finite = along.iter().all(|x| x.is_finite());
+    is_finite.then_some(along).ok_or(Error::NotConverged)
 }
 
 fn unknowns(model: &Model) -> Vec<Unknown> {
-    let mut unknowns: Vec<Unknown> = (0..model.joints())
-        .flat_map(|joint| (0..10).map(move |k| Unknown::Link(joint, k)))
-        .collect();
+    let links = |joint| (0..10).map(move |k| Unknown::Link(joint, k));
+    let mut unknowns: Vec<Unknown> = (0..model.joints()).flat_map(links).collect();
     for (unknown, _) in model.columns().iter().flat_map(|own| terms(model, *own)) {
         if !unknowns.contains(&unknown) {
             unknowns.push(unknown);
@@ -236,10 +220,9 @@ fn terms(model: &Model, column: Column) -> Vec<(Unknown, f64)> {
         Parameter::Armature(joint) => Unknown::Armature(joint),
         Parameter::Viscous(joint) => Unknown::Viscous(joint),
     };
+    let term = |(parameter, factor): &(Parameter, f64)| (unknown(*parameter), *factor);
     match column {
-        Column::Base(base) => (model.combination(base).iter())
-            .map(|(parameter, factor)| (unknown(*parameter), *factor))
-            .collect(),
+        Column::Base(base) => model.combination(base).iter().map(term).collect(),
         Column::Coulomb(joint) => vec![(Unknown::Coulomb(joint), 1.0)],
         Column::Offset(joint) => vec![(Unknown::Offset(joint), 1.0)],
     }

@@ -68,9 +68,6 @@ const MOST: usize = 8;
 /// Finds up to eight logs that disagree with the others, the worst first; `found` is their
 /// [`cross_validation`]. Each is left out before the next search, since its states are in the
 /// parameters that judge the rest. If two are left, both are returned.
-///
-/// # Errors
-/// Those of [`fit`].
 pub fn disagreeing(
     model: &Model,
     files: &[Accumulator],
@@ -99,9 +96,8 @@ pub fn disagreeing(
         found.push(one);
         if rest.len() == 2 {
             found.extend(worst.into_iter().find(|other| other.file != one.file));
-            return Ok(found);
         }
-        if found.len() == MOST {
+        if rest.len() == 2 || found.len() == MOST {
             return Ok(found);
         }
         rest.retain(|file| *file != one.file);

@@ -8,12 +8,7 @@ pub(crate) fn back_substitute(r: &[f64], b: &[f64]) -> Vec<f64> {
     let mut x = b.to_vec();
     for i in (0..n).rev() {
         let row = &r[i * n..(i + 1) * n];
-        let known: f64 = row[i + 1..]
-            .iter()
-            .zip(&x[i + 1..])
-            .map(|(r, x)| r * x)
-            .sum();
-        x[i] = (x[i] - known) / row[i];
+        x[i] = (x[i] - dot(&row[i + 1..], &x[i + 1..])) / row[i];
     }
     x
 }
@@ -31,8 +26,7 @@ pub(crate) fn over(a: &[f64], r: &[f64], n: usize) -> Vec<f64> {
 }
 
 pub(crate) fn apply(a: &[f64], x: &[f64]) -> Vec<f64> {
-    let rows = a.chunks(x.len().max(1));
-    rows.map(|row| dot(row, x)).collect()
+    a.chunks(x.len().max(1)).map(|row| dot(row, x)).collect()
 }
 
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -56,7 +50,6 @@ pub(crate) fn norms(a: &[f64], columns: usize) -> Vec<f64> {
 }
 
 /// A singular value decomposition by its columns: A v_k = σ_k u_k.
-#[derive(Clone, Debug)]
 pub(crate) struct Singular {
     /// σ_k, not sorted.
     pub(crate) values: Vec<f64>,

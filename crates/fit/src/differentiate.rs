@@ -12,7 +12,8 @@
 //! Torques are not filtered: their noise stays white, so that standard errors stay right.
 //! Positions closer than m to either end of a log have no derivative and are left out.
 
-use crate::error::{Error, check};
+use crate::dense::dot;
+use crate::error::{Error, check, ensure};
 
 /// A filter for positions at equal times.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,14 +34,10 @@ impl Differentiator {
     /// [`Error::Option`] unless the period is positive and `half` is 3 to
     /// [`Differentiator::LONGEST`].
     pub fn new(period: f64, half: usize) -> Result<Differentiator, Error> {
-        if !(period > 0.0 && period.is_finite()) {
-            return Err(Error::Option(
-                "`period` has to be a positive number of seconds",
-            ));
-        }
-        if !(3..=Differentiator::LONGEST).contains(&half) {
-            return Err(Error::Option("half a window is 3 to 500 positions long"));
-        }
+        let is_period = period > 0.0 && period.is_finite();
+        ensure(is_period, "`period` has to be a positive number of seconds")?;
+        let is_half = (3..=Differentiator::LONGEST).contains(&half);
+        ensure(is_half, "half a window is 3 to 500 positions long")?;
         // Even and odd powers are orthogonal on a symmetric window. This unit keeps sums near one.
         let unit = half as f64;
         let places = || (-(half as i64)..=half as i64).map(|j| j as f64 / unit);
@@ -68,34 +65,32 @@ impl Differentiator {
     /// # Errors
     /// [`Error::TooFast`] where the shortest window is too long: the positions are too far apart.
     pub fn for_motion(period: f64, frequency: f64) -> Result<Differentiator, Error> {
-        if !(frequency > 0.0 && frequency.is_finite()) {
-            return Err(Error::Option(
-                "`frequency` has to be a positive number of Hz",
-            ));
-        }
-        let good = |half: usize| -> Result<bool, Error> {
-            let gains = Differentiator::new(period, half)?.gains(period, frequency);
-            let off = gains.map(|gain| (gain - 1.0).abs());
-            Ok(off.iter().all(|off| *off <= Differentiator::ERROR))
-        };
+        let is_good = frequency > 0.0 && frequency.is_finite();
+        ensure(is_good, "`frequency` has to be a positive number of Hz")?;
         // A window under half a period is judged by its middle: until then gains fall with its
         // length.
         let longest = (0.25 / (period * frequency)).min(Differentiator::LONGEST as f64) as usize;
-        let mut half = None;
-        for longer in 3..=longest {
-            if !good(longer)? {
+        let mut found = None;
+        for half in 3..=longest {
+            let filter = Differentiator::new(period, half)?;
+            if !filter.is_good(period, frequency) {
                 break;
             }
-            half = Some(longer);
+            found = Some(filter);
         }
-        match half {
-            Some(half) => Differentiator::new(period, half),
+        match found {
+            Some(filter) => Ok(filter),
             None => Err(Error::TooFast {
                 rate: 1.0 / period,
                 most: highest(period)?,
                 frequency,
             }),
         }
+    }
+
+    fn is_good(&self, period: f64, frequency: f64) -> bool {
+        let mut gains = self.gains(period, frequency).into_iter();
+        gains.all(|gain| (gain - 1.0).abs() <= Differentiator::ERROR)
     }
 
     /// Returns half the window's length: how many positions of either end have no derivative.
@@ -126,8 +121,7 @@ fn highest(period: f64) -> Result<f64, Error> {
     let (mut low, mut high) = (0.0, 0.25 / (3.0 * period));
     for _ in 0..50 {
         let middle = 0.5 * (low + high);
-        let mut gains = shortest.gains(period, middle).into_iter();
-        match gains.all(|gain| (gain - 1.0).abs() <= Differentiator::ERROR) {
+        match shortest.is_good(period, middle) {
             true => low = middle,
             false => high = middle,
         }
@@ -143,9 +137,7 @@ pub fn differentiate(filter: &Differentiator, q: &[f64]) -> Result<[Vec<f64>; 3]
     check("q", q, q.len().max(filter.weights[0].len()))?;
     let apply = |weights: &Vec<f64>| {
         let windows = q.windows(weights.len());
-        windows
-            .map(|window| window.iter().zip(weights).map(|(q, w)| q * w).sum())
-            .collect()
+        windows.map(|window| dot(window, weights)).collect()
     };
     Ok(filter.weights.each_ref().map(apply))
 }

@@ -104,6 +104,11 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
+/// Refuses an option unless it is good, by what it has to be.
+pub(crate) fn ensure(is_good: bool, expected: &'static str) -> Result<(), Error> {
+    is_good.then_some(()).ok_or(Error::Option(expected))
+}
+
 pub(crate) fn check(argument: &'static str, values: &[f64], expected: usize) -> Result<(), Error> {
     if values.len() != expected {
         return Err(Error::Length {

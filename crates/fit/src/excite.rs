@@ -16,7 +16,7 @@
 
 mod search;
 
-use crate::error::Error;
+use crate::error::{Error, check, ensure};
 use crate::fourier::Trajectory;
 use crate::model::Model;
 use crate::random::Random;
@@ -68,25 +68,16 @@ pub fn excite(
     period: f64,
     effort: &Effort,
 ) -> Result<(Trajectory, f64), Error> {
-    if !(period > 0.0 && period.is_finite()) {
-        return Err(Error::Option(
-            "`period` has to be a positive number of seconds",
-        ));
-    }
-    if !(2..=50).contains(&effort.harmonics) {
-        return Err(Error::Option("an effort has 2 to 50 harmonics"));
-    }
-    if effort.samples < 2 * effort.harmonics || effort.samples > 100_000 {
-        return Err(Error::Option(
-            "an effort has at least two samples a harmonic, and at most 100000",
-        ));
-    }
-    crate::error::check("noise", noise, model.joints())?;
-    if noise.iter().any(|noise| *noise <= 0.0) {
-        return Err(Error::Option(
-            "each joint's noise has to be a positive number",
-        ));
-    }
+    let is_period = period > 0.0 && period.is_finite();
+    ensure(is_period, "`period` has to be a positive number of seconds")?;
+    let has_harmonics = (2..=50).contains(&effort.harmonics);
+    ensure(has_harmonics, "an effort has 2 to 50 harmonics")?;
+    let has_samples = (2 * effort.harmonics..=100_000).contains(&effort.samples);
+    let samples = "an effort has at least two samples a harmonic, and at most 100000";
+    ensure(has_samples, samples)?;
+    check("noise", noise, model.joints())?;
+    let is_noise = noise.iter().all(|noise| *noise > 0.0);
+    ensure(is_noise, "each joint's noise has to be a positive number")?;
     let search = Search {
         model,
         noise,

@@ -157,17 +157,15 @@ fn alone(r: &[f64], mut rest: Vec<f64>) -> (u64, f64) {
 /// Takes back what unexcited directions have of the change from the file's parameters, sizes
 /// by `norms`: a parameter that is one of these directions by itself then keeps its value.
 fn keep_file(model: &Model, directions: &[Vec<f64>], norms: &[f64], parameters: &mut [f64]) {
-    let mut change: Vec<f64> = (parameters.iter().zip(model.parameters()))
-        .zip(norms)
-        .map(|((own, file), norm)| (own - file) * norm)
-        .collect();
+    let scaled = |values: &[f64]| -> Vec<f64> {
+        values.iter().zip(norms).map(|(x, norm)| x * norm).collect()
+    };
+    let change = parameters.iter().zip(model.parameters());
+    let change: Vec<f64> = change.map(|(own, file)| own - file).collect();
+    let mut change = scaled(&change);
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(directions.len());
     for direction in directions {
-        let mut own: Vec<f64> = direction
-            .iter()
-            .zip(norms)
-            .map(|(x, norm)| x * norm)
-            .collect();
+        let mut own = scaled(direction);
         // Twice is enough (Giraud, Langou and Rozložník 2005).
         for _ in 0..2 {
             for other in &basis {
@@ -205,9 +203,9 @@ pub(crate) fn condition(r: &[f64], width: usize) -> f64 {
 
 fn unit_columns(r: &[f64], width: usize) -> Vec<f64> {
     let norms = norms(r, width);
-    let scaled = r.iter().enumerate().map(|(i, x)| match norms[i % width] {
+    let scaled = |(i, x): (usize, &f64)| match norms[i % width] {
         0.0 => 0.0,
         norm => x / norm,
-    });
-    scaled.collect()
+    };
+    r.iter().enumerate().map(scaled).collect()
 }

@@ -1,6 +1,6 @@
 //! How far and how fast joints move.
 
-use dalembert_model::number::Rounded;
+use dalembert_model::number::{Rational, Rounded};
 use dalembert_model::robot::{JointKind, Position, Robot};
 
 /// The limits of a joint's motion, in rad or m and seconds.
@@ -18,6 +18,9 @@ impl Limits {
     /// Reads the limits of every joint of a robot. Where the file has none: ±π or ±0.5 m,
     /// 2 rad/s or 0.5 m/s, 10 rad/s² or 2 m/s².
     pub fn of(robot: &Robot) -> Vec<Limits> {
+        let or = |limit: &Option<Rational>, usual: f64| {
+            limit.as_ref().map_or(usual, f64::nearest_rational)
+        };
         let each = robot.joints.iter().map(|joint| {
             let [reach, velocity, acceleration] = match joint.kind {
                 JointKind::Revolute => [core::f64::consts::PI, 2.0, 10.0],
@@ -29,12 +32,8 @@ impl Limits {
                     Some(ends) => ends.each_ref().map(Position::to_f64),
                     None => [-reach, reach],
                 },
-                velocity: own
-                    .velocity
-                    .as_ref()
-                    .map_or(velocity, f64::nearest_rational),
-                acceleration: (own.acceleration.as_ref())
-                    .map_or(acceleration, f64::nearest_rational),
+                velocity: or(&own.velocity, velocity),
+                acceleration: or(&own.acceleration, acceleration),
             }
         });
         each.collect()

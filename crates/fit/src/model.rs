@@ -14,10 +14,10 @@ use dalembert_model::equations::Arm;
 use dalembert_model::equations::chain::{Body, Chain, Regrouping, Skeleton};
 use dalembert_model::equations::regressor::LinkParameter;
 use dalembert_model::number::{Exact, Rational, Rounded};
-use dalembert_model::robot::Robot;
+use dalembert_model::robot::{Joint, Robot};
 use num_traits::Zero;
 
-use crate::error::Error;
+use crate::error::{Error, ensure};
 use crate::limits::Limits;
 use crate::random::{Random, within};
 use derive::candidates;
@@ -63,27 +63,22 @@ impl Model {
 
     /// Derives the columns of a robot whose torques are measured behind its gears, where they do
     /// not feel the rotors: their inertias are zero, and are not identified.
-    ///
-    /// # Errors
-    /// As [`Model::new`].
     pub fn without_rotors(robot: &Robot) -> Result<Model, Error> {
         Model::derived(without_rotors(robot), false)
     }
 
     fn derived(robot: Robot, rotors: bool) -> Result<Model, Error> {
-        if !robot.followers.is_empty() {
-            return Err(Error::Option(
-                "joints that follow others (`mimic`) are not identified: fit the arm without them, \
-                 locked",
-            ));
-        }
+        ensure(
+            robot.followers.is_empty(),
+            "joints that follow others (`mimic`) are not identified: fit the arm without them, \
+             locked",
+        )?;
         let limits = Limits::of(&robot);
-        if !limits.iter().all(Limits::moves) {
-            return Err(Error::Option(
-                "each joint's limits have to let it move: its range, velocity and acceleration \
-                 have to be more than zero",
-            ));
-        }
+        ensure(
+            limits.iter().all(Limits::moves),
+            "each joint's limits have to let it move: its range, velocity and acceleration \
+             have to be more than zero",
+        )?;
         let n = robot.joints.len();
         let scene = Setup::whole(&candidates(&robot, rotors));
         let base = scene.base(Quantity::BaseRegressor);
@@ -91,19 +86,17 @@ impl Model {
         let arm = Arm::from_robot(&robot, &mut Exact::clone).fold_base();
         let mut skeleton = Skeleton::with_columns(&arm, &[], &base.columns);
         // The columns are all that is computed: the links' own bodies are not regrouped.
-        skeleton
-            .links
-            .iter_mut()
-            .for_each(|segment| segment.link.body = Body::zero());
+        for segment in &mut skeleton.links {
+            segment.link.body = Body::zero();
+        }
         let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
         let each = |terms: &Vec<(Parameter, Exact)>| {
-            let terms = terms.iter();
-            terms.map(|(of, x)| (*of, f64::nearest(x))).collect()
+            terms.iter().map(|(of, x)| (*of, f64::nearest(x))).collect()
         };
         let mut columns: Vec<Column> = (0..base.columns.len()).map(Column::Base).collect();
         columns.extend((0..n).map(Column::Coulomb));
         columns.extend((0..n).map(Column::Offset));
-        let width = |joint: &dalembert_model::robot::Joint| match joint.coulomb_width.is_zero() {
+        let width = |joint: &Joint| match joint.coulomb_width.is_zero() {
             true => COULOMB_WIDTH,
             false => f64::nearest_rational(&joint.coulomb_width),
         };
@@ -180,7 +173,11 @@ impl Model {
         match self.columns[column] {
             Column::Coulomb(joint) => format!("coulomb{}", joint + 1),
             Column::Offset(joint) => format!("offset{}", joint + 1),
-            Column::Base(base) => sum(&self.combinations[base]),
+            Column::Base(base) => {
+                let terms = self.combinations[base].iter();
+                let terms = terms.map(|(of, factor)| (of.to_string(), *factor));
+                sum(&Vec::from_iter(terms), |x| x.to_string())
+            }
         }
     }
 }
@@ -196,9 +193,8 @@ pub fn without_rotors(robot: &Robot) -> Robot {
 
 pub(crate) fn state(limits: &[Limits], factor: f64, random: &mut Random) -> [Vec<f64>; 3] {
     let mut draw = |of: &dyn Fn(&Limits) -> [f64; 2]| -> Vec<f64> {
-        let each = limits.iter().map(of);
-        each.map(|[middle, largest]| middle + within(random, largest))
-            .collect()
+        let drawn = |[middle, largest]: [f64; 2]| middle + within(random, largest);
+        limits.iter().map(of).map(drawn).collect()
     };
     [
         draw(&|of| [of.middle(), of.reach()]),
@@ -207,20 +203,20 @@ pub(crate) fn state(limits: &[Limits], factor: f64, random: &mut Random) -> [Vec
     ]
 }
 
-fn sum(terms: &[(Parameter, f64)]) -> String {
+/// Writes a sum of terms, by their names and factors, cut after three.
+pub(crate) fn sum(terms: &[(String, f64)], number: impl Fn(f64) -> String) -> String {
     let mut text = String::new();
-    for (i, (parameter, factor)) in terms.iter().take(3).enumerate() {
-        let sign = match (i, *factor < 0.0) {
+    for (i, (name, factor)) in terms.iter().take(3).enumerate() {
+        text += match (i, *factor < 0.0) {
             (0, false) => "",
             (0, true) => "-",
             (_, false) => " + ",
             (_, true) => " - ",
         };
-        text += sign;
         if factor.abs() != 1.0 {
-            text += &format!("{} ", factor.abs());
+            text += &format!("{} ", number(factor.abs()));
         }
-        text += &parameter.to_string();
+        text += name;
     }
     if terms.len() > 3 {
         text += &format!(" + … ({} more)", terms.len() - 3);

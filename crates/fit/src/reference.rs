@@ -21,10 +21,7 @@ pub struct Reference {
 
 impl Reference {
     /// Evaluates the motion, with rows divided by their joint's noise and by √(number of states).
-    ///
-    /// # Errors
-    /// Those of [`Model::regressor`].
-    pub fn new(model: &Model, noise: &[f64]) -> Result<Reference, Error> {
+    pub(crate) fn new(model: &Model, noise: &[f64]) -> Result<Reference, Error> {
         let width = model.columns().len();
         let mut random = Random::new(0x7265_6600);
         let mut accumulator = Accumulator::new(model);

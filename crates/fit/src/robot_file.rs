@@ -3,9 +3,9 @@
 use std::fs;
 use std::io::{Error as IoError, ErrorKind, Result as IoResult};
 use std::path::Path;
-use std::process;
 
-use dalembert_codegen::workspace::{Comment, is_as_written, sealed};
+pub use dalembert_codegen::workspace::write_whole;
+use dalembert_codegen::workspace::{Comment, refusal, sealed};
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::placed::Body;
@@ -48,12 +48,10 @@ pub fn replaceable(path: &Path) -> IoResult<()> {
     if !path.is_file() {
         return Ok(());
     }
-    let bytes = fs::read(path)?;
-    let why = match is_as_written(&String::from_utf8_lossy(&bytes)) {
-        _ if bytes.is_empty() => return Ok(()),
-        Some(true) => return Ok(()),
-        Some(false) => "the file was edited since it was written",
-        None => "the file exists, and no identification wrote it",
+    let edited = "the file was edited since it was written";
+    let foreign = "the file exists, and no identification wrote it";
+    let Some(why) = refusal(&fs::read(path)?, edited, foreign) else {
+        return Ok(());
     };
     let why = format!("{why}: delete it, or give another name");
     Err(IoError::new(ErrorKind::AlreadyExists, why))
@@ -66,15 +64,8 @@ pub fn replaceable(path: &Path) -> IoResult<()> {
 /// Those of [`replaceable`]: the file stays as it was. Those of the system.
 pub fn save(path: &Path, robot: &Robot) -> IoResult<()> {
     replaceable(path)?;
-    let mut part = path.as_os_str().to_owned();
-    part.push(format!(".{}.part", process::id()));
     let text = sealed(Comment::Toml, "identified by dalembert", &write(robot));
-    let written = fs::write(&part, text).and_then(|()| fs::rename(&part, path));
-    if written.is_err() {
-        // The first error is the one to report.
-        let _ = fs::remove_file(&part);
-    }
-    written
+    write_whole(path, &text)
 }
 
 /// Returns mass, centre of mass and the tensor about it, of the ten moments about the origin.
@@ -87,15 +78,8 @@ fn body(link: &[f64; 10], index: usize) -> Result<Body, Error> {
         let own = if i == k { square } else { 0.0 };
         origin[i][k] - mass * (own - com[i] * com[k])
     };
-    let attempts = [
-        (12, 0.0),
-        (16, 0.0),
-        (16, 1e-15),
-        (16, 1e-13),
-        (16, 1e-11),
-        (16, 1e-9),
-    ];
-    for (digits, part) in attempts {
+    let parts = [0.0, 1e-15, 1e-13, 1e-11, 1e-9].map(|part| (16, part));
+    for (digits, part) in [(12, 0.0)].into_iter().chain(parts) {
         let number = |value: f64| rounded("link", index, value, digits);
         let diagonal = |i: usize| number(about(i, i) + part * (xx + yy + zz));
         let inertia = Inertia {

@@ -2,7 +2,7 @@
 
 mod controlled;
 
-use crate::error::{Error, check};
+use crate::error::{Error, check, ensure};
 use crate::fourier::Trajectory;
 use crate::model::Model;
 use crate::random::{Random, normal};
@@ -26,18 +26,13 @@ pub struct Recording {
 impl Recording {
     fn check(&self, joints: usize) -> Result<(), Error> {
         check("noise", &self.noise, joints)?;
-        if !(self.period > 0.0 && self.resolution >= 0.0) {
-            return Err(Error::Option(
-                "a recording has a positive period and a resolution that is not negative",
-            ));
-        }
-        Ok(())
+        let expected = "a recording has a positive period and a resolution that is not negative";
+        ensure(self.period > 0.0 && self.resolution >= 0.0, expected)
     }
 
     fn noisy(&self, tau: &[f64], random: &mut Random) -> Vec<f64> {
-        let each = tau.iter().zip(&self.noise);
-        each.map(|(tau, noise)| tau + noise * normal(random))
-            .collect()
+        let noisy = |(tau, noise): (&f64, &f64)| tau + noise * normal(random);
+        tau.iter().zip(&self.noise).map(noisy).collect()
     }
 
     /// Returns positions as the encoders tell them.

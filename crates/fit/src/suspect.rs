@@ -60,18 +60,18 @@ pub fn suspect(model: &Model, log: [&[f64]; 4]) -> Result<Option<Suspicion>, Err
     let changes = [degrees, 1.0 / degrees].into_iter().map(Change::Angles);
     let changes = changes.chain(pairs.clone().map(|(i, j)| Change::Torques(i, j)));
     let changes = changes.chain(pairs.map(|(i, j)| Change::Joints(i, j)));
-    let mut best: Option<Suspicion> = None;
+    let (mut best, mut least) = (None, LESS * before);
     for change in changes.chain(delays.map(Change::Late)) {
         let after = left(model, log, rows, Some(change))?;
-        if after < best.map_or(LESS * before, |best| best.after) {
-            best = Some(Suspicion {
-                change,
-                before,
-                after,
-            });
+        if after < least {
+            (best, least) = (Some(change), after);
         }
     }
-    Ok(best)
+    Ok(best.map(|change| Suspicion {
+        change,
+        before,
+        after: least,
+    }))
 }
 
 fn left(
@@ -91,34 +91,28 @@ fn left(
     let last = rows.saturating_sub(LATEST);
     for row in (LATEST..last).step_by((rows / STATES).max(1)) {
         let [q, qd, qdd, tau] = [0, 1, 2, 3].map(|quantity| -> Vec<f64> {
+            let value = |i: usize, row: usize| log[quantity][i * rows + row];
             let entry = |i: usize| match change {
-                Some(Change::Joints(a, b)) => log[quantity][swapped(i, [a, b]) * rows + row],
-                Some(Change::Torques(a, b)) if quantity == 3 => {
-                    log[3][swapped(i, [a, b]) * rows + row]
-                }
-                Some(Change::Late(rows_late)) if quantity == 3 => {
-                    log[3][i * rows + row.saturating_add_signed(rows_late)]
-                }
+                Some(Change::Joints(a, b)) => value(swapped(i, [a, b]), row),
+                Some(Change::Torques(a, b)) if quantity == 3 => value(swapped(i, [a, b]), row),
+                Some(Change::Late(by)) if quantity == 3 => value(i, row.saturating_add_signed(by)),
                 Some(Change::Angles(factor)) if quantity < 3 => {
                     let is_angle = model.robot().joints[i].kind == JointKind::Revolute;
-                    log[quantity][i * rows + row] * if is_angle { factor } else { 1.0 }
+                    value(i, row) * if is_angle { factor } else { 1.0 }
                 }
-                _ => log[quantity][i * rows + row],
+                _ => value(i, row),
             };
             (0..n).map(entry).collect()
         });
         data.add(model, [&q, &qd, &qdd], &tau)?;
-        squares
-            .iter_mut()
-            .zip(&tau)
-            .for_each(|(sum, tau)| *sum += tau * tau);
+        for (sum, tau) in squares.iter_mut().zip(&tau) {
+            *sum += tau * tau;
+        }
     }
-    let parts = noise(&data)?
-        .into_iter()
-        .zip(squares)
-        .map(|(noise, squares)| {
-            let all = squares / data.states() as f64;
-            if all > 0.0 { noise * noise / all } else { 0.0 }
-        });
+    let part = |(noise, squares): (f64, f64)| {
+        let all = squares / data.states() as f64;
+        if all > 0.0 { noise * noise / all } else { 0.0 }
+    };
+    let parts = noise(&data)?.into_iter().zip(squares).map(part);
     Ok(libm::sqrt(parts.sum::<f64>() / n as f64))
 }

@@ -148,11 +148,7 @@ fn reflect(columns: usize, r: &mut [f64], block: &mut [Rows]) {
             continue;
         }
         let size = libm::sqrt(row[0] * row[0] + square);
-        let head = if row[0] > 0.0 {
-            row[0] + size
-        } else {
-            row[0] - size
-        };
+        let head = row[0] + if row[0] > 0.0 { size } else { -size };
         row[0] -= head;
         // H = 1 − 2 v vᵀ / vᵀv with v = (head, own).
         let scale = 2.0 / (head * head + square);

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::dense::{apply, dot};
 use crate::error::Error;
-use crate::model::Model;
+use crate::model::{Model, sum};
 use crate::random::Random;
 use crate::reference::Reference;
 
@@ -47,22 +47,19 @@ impl fmt::Display for Motion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Motion::Poses => f.write_str("hold the arm still in many different poses"),
-            Motion::Accelerate(joint) => write!(
-                f,
-                "accelerate joint {} from rest, in different poses",
-                joint + 1
-            ),
-            Motion::Move(joint) => write!(
-                f,
-                "move joint {} at different velocities, in different poses",
-                joint + 1
-            ),
-            Motion::Together(one, other) => write!(
-                f,
-                "move joints {} and {} at the same time, fast",
-                one + 1,
-                other + 1
-            ),
+            Motion::Accelerate(joint) => {
+                let joint = joint + 1;
+                write!(f, "accelerate joint {joint} from rest, in different poses")
+            }
+            Motion::Move(joint) => {
+                let joint = joint + 1;
+                let how = "at different velocities, in different poses";
+                write!(f, "move joint {joint} {how}")
+            }
+            Motion::Together(one, other) => {
+                let (one, other) = (one + 1, other + 1);
+                write!(f, "move joints {one} and {other} at the same time, fast")
+            }
             Motion::All => f.write_str("move all joints at the same time, fast"),
             Motion::None => f.write_str("no motion within the joints' limits tells it"),
         }
@@ -125,8 +122,8 @@ impl Weighting<'_> {
             let image = apply(r, direction);
             libm::sqrt(dot(&image, &image))
         };
-        let each = directions.iter().map(|x| norm(&self.reference.r, x));
-        let units: Vec<f64> = each.collect();
+        let unit = |direction: &Vec<f64>| norm(&self.reference.r, direction);
+        let units: Vec<f64> = directions.iter().map(unit).collect();
         let motions = self.motions(directions, &units)?;
         let each = directions.iter().zip(units).zip(motions);
         let each = each.map(|((direction, unit), motion)| {
@@ -197,10 +194,8 @@ impl Weighting<'_> {
             let y = self.model.regressor(&q, &qd, &qdd)?;
             for (total, direction) in totals.iter_mut().zip(directions) {
                 let torques = y.chunks(width).map(|row| dot(row, direction));
-                let weighted = torques
-                    .zip(self.noise)
-                    .map(|(x, noise)| (x / noise).powi(2));
-                *total += weighted.sum::<f64>();
+                let parts = torques.zip(self.noise).map(|(x, noise)| x / noise);
+                *total += parts.map(|part| part.powi(2)).sum::<f64>();
             }
         }
         let root = |total: f64| libm::sqrt(total / STATES as f64);
@@ -209,24 +204,13 @@ impl Weighting<'_> {
 }
 
 fn named(model: &Model, combination: &[(usize, f64)]) -> String {
-    let mut text = String::new();
-    for (i, (column, factor)) in combination.iter().take(3).enumerate() {
-        if i > 0 {
-            text += if *factor < 0.0 { " - " } else { " + " };
+    let term = |(column, factor): &(usize, f64)| {
+        let mut name = model.name(*column);
+        if name.contains(' ') {
+            name = format!("({name})");
         }
-        let name = model.name(*column);
-        let name = if name.contains(' ') {
-            format!("({name})")
-        } else {
-            name
-        };
-        text += &match factor.abs() {
-            1.0 => name,
-            factor => format!("{factor:.3} {name}"),
-        };
-    }
-    if combination.len() > 3 {
-        text += &format!(" + … ({} more)", combination.len() - 3);
-    }
-    text
+        (name, *factor)
+    };
+    let terms: Vec<(String, f64)> = combination.iter().map(term).collect();
+    sum(&terms, |x| format!("{x:.3}"))
 }

@@ -9,7 +9,7 @@
 //! A change of twice k is found soonest. White noise of σ reaches a bar b once in about
 //! e^(2 k (b + 1.166))/(2 k²) states and direction (Siegmund 1985).
 
-use crate::error::{Error, check};
+use crate::error::{Error, check, ensure};
 
 /// Sums of residuals, a pair a joint.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,11 +29,9 @@ impl Watch {
     pub fn new(noise: &[f64], drift: f64, bar: f64) -> Result<Watch, Error> {
         check("noise", noise, noise.len())?;
         check("drift and bar", &[drift, bar], 2)?;
-        if noise.iter().chain([&drift, &bar]).any(|x| *x <= 0.0) {
-            return Err(Error::Option(
-                "the noise, the drift and the bar of a watch have to be positive numbers",
-            ));
-        }
+        let are_positive = noise.iter().chain([&drift, &bar]).all(|x| *x > 0.0);
+        let expected = "the noise, the drift and the bar of a watch have to be positive numbers";
+        ensure(are_positive, expected)?;
         Ok(Watch {
             noise: noise.to_vec(),
             drift,

@@ -1,6 +1,6 @@
 //! Parts that merge give what the whole gives, and bytes come back.
 
-use dalembert_fit::random::Random;
+use dalembert_fit::random::{Random, normal};
 use dalembert_fit::{Accumulator, Error, Model, fit};
 
 use crate::support::{ARMS, State, accumulated, arm, file, model, states, torques};
@@ -40,14 +40,11 @@ fn partitions_do_not_matter() {
         let (model, right) = arm(name);
         let states = states(&model, 1500, 1);
         let mut random = Random::new(2);
-        let tau: Vec<Vec<f64>> = (states.iter())
-            .map(|state| {
-                let mut tau = torques(&state.y, &right);
-                tau.iter_mut()
-                    .for_each(|x| *x += dalembert_fit::random::normal(&mut random));
-                tau
-            })
-            .collect();
+        let mut noisy = |state: &State| -> Vec<f64> {
+            let exact = torques(&state.y, &right).into_iter();
+            exact.map(|x| x + normal(&mut random)).collect()
+        };
+        let tau: Vec<Vec<f64>> = states.iter().map(&mut noisy).collect();
         let both: Vec<_> = states.iter().zip(&tau).collect();
         let reversed: Vec<_> = both.iter().rev().copied().collect();
         let whole = in_parts(&model, &both, 1, 1500);
@@ -69,11 +66,8 @@ fn partitions_do_not_matter() {
                 ("parameters", &found.parameters, &wanted.parameters),
                 ("errors", &found.standard_errors, &wanted.standard_errors),
             ] {
-                let distance = distance(a, b);
-                assert!(
-                    distance < 1e-12,
-                    "{name}, {parts} parts, {what}: {distance:e}"
-                );
+                let off = distance(a, b);
+                assert!(off < 1e-12, "{name}, {parts} parts, {what}: {off:e}");
             }
         }
         let again = in_parts(&model, &both, 3, 97).to_bytes();
@@ -85,15 +79,14 @@ fn partitions_do_not_matter() {
 fn residuals_need_no_second_look() {
     let (model, right) = arm("puma560");
     let states = states(&model, 300, 3);
-    let mut random = Random::new(4);
-    let data = accumulated(&model, &states, &right, Some(&mut random));
+    let data = accumulated(&model, &states, &right, Some(4));
     let found = data.residual(&model, model.parameters()).unwrap();
     let mut random = Random::new(4);
     let mut squares = [0.0; 6];
     for state in &states {
         let [tau, own] = [&right[..], model.parameters()].map(|p| torques(&state.y, p));
         for (i, square) in squares.iter_mut().enumerate() {
-            let noise = crate::support::noise(i) * dalembert_fit::random::normal(&mut random);
+            let noise = crate::support::noise(i) * normal(&mut random);
             *square += (tau[i] + noise - own[i]).powi(2);
         }
     }
@@ -108,42 +101,26 @@ fn bytes_are_refused_that_are_not_its_own() {
     let model = model(&file("puma560"));
     let data = accumulated(&model, &states(&model, 90, 1), model.parameters(), None);
     let bytes = data.to_bytes();
+    let refused = |bytes: &[u8]| match Accumulator::from_bytes(&model, bytes) {
+        Err(Error::Bytes(why)) => why,
+        other => panic!("{} bytes: {other:?}", bytes.len()),
+    };
     // Whatever the number of states.
     assert!(bytes.len() < 25_000, "{}", bytes.len());
-    for length in 0..bytes.len() {
-        if length % 97 == 0 || length < 60 {
-            let read = Accumulator::from_bytes(&model, &bytes[..length]);
-            assert!(matches!(read, Err(Error::Bytes(_))), "{length}");
-        }
+    for length in (0..bytes.len()).filter(|length| length % 97 == 0 || *length < 60) {
+        refused(&bytes[..length]);
     }
-    let mut longer = bytes.clone();
-    longer.push(0);
-    assert!(matches!(
-        Accumulator::from_bytes(&model, &longer),
-        Err(Error::Bytes(_))
-    ));
+    refused(&[&bytes[..], &[0]].concat());
     let mut newer = bytes.clone();
     newer[6] = 2;
-    let said = Accumulator::from_bytes(&model, &newer)
-        .unwrap_err()
-        .to_string();
-    assert!(said.contains("version"), "{said}");
-    let mut infinite = bytes.clone();
-    let end = infinite.len();
-    infinite[end - 8..].copy_from_slice(&f64::NAN.to_le_bytes());
-    assert!(matches!(
-        Accumulator::from_bytes(&model, &infinite),
-        Err(Error::Bytes(_))
-    ));
+    assert!(refused(&newer).contains("version"));
+    let (finite, _) = bytes.split_last_chunk::<8>().unwrap();
+    refused(&[finite, &f64::NAN.to_le_bytes()].concat());
     let other = Model::new(&file("stanford")).unwrap();
-    assert_eq!(
-        Accumulator::from_bytes(&other, &bytes),
-        Err(Error::OtherModel)
-    );
-    assert_eq!(
-        Accumulator::new(&other).merge(&data),
-        Err(Error::OtherModel)
-    );
+    let read = Accumulator::from_bytes(&other, &bytes);
+    assert_eq!(read, Err(Error::OtherModel));
+    let merged = Accumulator::new(&other).merge(&data);
+    assert_eq!(merged, Err(Error::OtherModel));
 }
 
 #[test]
@@ -178,18 +155,15 @@ fn columns_give_what_rows_give() {
             let y = each(&|state, e| state.y[e / base * width + e % base], n * base);
             let qd = each(&|state, i| state.qd[i], n);
             let tau = each(&|state, i| state.qdd[i], n);
-            columns
-                .add_columns(&model, &y, &qd, &tau, part.len())
-                .unwrap();
+            let added = columns.add_columns(&model, &y, &qd, &tau, part.len());
+            added.unwrap();
         }
         assert_eq!(columns, rows, "{count} at once");
     }
     let mut columns = Accumulator::new(&model);
     let (y, one) = (vec![0.0; n * base], vec![0.0; n]);
     let short = columns.add_columns(&model, &y[1..], &one, &one, 1);
-    assert!(
-        matches!(short, Err(Error::Length { argument: "y", .. })),
-        "{short:?}"
-    );
+    let is_short = matches!(short, Err(Error::Length { argument: "y", .. }));
+    assert!(is_short, "{short:?}");
     assert_eq!(columns.states(), 0);
 }

@@ -1,11 +1,10 @@
 //! Bodies exist, and are those of the free parameters wherever these have bodies.
 
-use dalembert_fit::random::Random;
 use dalembert_fit::{Column, Model, consistent, fit, identified};
 use dalembert_model::read::parse;
 use dalembert_model::robot::write;
 
-use crate::support::{ARMS, accumulated, arm, number, states, truth};
+use crate::support::{ARMS, accumulated, arm, near, number, states, truth};
 
 #[test]
 fn free_parameters_that_have_bodies_are_kept() {
@@ -15,18 +14,14 @@ fn free_parameters_that_have_bodies_are_kept() {
         let data = accumulated(&model, &states(&model, 500, 31), &right, None);
         let mut free = fit(&model, &data).unwrap();
         let exact = free.parameters.clone();
-        let mut random = Random::new(3);
-        let noisy = accumulated(&model, &states(&model, 500, 31), &right, Some(&mut random));
+        let noisy = accumulated(&model, &states(&model, 500, 31), &right, Some(3));
         free = fit(&model, &noisy).unwrap();
         free.parameters = exact;
         let bodies = consistent(&model, &free).unwrap();
-        assert!(
-            bodies.moved < 1e-2,
-            "{name}: {} standard errors",
-            bodies.moved
-        );
-        assert!(bodies.distance < 2e-2, "{name}: {}", bodies.distance);
-        println!("{name}: {} steps, moved {:.1e}", bodies.steps, bodies.moved);
+        let (moved, distance, steps) = (bodies.moved, bodies.distance, bodies.steps);
+        assert!(moved < 1e-2, "{name}: {moved} standard errors");
+        assert!(distance < 2e-2, "{name}: {distance}");
+        println!("{name}: {steps} steps, moved {moved:.1e}");
     }
 }
 
@@ -46,24 +41,15 @@ fn drives_stop_at_zero() {
                 *value = 0.7;
             }
         }
-        assert!(
-            lost.iter().any(|name| name.starts_with("armature")),
-            "{name}"
-        );
-        let mut random = Random::new(37);
-        let data = accumulated(&model, &states(&model, 600, 38), &right, Some(&mut random));
+        let mut names = lost.iter();
+        assert!(names.any(|name| name.starts_with("armature")), "{lost:?}");
+        let data = accumulated(&model, &states(&model, 600, 38), &right, Some(37));
         let free = fit(&model, &data).unwrap();
         let bodies = consistent(&model, &free).unwrap();
-        println!(
-            "{name}: {:.1} standard errors, {} steps",
-            bodies.distance, bodies.steps
-        );
+        let (distance, steps, stopped) = (bodies.distance, bodies.steps, &bodies.stopped);
+        println!("{name}: {distance:.1} standard errors, {steps} steps");
         for name in &lost {
-            assert!(
-                bodies.stopped.contains(name),
-                "{name}: {:?}",
-                bodies.stopped
-            );
+            assert!(stopped.contains(name), "{name}: {stopped:?}");
         }
         for (place, own) in bodies.armature.iter().enumerate() {
             let is_lost = lost.contains(&format!("armature{}", place + 1));
@@ -72,9 +58,8 @@ fn drives_stop_at_zero() {
         assert!(bodies.coulomb.iter().all(|own| *own == 0.0));
         let text = write(&identified(&model, &bodies).unwrap());
         let again = Model::new(&parse(&text).unwrap().robot).unwrap();
-        let said = data
-            .residual(&model, &bodies.file_parameters(&model))
-            .unwrap();
+        let said = data.residual(&model, &bodies.file_parameters(&model));
+        let said = said.unwrap();
         let left = data.residual(&model, again.parameters()).unwrap();
         for (said, left) in said.iter().zip(left) {
             assert!((said - left).abs() < 1e-6 * left, "{name}: {said} {left}");
@@ -99,21 +84,15 @@ fn are_found_far_from_all_that_exist(arms: &[&str]) {
     for name in arms {
         let (model, right) = arm(name);
         let less: Vec<f64> = right.iter().map(|x| -x).collect();
-        let mut random = Random::new(39);
-        let data = accumulated(&model, &states(&model, 600, 40), &less, Some(&mut random));
+        let data = accumulated(&model, &states(&model, 600, 40), &less, Some(39));
         let free = fit(&model, &data).unwrap();
         let bodies = consistent(&model, &free).unwrap();
-        println!(
-            "{name}: {:.0} standard errors, {} steps",
-            bodies.distance, bodies.steps
-        );
-        assert!(bodies.distance > 100.0, "{name}: {}", bodies.distance);
-        let robot = identified(&model, &bodies).unwrap();
-        let exist = |joint: &dalembert_model::robot::Joint| joint.inertia.defect(&joint.mass);
-        assert!(
-            robot.joints.iter().all(|joint| exist(joint).is_none()),
-            "{name}"
-        );
+        let (distance, steps) = (bodies.distance, bodies.steps);
+        println!("{name}: {distance:.0} standard errors, {steps} steps");
+        assert!(distance > 100.0, "{name}: {distance}");
+        for joint in identified(&model, &bodies).unwrap().joints {
+            assert_eq!(joint.inertia.defect(&joint.mass), None, "{name}");
+        }
     }
 }
 
@@ -127,29 +106,21 @@ fn rotors_are_left_away() {
     assert!(has(&with) && !has(&without));
     assert_ne!(with.fingerprint(), without.fingerprint());
     let states = states(&without, 400, 44);
-    let mut random = Random::new(45);
-    let data = accumulated(&without, &states, without.parameters(), Some(&mut random));
+    let data = accumulated(&without, &states, without.parameters(), Some(45));
     let bodies = consistent(&without, &fit(&without, &data).unwrap()).unwrap();
-    let robot = identified(&without, &bodies).unwrap();
-    assert!(
-        robot
-            .joints
-            .iter()
-            .all(|joint| joint.armature == number(0.0))
-    );
+    for joint in identified(&without, &bodies).unwrap().joints {
+        assert_eq!(joint.armature, number(0.0));
+    }
 }
 
 #[test]
 fn bodies_of_noisy_data_exist() {
     for name in ARMS {
         let (model, right) = arm(name);
-        let mut random = Random::new(33);
-        let data = accumulated(&model, &states(&model, 300, 32), &right, Some(&mut random));
+        let data = accumulated(&model, &states(&model, 300, 32), &right, Some(33));
         let free = fit(&model, &data).unwrap();
         let bodies = consistent(&model, &free).unwrap();
-        for link in &bodies.links {
-            assert!(link[0] > 0.0);
-        }
+        assert!(bodies.links.iter().all(|link| link[0] > 0.0));
         for of in [&bodies.armature, &bodies.viscous, &bodies.coulomb] {
             assert!(of.iter().all(|x| *x >= 0.0));
         }
@@ -163,33 +134,22 @@ fn bodies_of_noisy_data_exist() {
             at(parameters) - at(&free.parameters)
         };
         let nearest = distance(&bodies.parameters);
-        let wanted = bodies.distance.powi(2);
-        assert!(
-            (nearest - wanted).abs() < 1e-6 * (1.0 + wanted),
-            "{nearest} {wanted}"
-        );
+        near(nearest, bodies.distance.powi(2), 1e-6, name);
         for other in [&right[..], model.parameters()] {
             assert!(nearest < distance(other));
             let both = bodies.parameters.iter().zip(other);
-            let near: Vec<f64> = both
-                .map(|(own, other)| own + 1e-4 * (other - own))
-                .collect();
-            assert!(
-                distance(&near) > nearest - 1e-6,
-                "{name}: {}",
-                distance(&near) - nearest
-            );
+            let moved: Vec<f64> = both.map(|(own, x)| own + 1e-4 * (x - own)).collect();
+            let farther = distance(&moved) - nearest;
+            assert!(farther > -1e-6, "{name}: {farther}");
         }
         // What was averaged over 300 states is known to a part of one state's noise.
-        let mut away = 0.0f64;
         let unseen = accumulated(&model, &states(&model, 300, 35), &right, None);
         let predicted = unseen.residual(&model, &bodies.parameters).unwrap();
         for (i, residual) in predicted.iter().enumerate() {
-            away = away.max(residual / crate::support::noise(i));
+            let away = residual / crate::support::noise(i);
+            assert!(away < 0.6, "{name}: {away} of the noise");
         }
-        assert!(away < 0.6, "{name}: {away} of the noise");
-        let robot = dalembert_fit::identified(&model, &bodies).unwrap();
-        for joint in &robot.joints {
+        for joint in &identified(&model, &bodies).unwrap().joints {
             assert_eq!(joint.inertia.defect(&joint.mass), None, "{name}");
             assert!(joint.mass > number(0.0));
         }

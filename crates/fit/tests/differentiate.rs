@@ -1,9 +1,9 @@
 //! Velocities and accelerations of encoders: gains, windows, and what they do to parameters.
 
-use dalembert_fit::simulate::{Log, Recording, record};
-use dalembert_fit::{Accumulator, Differentiator, Effort, Model, differentiate, excite, fit};
+use dalembert_fit::simulate::{Recording, record};
+use dalembert_fit::{Accumulator, Differentiator, differentiate, excite, fit};
 
-use crate::support::{arm, noise};
+use crate::support::{arm, differentiated, noise, short_effort};
 
 #[test]
 fn quartics_are_differentiated_exactly() {
@@ -28,10 +28,8 @@ fn windows_are_as_long_as_the_motion_lets_them() {
     for (period, frequency) in [(1e-3, 1.0), (1e-3, 5.0), (4e-3, 0.5)] {
         let filter = Differentiator::for_motion(period, frequency).unwrap();
         let off = |filter: &Differentiator| {
-            let gains = filter.gains(period, frequency);
-            gains
-                .iter()
-                .fold(0.0f64, |max, gain| max.max((gain - 1.0).abs()))
+            let gains = filter.gains(period, frequency).into_iter();
+            gains.map(|gain| (gain - 1.0).abs()).fold(0.0, f64::max)
         };
         assert!(off(&filter) <= Differentiator::ERROR);
         if filter.half() < Differentiator::LONGEST {
@@ -39,11 +37,9 @@ fn windows_are_as_long_as_the_motion_lets_them() {
             assert!(off(&longer) > Differentiator::ERROR);
         }
     }
-    let said = Differentiator::for_motion(0.1, 5.0)
-        .unwrap_err()
-        .to_string();
+    let error = Differentiator::for_motion(0.1, 5.0).unwrap_err();
     let wanted = "10 states a second carry motion up to 0.42 Hz, and the motion has 5 Hz";
-    assert!(said.contains(wanted), "{said}");
+    assert!(error.to_string().contains(wanted), "{error}");
     assert!(Differentiator::new(-1.0, 7).is_err());
     assert!(Differentiator::new(0.01, 1).is_err());
     let filter = Differentiator::new(0.01, 7).unwrap();
@@ -55,13 +51,7 @@ fn windows_are_as_long_as_the_motion_lets_them() {
 fn encoder_bias(seeds: u64) -> [f64; 2] {
     let (model, right) = arm("puma560");
     let sigma: Vec<f64> = (0..6).map(noise).collect();
-    let effort = Effort {
-        starts: 8,
-        descents: 1,
-        steps: 10,
-        ..Effort::default()
-    };
-    let (trajectory, _) = excite(&model, &sigma, 8.0, &effort).unwrap();
+    let (trajectory, _) = excite(&model, &sigma, 8.0, &short_effort()).unwrap();
     let filter = Differentiator::for_motion(1e-3, trajectory.highest_frequency()).unwrap();
     let mut away = vec![0.0; right.len()];
     for seed in 0..seeds {
@@ -73,14 +63,15 @@ fn encoder_bias(seeds: u64) -> [f64; 2] {
             seed,
         };
         let log = record(&model, &right, &trajectory, &recording).unwrap();
-        let found = fit(&model, &differentiated(&model, &log, &filter)).unwrap();
+        let mut data = Accumulator::new(&model);
+        let states = differentiated(&filter, &log);
+        for ([q, qd, qdd], tau) in states.iter().zip(&log.tau[filter.half()..]) {
+            data.add(&model, [q, qd, qdd], tau).unwrap();
+        }
+        let found = fit(&model, &data).unwrap();
         assert!(found.unexcited.is_empty());
-        for (i, (after, noise)) in found.after.iter().zip(&sigma).enumerate() {
-            assert!(
-                (after / noise - 1.0).abs() < 0.05,
-                "joint {}: {after}",
-                i + 1
-            );
+        for (joint, (after, noise)) in (1..).zip(found.after.iter().zip(&sigma)) {
+            assert!((after / noise - 1.0).abs() < 0.05, "joint {joint}: {after}");
         }
         let errors = found.parameters.iter().zip(&right);
         let errors = errors.zip(&found.standard_errors);
@@ -91,23 +82,6 @@ fn encoder_bias(seeds: u64) -> [f64; 2] {
     let square: f64 = away.iter().map(|x| x * x).sum();
     let largest = away.iter().fold(0.0f64, |max, x| max.max(x.abs()));
     [(square / away.len() as f64).sqrt(), largest]
-}
-
-fn differentiated(model: &Model, log: &Log, filter: &Differentiator) -> Accumulator {
-    let joints: Vec<[Vec<f64>; 3]> = (0..model.joints())
-        .map(|i| {
-            let q: Vec<f64> = log.q.iter().map(|q| q[i]).collect();
-            differentiate(filter, &q).unwrap()
-        })
-        .collect();
-    let mut data = Accumulator::new(model);
-    for k in 0..joints[0][0].len() {
-        let state = [0, 1, 2].map(|of| joints.iter().map(|joint| joint[of][k]).collect::<Vec<_>>());
-        let [q, qd, qdd] = &state;
-        data.add(model, [q, qd, qdd], &log.tau[k + filter.half()])
-            .unwrap();
-    }
-    data
 }
 
 /// Of two logs the noise of the torques alone gives 0.7 standard errors.

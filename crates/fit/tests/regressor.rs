@@ -2,9 +2,10 @@
 
 use dalembert_fit::{Column, Error, Model};
 use dalembert_model::reference::Reference;
+use dalembert_model::robot::JointKind;
 use nalgebra::DVector;
 
-use crate::support::{ARMS, file, model, states, torques, truth};
+use crate::support::{ARMS, file, model, near, states, torques, truth};
 
 #[test]
 fn parameters_of_the_file_give_its_torques() {
@@ -17,12 +18,8 @@ fn parameters_of_the_file_give_its_torques() {
             let [q, qd, qdd] = [&state.q, &state.qd, &state.qdd].map(|x| vector(x));
             let wanted = reference.inverse_dynamics(&q, &qd, &qdd).unwrap();
             let found = torques(&state.y, model.parameters());
-            for (wanted, found) in wanted.iter().zip(&found) {
-                let error = (wanted - found).abs();
-                assert!(
-                    error < 1e-10 * (1.0 + wanted.abs()),
-                    "{name}: {wanted} {found}"
-                );
+            for (wanted, found) in wanted.iter().zip(found) {
+                near(found, *wanted, 1e-10, name);
             }
         }
     }
@@ -31,11 +28,8 @@ fn parameters_of_the_file_give_its_torques() {
 #[test]
 fn rows_have_the_columns_that_are_not_zero() {
     let model = model(&truth("puma560"));
-    let lengths: Vec<usize> = (0..6).map(|joint| model.row(joint).len()).collect();
-    assert!(
-        lengths[1] > lengths[3] && lengths[3] > lengths[5],
-        "{lengths:?}"
-    );
+    let lengths = [1, 3, 5].map(|joint| model.row(joint).len());
+    assert!(lengths.is_sorted_by(|a, b| a > b), "{lengths:?}");
     for state in states(&model, 5, 6) {
         let width = model.columns().len();
         for (joint, row) in state.y.chunks(width).enumerate() {
@@ -51,17 +45,12 @@ fn rows_have_the_columns_that_are_not_zero() {
 /// The weight of a slide that hangs is a constant torque: its sensor's offset is not told.
 #[test]
 fn offsets_that_weights_give_as_well_have_no_column() {
-    let path = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../model/tests/data/scara.toml"
-    );
-    let text = std::fs::read_to_string(path).unwrap();
-    let robot = dalembert_model::read::parse(&text).unwrap().robot;
-    let slide = (robot.joints.iter())
-        .position(|joint| joint.kind == dalembert_model::robot::JointKind::Prismatic)
-        .unwrap();
+    let text = include_str!("../../model/tests/data/scara.toml");
+    let robot = dalembert_model::read::parse(text).unwrap().robot;
+    let mut joints = robot.joints.iter();
+    let slide = joints.position(|joint| joint.kind == JointKind::Prismatic);
     let model = model(&robot);
-    assert!(!model.columns().contains(&Column::Offset(slide)));
+    assert!(!model.columns().contains(&Column::Offset(slide.unwrap())));
     assert!(model.columns().contains(&Column::Offset(0)));
 }
 
@@ -71,15 +60,14 @@ fn wrong_input_is_told() {
     let six = [0.0; 6];
     let short = model.regressor(&six, &six[1..], &six).unwrap_err();
     assert_eq!(short.to_string(), "`qd` has 5 values instead of 6");
-    let not_finite = model.regressor(&six, &six, &[0.0, f64::NAN, 0.0, 0.0, 0.0, 0.0]);
-    assert!(matches!(
-        not_finite,
-        Err(Error::Value {
-            argument: "qdd",
-            index: 1,
-            ..
-        })
-    ));
+    let found = model.regressor(&six, &six, &[0.0, f64::NAN, 0.0, 0.0, 0.0, 0.0]);
+    let Err(Error::Value {
+        argument, index, ..
+    }) = found
+    else {
+        panic!("{found:?}")
+    };
+    assert_eq!((argument, index), ("qdd", 1));
     let mut still = file("puma560");
     still.joints[2].limits.velocity = Some(crate::support::number(0.0));
     let why = Model::new(&still).unwrap_err();

@@ -1,9 +1,8 @@
 //! Standard errors mean what they say.
 
 use dalembert_fit::fit;
-use dalembert_fit::random::Random;
 
-use crate::support::{ARMS, accumulated, arm, states};
+use crate::support::{ARMS, accumulated, arm, near, states};
 
 /// Returns the part of the parameters within three standard errors, and their root mean square.
 fn coverage(name: &str, seeds: u64, count: usize) -> [f64; 2] {
@@ -11,8 +10,7 @@ fn coverage(name: &str, seeds: u64, count: usize) -> [f64; 2] {
     let states = states(&model, count, 7);
     let [mut inside, mut all, mut squares] = [0.0; 3];
     for seed in 0..seeds {
-        let mut random = Random::new(1000 + seed);
-        let data = accumulated(&model, &states, &right, Some(&mut random));
+        let data = accumulated(&model, &states, &right, Some(1000 + seed));
         let found = fit(&model, &data).unwrap();
         assert!(found.unexcited.is_empty());
         for (k, error) in found.standard_errors.iter().enumerate() {
@@ -49,8 +47,7 @@ fn three_standard_errors_cover_the_parameters_of_100_logs() {
 fn noise_is_each_joint_s_own() {
     let (model, right) = arm("puma560");
     let states = states(&model, 2000, 8);
-    let mut random = Random::new(9);
-    let data = accumulated(&model, &states, &right, Some(&mut random));
+    let data = accumulated(&model, &states, &right, Some(9));
     let found = fit(&model, &data).unwrap();
     for (i, noise) in found.noise.iter().enumerate() {
         let wanted = crate::support::noise(i);
@@ -67,12 +64,7 @@ fn exact_torques_give_the_exact_parameters() {
         let data = accumulated(&model, &states, &right, None);
         let found = fit(&model, &data).unwrap();
         for (k, right) in right.iter().enumerate() {
-            let error = (found.parameters[k] - right).abs();
-            assert!(
-                error < 1e-9 * (1.0 + right.abs()),
-                "{}: {error:e}",
-                model.name(k)
-            );
+            near(found.parameters[k], *right, 1e-9, &model.name(k));
         }
     }
 }

@@ -1,15 +1,12 @@
 //! What data do not tell is named, with a motion that tells it.
 
+use dalembert_fit::random::{Random, normal};
 use dalembert_fit::unexcited::Motion;
-use dalembert_fit::{Accumulator, fit};
+use dalembert_fit::{Accumulator, Model, fit};
 
 use crate::support::{ARMS, State, arm, states, torques};
 
-fn only(
-    model: &dalembert_fit::Model,
-    moves: impl Fn(usize) -> bool,
-    accelerates: bool,
-) -> Vec<State> {
+fn only(model: &Model, moves: impl Fn(usize) -> bool, accelerates: bool) -> Vec<State> {
     let mut some = states(model, 500, 21);
     for state in &mut some {
         for i in 0..state.q.len() {
@@ -25,13 +22,11 @@ fn only(
     some
 }
 
-fn add(data: &mut Accumulator, model: &dalembert_fit::Model, some: &[State], right: &[f64]) {
-    let mut random = dalembert_fit::random::Random::new(5);
+fn add(data: &mut Accumulator, model: &Model, some: &[State], right: &[f64]) {
+    let mut random = Random::new(5);
     for state in some {
         let mut tau = torques(&state.y, right);
-        for tau in &mut tau {
-            *tau += 0.1 * dalembert_fit::random::normal(&mut random);
-        }
+        tau.iter_mut().for_each(|x| *x += 0.1 * normal(&mut random));
         data.add_rows(model, &state.y, &tau).unwrap();
     }
 }
@@ -44,31 +39,17 @@ fn poses_tell_weights_alone() {
         add(&mut data, &model, &only(&model, |_| false, false), &right);
         let still = fit(&model, &data).unwrap();
         assert!(still.condition > 1e12);
-        let friction: Vec<usize> = (0..model.columns().len())
-            .filter(|k| model.name(*k).starts_with("coulomb"))
-            .collect();
-        for k in &friction {
-            assert_eq!(
-                still.standard_errors[*k],
-                f64::INFINITY,
-                "{}",
-                model.name(*k)
-            );
-            assert!((still.parameters[*k] - model.parameters()[*k]).abs() < 1e-9);
+        let columns = 0..model.columns().len();
+        for k in columns.filter(|k| model.name(*k).starts_with("coulomb")) {
+            let error = still.standard_errors[k];
+            assert_eq!(error, f64::INFINITY, "{}", model.name(k));
+            assert!((still.parameters[k] - model.parameters()[k]).abs() < 1e-9);
         }
-        assert!(
-            still
-                .unexcited
-                .iter()
-                .any(|one| matches!(one.motion, Motion::Move(_)))
-        );
-        assert!(
-            still
-                .unexcited
-                .iter()
-                .any(|one| matches!(one.motion, Motion::Accelerate(_)))
-        );
-        assert!(still.unexcited.iter().all(|one| one.motion != Motion::None));
+        let motions: Vec<Motion> = still.unexcited.iter().map(|one| one.motion).collect();
+        assert!(motions.iter().any(|one| matches!(one, Motion::Move(_))));
+        let accelerates = |one: &Motion| matches!(one, Motion::Accelerate(_));
+        assert!(motions.iter().any(accelerates));
+        assert!(!motions.contains(&Motion::None));
         // The residual of what is told is the noise, all the same.
         for after in &still.after {
             assert!(*after < 0.12, "{after}");
@@ -90,9 +71,6 @@ fn a_joint_that_never_moved_is_named() {
         let said = one.to_string();
         assert!(said.contains("joint 5"), "{said}");
     }
-    let names: Vec<&str> = found.unexcited.iter().map(|one| &*one.name).collect();
-    assert!(
-        names.iter().any(|name| name.contains("viscous5")),
-        "{names:?}"
-    );
+    let mut names = found.unexcited.iter().map(|one| &one.name);
+    assert!(names.any(|name| name.contains("viscous5")));
 }

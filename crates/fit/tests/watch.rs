@@ -1,10 +1,12 @@
 //! A simulated arm under computed torque: collisions are found.
 
 use dalembert_fit::simulate::{Collision, Controlled, Log, Recording, control};
-use dalembert_fit::{Differentiator, Effort, Model, Trajectory, Watch, differentiate, excite};
+use dalembert_fit::{Differentiator, Model, Trajectory, Watch, excite};
 use dalembert_model::robot::Robot;
 
-use crate::support::{guess, model, noise, torques, true_parameters, truth};
+use crate::support::{
+    differentiated, guess, model, noise, short_effort, torques, true_parameters, truth,
+};
 
 const PERIOD: f64 = 1e-3;
 
@@ -20,13 +22,7 @@ impl Scene {
     fn new() -> Scene {
         let truth = truth("puma560");
         let model = model(&guess(&truth));
-        let effort = Effort {
-            starts: 8,
-            descents: 1,
-            steps: 10,
-            ..Effort::default()
-        };
-        let (trajectory, _) = excite(&model, &[1.0; 6], 8.0, &effort).unwrap();
+        let (trajectory, _) = excite(&model, &[1.0; 6], 8.0, &short_effort()).unwrap();
         Scene {
             truth,
             model,
@@ -57,15 +53,8 @@ fn watched(scene: &Scene, log: &Log, bar: f64) -> Vec<(f64, Option<usize>, f64)>
     let right = true_parameters(&scene.truth);
     let sigma: Vec<f64> = (0..6).map(noise).collect();
     let mut watch = Watch::new(&sigma, 1.0, bar).unwrap();
-    let joints: Vec<[Vec<f64>; 3]> = (0..6)
-        .map(|i| {
-            let q: Vec<f64> = log.q.iter().map(|q| q[i]).collect();
-            differentiate(&scene.filter, &q).unwrap()
-        })
-        .collect();
-    let said = (0..joints[0][0].len()).map(|k| {
-        let [q, qd, qdd] =
-            [0, 1, 2].map(|of| joints.iter().map(|joint| joint[of][k]).collect::<Vec<_>>());
+    let states = differentiated(&scene.filter, log).into_iter().enumerate();
+    let said = states.map(|(k, [q, qd, qdd])| {
         let y = scene.model.regressor(&q, &qd, &qdd).unwrap();
         let at = k + scene.filter.half();
         let both = log.tau[at].iter().zip(torques(&y, &right));
@@ -80,20 +69,18 @@ fn watched(scene: &Scene, log: &Log, bar: f64) -> Vec<(f64, Option<usize>, f64)>
 fn false_alarms(logs: u64, seconds: f64) -> usize {
     let scene = Scene::new();
     let quiet = scene.record(&[], 16.0, 999);
-    let level = watched(&scene, &quiet, 1e9)
-        .iter()
-        .fold(0.0f64, |max, said| max.max(said.2));
-    let push = |start: f64, joint: usize, peak: f64| {
-        let mut torque = vec![0.0; 6];
-        torque[joint] = peak;
-        Collision {
-            start,
-            duration: 0.1,
-            torque,
-        }
+    let levels = watched(&scene, &quiet, 1e9).into_iter().map(|said| said.2);
+    let level = levels.fold(0.0, f64::max);
+    let push = |part: f64, torque: [f64; 6]| Collision {
+        start: part * seconds,
+        duration: 0.1,
+        torque: torque.to_vec(),
     };
     // Of the second joint a tenth of its weight, of the fifth ten times its noise.
-    let collisions = [push(0.41 * seconds, 1, 6.0), push(0.77 * seconds, 4, -1.0)];
+    let collisions = [
+        push(0.41, [0.0, 6.0, 0.0, 0.0, 0.0, 0.0]),
+        push(0.77, [0.0, 0.0, 0.0, 0.0, -1.0, 0.0]),
+    ];
     println!("level {level:.1}");
     let near = |one: &Collision, time: f64| time > one.start - 0.2 && time < one.start + 0.4;
     let far = |time: &&f64| !collisions.iter().any(|one| near(one, **time));
@@ -103,10 +90,8 @@ fn false_alarms(logs: u64, seconds: f64) -> usize {
         let alarms = said.iter().filter(|said| said.1.is_some());
         let alarms: Vec<f64> = alarms.map(|said| said.0).collect();
         for one in &collisions {
-            assert!(
-                alarms.iter().any(|time| near(one, *time)),
-                "missed {one:?}: {alarms:?}"
-            );
+            let is_found = alarms.iter().any(|time| near(one, *time));
+            assert!(is_found, "missed {one:?}: {alarms:?}");
         }
         alarms.iter().filter(far).count()
     };
@@ -148,42 +133,29 @@ fn scenes_and_watches_that_cannot_be_are_refused() {
         resolution: 0.0,
         seed: 1,
     };
-    let said = |controlled: &Controlled, recording: &Recording| {
-        let log = control(controlled, &scene.trajectory, recording);
-        log.map(|log| log.q.len()).map_err(|why| why.to_string())
+    let log = control(&good, &scene.trajectory, &recording).unwrap();
+    assert_eq!(log.q.len(), 10);
+    let refused = |states: usize, change: &dyn Fn(&mut Controlled)| {
+        let (mut changed, mut recording) = (good.clone(), recording.clone());
+        change(&mut changed);
+        recording.states = states;
+        let log = control(&changed, &scene.trajectory, &recording);
+        log.unwrap_err().to_string()
     };
-    assert_eq!(said(&good, &recording), Ok(10));
-    let nobody = Controlled {
-        arms: Vec::new(),
-        ..good.clone()
-    };
-    assert!(said(&nobody, &recording).unwrap_err().contains("beginning"));
-    let other = Controlled {
-        arms: vec![(0.0, crate::support::file("panda"))],
-        ..good.clone()
-    };
-    let why = said(&other, &recording).unwrap_err();
+    let why = refused(10, &|of| of.arms.clear());
+    assert!(why.contains("beginning"), "{why}");
+    let why = refused(10, &|of| of.arms[0].1 = crate::support::file("panda"));
     assert_eq!(why, "`arms` has 7 values instead of 6");
     let short = Collision {
         start: 0.0,
         duration: 0.1,
         torque: vec![1.0],
     };
-    let short = Controlled {
-        collisions: vec![short],
-        ..good.clone()
-    };
-    assert!(said(&short, &recording).unwrap_err().contains("collisions"));
+    let why = refused(10, &|of| of.collisions.push(short.clone()));
+    assert!(why.contains("collisions"), "{why}");
     // So fast that the period is too long for it: the arm runs away, and nothing is recorded.
-    let fast = Controlled {
-        bandwidth: 1e5,
-        ..good.clone()
-    };
-    let long = Recording {
-        states: 1000,
-        ..recording
-    };
-    assert!(said(&fast, &long).unwrap_err().contains("qdd"));
+    let why = refused(1000, &|of| of.bandwidth = 1e5);
+    assert!(why.contains("qdd"), "{why}");
     assert!(Watch::new(&[0.0], 1.0, 10.0).is_err());
     assert!(Watch::new(&[1.0], f64::NAN, 10.0).is_err());
     let mut watch = Watch::new(&[1.0, 2.0], 1.0, 10.0).unwrap();

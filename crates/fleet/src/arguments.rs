@@ -42,36 +42,30 @@ pub(crate) fn lists(
 impl Shape {
     pub(crate) fn coerce(&self, function: &str, types: &[DataType]) -> Result<Vec<DataType>> {
         let n = self.joints;
-        let expected = || {
-            let quantities = &NAMES[..self.quantities];
-            let time = if self.time { "a time, and " } else { "" };
-            format!(
-                "`{function}` takes {time}for each of {}: {n} columns of Float64, or one \
-                 FixedSizeList<Float32 or Float64, {n}>",
-                quantities.join(", ")
-            )
-        };
+        let time = if self.time { "a time, and " } else { "" };
+        let expected = format!(
+            "`{function}` takes {time}for each of {}: {n} columns of Float64, or one \
+             FixedSizeList<Float32 or Float64, {n}>",
+            NAMES[..self.quantities].join(", ")
+        );
         let mut rest = types;
         let mut coerced = Vec::with_capacity(types.len());
         if self.time {
             match rest.split_first() {
                 Some((first, others)) if is_number(first) => rest = others,
                 Some((first, _)) => {
-                    return plan_err!("the time is {first}, a number was expected; {}", expected());
+                    return plan_err!("the time is {first}, a number was expected; {expected}");
                 }
-                None => return plan_err!("there are no arguments; {}", expected()),
+                None => return plan_err!("there are no arguments; {expected}"),
             }
             coerced.push(DataType::Float64);
         }
         for name in &NAMES[..self.quantities] {
             match rest.first() {
                 Some(DataType::FixedSizeList(item, width)) => {
-                    if *width as usize != n || !is_number(item.data_type()) {
-                        let item = item.data_type();
-                        return plan_err!(
-                            "`{name}` is FixedSizeList<{item}, {width}>; {}",
-                            expected()
-                        );
+                    let item = item.data_type();
+                    if *width as usize != n || !is_number(item) {
+                        return plan_err!("`{name}` is FixedSizeList<{item}, {width}>; {expected}");
                     }
                     coerced.push(list(n));
                     rest = &rest[1..];
@@ -79,32 +73,25 @@ impl Shape {
                 Some(_) => {
                     let many = rest.iter().take_while(|of| is_number(of)).count();
                     if many < n {
-                        let found = rest.get(many);
-                        let found = found.map_or("nothing".into(), ToString::to_string);
-                        return plan_err!(
-                            "`{name}{}` is {found}, a number was expected; {}",
-                            many + 1,
-                            expected()
-                        );
+                        let found = rest.get(many).map_or("nothing".into(), ToString::to_string);
+                        let name = format!("{name}{}", many + 1);
+                        return plan_err!("`{name}` is {found}, a number was expected; {expected}");
                     }
                     coerced.extend(std::iter::repeat_n(DataType::Float64, n));
                     rest = &rest[n..];
                 }
-                None => return plan_err!("`{name}` is missing; {}", expected()),
+                None => return plan_err!("`{name}` is missing; {expected}"),
             }
         }
         match rest.len() {
             0 => Ok(coerced),
-            surplus => plan_err!("there are {surplus} arguments too many; {}", expected()),
+            surplus => plan_err!("there are {surplus} arguments too many; {expected}"),
         }
     }
 
     pub(crate) fn read(&self, arrays: &[ArrayRef]) -> Arguments {
         let mut rest = arrays.iter();
-        let time = match self.time {
-            true => rest.next().cloned(),
-            false => None,
-        };
+        let time = self.time.then(|| rest.next().cloned()).flatten();
         let mut nulls = time.as_ref().and_then(|time| time.nulls().cloned());
         let mut sources = Vec::with_capacity(self.quantities);
         for _ in 0..self.quantities {
@@ -139,10 +126,7 @@ fn is_number(of: &DataType) -> bool {
 fn nulls_within(array: &ArrayRef) -> Option<NullBuffer> {
     let lists = array.as_fixed_size_list();
     let width = lists.value_length() as usize;
-    let nulls = lists
-        .values()
-        .nulls()
-        .filter(|nulls| nulls.null_count() > 0)?;
+    let nulls = lists.values().nulls().filter(|of| of.null_count() > 0)?;
     // Of a slice of an array, values are those of the slice.
     let valid = (0..lists.len()).map(|row| (0..width).all(|k| nulls.is_valid(row * width + k)));
     Some(NullBuffer::from_iter(valid))

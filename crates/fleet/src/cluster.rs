@@ -28,9 +28,6 @@ const LOST: u64 = 6;
 const REACH: u64 = 10;
 
 /// Checks that somebody answers at an address.
-///
-/// # Errors
-/// That nobody does.
 pub async fn reach(address: &str) -> Result<(), Error> {
     let connected = timeout(Duration::from_secs(REACH), TcpStream::connect(address)).await;
     let why = match connected {
@@ -48,9 +45,6 @@ fn session() -> SessionConfig {
 }
 
 /// Runs a scheduler until it is ended.
-///
-/// # Errors
-/// An address that is taken, and those of Ballista.
 pub async fn scheduler(address: SocketAddr, functions: Functions) -> Result<(), Error> {
     let builder = move |mut config: SessionConfig| {
         evaluate_once(&mut config);
@@ -82,9 +76,6 @@ pub async fn scheduler(address: SocketAddr, functions: Functions) -> Result<(), 
 
 /// Runs an executor until it is ended: `config` says where it is, with the port of its results
 /// (that of its tasks is the next), and what it may use.
-///
-/// # Errors
-/// A scheduler that does not answer, an address that is taken, and those of Ballista.
 pub async fn executor(config: ExecutorProcessConfig, functions: Functions) -> Result<(), Error> {
     let scheduler = format!("{}:{}", config.scheduler_host, config.scheduler_port);
     reach(&scheduler).await?;

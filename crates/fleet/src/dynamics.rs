@@ -39,9 +39,6 @@ pub trait Dynamics: fmt::Debug + Send + Sync + 'static {
     fn inverse_dynamics(&self, states: States<'_>, tau: &mut [f64]) -> Result<(), Error>;
 
     /// Computes residuals of so many states, in columns: measured torques less the robot's.
-    ///
-    /// # Errors
-    /// As [`Dynamics::inverse_dynamics`].
     fn residuals(
         &self,
         count: usize,
@@ -108,20 +105,13 @@ impl fmt::Debug for Loaded {
 
 impl Loaded {
     /// Loads a robot file or a URDF; with `fit`, the regressor too.
-    ///
-    /// # Errors
-    /// What is wrong with the file, or why nothing was generated for it.
     pub fn open(path: &Path, urdf: &dalembert_import::Options, fit: bool) -> Result<Loaded, Error> {
-        let load = load(urdf, Output::InverseDynamics);
-        let arm = Arm::load(path, &load).map_err(Error::new)?;
-        let model = fit.then(|| Model::new(arm.robot())).transpose()?;
-        Loaded::with(arm, model)
+        let arm = Arm::load(path, &load(urdf, Output::InverseDynamics)).map_err(Error::new)?;
+        let model = fit.then(|| Model::new(arm.robot()));
+        Loaded::with(arm, model.transpose()?)
     }
 
     /// Loads a robot as [`Loaded::open`] does, without rotors: for torques behind the gears.
-    ///
-    /// # Errors
-    /// As [`Loaded::open`].
     pub fn without_rotors(
         path: &Path,
         urdf: &dalembert_import::Options,
@@ -134,16 +124,11 @@ impl Loaded {
             let name = path.display().to_string();
             arm = Arm::parse(&write(&robot), &name, None, &load).map_err(Error::new)?;
         }
-        let model = fit
-            .then(|| Model::without_rotors(arm.robot()))
-            .transpose()?;
-        Loaded::with(arm, model)
+        let model = fit.then(|| Model::without_rotors(arm.robot()));
+        Loaded::with(arm, model.transpose()?)
     }
 
     /// Loads a robot, for its torques.
-    ///
-    /// # Errors
-    /// Why nothing was generated for it.
     pub fn of(robot: &Robot) -> Result<Loaded, Error> {
         let load = load(&Default::default(), Output::InverseDynamics);
         let arm = Arm::parse(&write(robot), &robot.name, None, &load).map_err(Error::new)?;
@@ -197,8 +182,8 @@ fn load(urdf: &dalembert_import::Options, output: Output) -> Load {
 fn code(arm: &Arm) -> Result<&Native, Error> {
     let mut functions = arm.functions().iter();
     let found = functions.find(|f| f.scalar() == Scalar::F64);
-    let found = found.ok_or_else(|| Error::new("the generator returned no function"))?;
-    Ok(found.native())
+    let found = found.map(|f| f.native());
+    found.ok_or_else(|| Error::new("the generator returned no function"))
 }
 
 fn fitted(model: Model) -> Result<(Model, Arm), Error> {
@@ -267,9 +252,6 @@ where
 {
     /// Returns the robot whose torques at q, q̇ and q̈ the function computes, in N·m and N; with a
     /// model of the same robot file, parameters can be identified.
-    ///
-    /// # Errors
-    /// A model of another number of joints.
     pub fn new(torques: F, model: Option<Model>) -> Result<Generated<F, N>, Error> {
         match &model {
             Some(model) if model.joints() != N => Err(Error::new(format!(

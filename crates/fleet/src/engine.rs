@@ -52,18 +52,14 @@ fn config(partitions: usize) -> SessionConfig {
 
 impl Engine {
     /// Returns the engine of this machine, with a robot's functions.
-    ///
-    /// # Errors
-    /// Those of the engine.
     pub fn embedded(
         name: &str,
         robot: &Arc<dyn Dynamics>,
         limits: Limits,
     ) -> Result<Engine, Error> {
         let pool = Arc::new(GreedyMemoryPool::new(limits.memory as usize));
-        let runtime = RuntimeEnvBuilder::new()
-            .with_memory_pool(pool)
-            .build_arc()?;
+        let runtime = RuntimeEnvBuilder::new().with_memory_pool(pool);
+        let runtime = runtime.build_arc()?;
         let context = SessionContext::new_with_config_rt(config(limits.partitions), runtime);
         Ok(Engine {
             functions: register(&context, name, robot),
@@ -74,9 +70,6 @@ impl Engine {
     }
 
     /// Returns the engine of a cluster, whose scheduler is at `HOST:PORT`.
-    ///
-    /// # Errors
-    /// An address that is none, or that nobody answers at.
     #[cfg(feature = "cluster")]
     pub async fn cluster(
         scheduler: &str,
@@ -215,9 +208,8 @@ pub fn locate(log: &Log) -> Option<Error> {
 
 fn location(path: &Path) -> Result<String, Error> {
     let path = std::path::absolute(path)?;
-    let url = Url::from_file_path(&path);
-    let url = url.map_err(|()| Error::new("no address").at(path.display()))?;
-    Ok(url.to_string())
+    let lost = |()| Error::new("no address").at(path.display());
+    Ok(Url::from_file_path(&path).map_err(lost)?.to_string())
 }
 
 fn scaled(of: Expr, factor: f64) -> Expr {

@@ -20,23 +20,26 @@ macro_rules! described {
 }
 
 mod aggregate;
-mod fit;
 mod residuals;
 mod rms;
-mod scalar;
 
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
+use datafusion::arrow::datatypes::DataType;
+use datafusion::error::Result;
 use datafusion::execution::context::SessionContext;
-use datafusion::logical_expr::{AggregateUDF, ScalarUDF, Signature, Volatility};
+use datafusion::logical_expr::{
+    AggregateUDF, ColumnarValue, ScalarFunctionArgs, ScalarUDF, ScalarUDFImpl, Signature,
+    Volatility,
+};
 use datafusion::prelude::SessionConfig;
+use datafusion::scalar::ScalarValue;
 
-use crate::arguments::Shape;
-use crate::dynamics::Dynamics;
-use aggregate::Aggregate;
+use crate::arguments::{Shape, list, lists};
+use crate::dynamics::{Dynamics, States};
+use aggregate::{Aggregate, Kind};
 pub use residuals::{Joint, Residuals};
-use scalar::Scalar;
 
 /// The functions of a robot, by names that begin with the robot's.
 #[derive(Clone, Debug)]
@@ -86,6 +89,53 @@ impl Hash for Function {
     }
 }
 
+/// Torques, or measured torques less these.
+#[derive(Debug, PartialEq, Eq, Hash)]
+struct Scalar {
+    function: Function,
+}
+
+impl ScalarUDFImpl for Scalar {
+    described!();
+
+    fn return_type(&self, _: &[DataType]) -> Result<DataType> {
+        Ok(list(self.function.shape.joints))
+    }
+
+    fn invoke_with_args(&self, given: ScalarFunctionArgs) -> Result<ColumnarValue> {
+        let mut kinds = given.args.iter();
+        let is_constant = kinds.all(|of| matches!(of, ColumnarValue::Scalar(_)));
+        let Function { robot, shape, .. } = &self.function;
+        let arguments = shape.read(&ColumnarValue::values_to_arrays(&given.args)?);
+        let n = shape.joints;
+        let mut values = vec![0.0; n * arguments.rows];
+        let mut results = Vec::new();
+        arguments.each(|first, piece| {
+            let count = piece.count;
+            match shape.quantities {
+                3 => {
+                    let [q, qd, qdd, _] = &piece.quantities;
+                    results.resize(n * count, 0.0);
+                    robot.inverse_dynamics(States { count, q, qd, qdd }, &mut results)?;
+                }
+                _ => robot.residuals(count, &piece.quantities, &mut results)?,
+            }
+            let rows = values[first * n..].chunks_exact_mut(n).take(count);
+            for (s, row) in rows.enumerate() {
+                for (i, value) in row.iter_mut().enumerate() {
+                    *value = results[i * count + s];
+                }
+            }
+            Ok(())
+        })?;
+        let lists = lists(n, values, arguments.nulls)?;
+        Ok(match is_constant {
+            true => ColumnarValue::Scalar(ScalarValue::try_from_array(&lists, 0)?),
+            false => ColumnarValue::Array(Arc::new(lists)),
+        })
+    }
+}
+
 impl Functions {
     /// Returns the functions of a robot.
     pub fn of(name: &str, robot: &Arc<dyn Dynamics>) -> Functions {
@@ -94,12 +144,9 @@ impl Functions {
             Arc::new(ScalarUDF::from(Scalar { function }))
         };
         let aggregate = |kind| Arc::new(AggregateUDF::from(Aggregate::new(name, robot, kind)));
-        let mut aggregates = vec![
-            aggregate(aggregate::Kind::Rms),
-            aggregate(aggregate::Kind::Residuals),
-        ];
+        let mut aggregates = vec![aggregate(Kind::Rms), aggregate(Kind::Residuals)];
         if robot.model().is_some() {
-            aggregates.push(aggregate(aggregate::Kind::Fit));
+            aggregates.push(aggregate(Kind::Fit));
         }
         Functions {
             scalars: vec![scalar("inverse_dynamics", 3), scalar("residual", 4)],

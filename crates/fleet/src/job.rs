@@ -1,6 +1,6 @@
 //! What the commands over logs have in common: a robot, logs that were looked at, an engine.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
@@ -10,7 +10,7 @@ use futures::stream::{self, StreamExt};
 use crate::dynamics::{Dynamics, Loaded};
 use crate::engine::{Engine, Limits};
 use crate::error::Error;
-use crate::logs::{Columns, Log, Mapping, convert, expand, inspect};
+use crate::logs::{Log, Mapping, convert, expand, inspect};
 use crate::output::Scratch;
 use crate::progress::{Going, Progress};
 
@@ -60,16 +60,11 @@ pub struct LogArgs {
 }
 
 /// Reads a size, as 512M or 4G.
-///
-/// # Errors
-/// A text that is none.
 pub fn bytes(text: &str) -> Result<u64, String> {
     let bad = || format!("`{text}` is no size: 512M or 4G was expected");
     let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
-    let unit = match text[digits.len()..]
-        .to_ascii_uppercase()
-        .trim_end_matches("IB")
-    {
+    let unit = text[digits.len()..].to_ascii_uppercase();
+    let unit = match unit.trim_end_matches("IB") {
         "" => 1,
         "K" => 1 << 10,
         "M" => 1 << 20,
@@ -89,9 +84,6 @@ pub fn threads(asked: Option<usize>) -> usize {
 
 impl RobotArgs {
     /// Loads the robot; with `fit` the regressor too.
-    ///
-    /// # Errors
-    /// What is wrong with the file.
     pub async fn load(&self, fit: bool, going: &Going) -> Result<Arc<Loaded>, Error> {
         let own = self.clone();
         let urdf = own.chain.choose(Default::default());
@@ -153,16 +145,17 @@ impl Job {
         let each = stream::iter(files.into_iter().enumerate()).map(|(place, path)| {
             let (columns, to) = (columns.clone(), scratch.file(&format!("{place}.parquet")));
             going.blocking(move |going| {
-                let log = usable(&path, &columns, &to, going);
+                let log = inspect(&path, &columns, going).and_then(|log| match log.converts() {
+                    true => convert(&log, &to, going),
+                    false => Ok(log),
+                });
                 Ok(log.map_err(|why| why.at(path.display())))
             })
         });
         let found: Vec<Result<_, Error>> = each.buffered(threads).collect().await;
         let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
-        let limits = Limits {
-            memory: args.memory,
-            partitions: threads,
-        };
+        let (memory, partitions) = (args.memory, threads);
+        let limits = Limits { memory, partitions };
         let name = args.robot.function_name(&robot);
         let dynamics: Arc<dyn Dynamics> = robot.clone();
         #[cfg(feature = "cluster")]
@@ -200,21 +193,13 @@ impl Job {
     }
 
     /// Returns what was found of good files; names the bad ones.
-    ///
-    /// # Errors
-    /// That there are bad ones, unless they are skipped.
     pub fn good<T>(&self, found: Vec<Result<T, Error>>) -> Result<Vec<T>, Error> {
-        let (all, mut good, mut bad) = (found.len(), Vec::new(), 0);
-        for one in found {
-            match one {
-                Ok(one) => good.push(one),
-                Err(one) => {
-                    bad += 1;
-                    let skipped = if self.skip_bad { "left out: " } else { "" };
-                    eprintln!("{skipped}{one}");
-                }
-            }
-        }
+        let all = found.len();
+        let skipped = if self.skip_bad { "left out: " } else { "" };
+        let tell = |bad: &Error| eprintln!("{skipped}{bad}");
+        let good = found.into_iter().flat_map(|one| one.inspect_err(tell));
+        let good: Vec<T> = good.collect();
+        let bad = all - good.len();
         match bad {
             0 => Ok(good),
             _ if !self.skip_bad => Err(Error::new(format!(
@@ -227,9 +212,6 @@ impl Job {
     }
 
     /// Computes an aggregate of each log; logs that turn out bad are dropped, or an error.
-    ///
-    /// # Errors
-    /// Those of the engine and of [`Job::good`].
     pub async fn aggregates(&mut self, suffix: &str) -> Result<Vec<Vec<u8>>, Error> {
         let progress = self.progress.clone();
         let is_cluster = self.engine.is_cluster();
@@ -245,9 +227,6 @@ impl Job {
     }
 
     /// Keeps the logs that something was found of; returns what it is.
-    ///
-    /// # Errors
-    /// Those of [`Job::good`].
     pub fn keep<T>(&mut self, found: Vec<Result<T, Error>>) -> Result<Vec<T>, Error> {
         let is_good: Vec<bool> = found.iter().map(Result::is_ok).collect();
         let found = self.good(found)?;
@@ -257,9 +236,6 @@ impl Job {
     }
 
     /// Calls with each log and its place on this machine's threads; returns the results in order.
-    ///
-    /// # Errors
-    /// Those of the work, and that the command was ended.
     pub async fn each<T: Send + 'static>(
         &self,
         work: impl Fn(usize, &Log, &Going) -> Result<T, Error> + Clone + Send + 'static,
@@ -271,13 +247,5 @@ impl Job {
         });
         let found: Vec<Result<T, Error>> = each.buffered(self.threads).collect().await;
         found.into_iter().collect()
-    }
-}
-
-fn usable(path: &Path, columns: &Columns, to: &Path, going: &Going) -> Result<Log, Error> {
-    let log = inspect(path, columns, going)?;
-    match log.converts() {
-        true => convert(&log, to, going),
-        false => Ok(log),
     }
 }

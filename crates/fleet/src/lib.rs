@@ -21,15 +21,14 @@
 //! - [`dynamics`]: what the functions ask of a robot: any at run time, or a generated type
 //! - `arguments`: n columns or one list; [`functions`]: scalars and aggregates
 //! - [`logs`]: columns and units, states in order, files that are bad, conversion
-//! - [`output`]: whole or not at all; [`progress`]: how far, and whether to go on
+//! - `output`: whole or not at all; [`progress`]: how far, and whether to go on
 //! - [`engine`]: an aggregate over each of many logs, here or on a cluster
-//! - [`job`]: what the commands share; [`walk`]: residuals in order; [`picture`]: their SVG
-//! - [`commands`]: the commands
+//! - [`job`]: what the commands share; `picture`: residuals as SVG; [`commands`]: the commands
 #![forbid(unsafe_code)]
 
 mod arguments;
 #[cfg(feature = "cluster")]
-pub mod cluster;
+mod cluster;
 pub mod commands;
 pub mod dynamics;
 pub mod engine;
@@ -37,10 +36,9 @@ mod error;
 pub mod functions;
 pub mod job;
 pub mod logs;
-pub mod output;
-pub mod picture;
+mod output;
+mod picture;
 pub mod progress;
-pub mod walk;
 
 pub use dynamics::{Dynamics, Generated, Loaded, States};
 pub use error::Error;

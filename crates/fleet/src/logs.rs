@@ -6,6 +6,7 @@
 //! - `rates`: velocities and accelerations that a log does not have
 //! - `check`: files that cannot be used, each with row and reason
 //! - `write`: Parquet files of our own; `convert`: logs that no query can read as they are
+//! - [`walk`]: residuals in the order of a log's rows, which a query does not keep
 
 pub(crate) mod block;
 mod check;
@@ -25,12 +26,11 @@ pub use mapping::{Columns, Layout, Mapping, Source, TimeUnit, Units};
 pub use mcap::Messages;
 pub use write::{Table, canonical_names};
 
+use crate::dynamics::Dynamics;
 use crate::error::Error;
+use crate::progress::Going;
 
 /// Returns the files of patterns, in order and each once.
-///
-/// # Errors
-/// A pattern that is none, or that no file has.
 pub fn expand(patterns: &[String]) -> Result<Vec<PathBuf>, Error> {
     let mut all = Vec::new();
     for pattern in patterns {
@@ -64,9 +64,6 @@ pub fn is_mcap(path: &Path) -> bool {
 }
 
 /// Opens a log of either kind.
-///
-/// # Errors
-/// A file that is neither, or has not the columns.
 pub fn states<'a>(
     path: &Path,
     columns: &'a Columns,
@@ -75,4 +72,24 @@ pub fn states<'a>(
         true => Box::new(Messages::open(path, columns)?),
         false => Box::new(Blocks::open(path, columns)?),
     })
+}
+
+/// Calls with blocks of states and their residuals, column by column.
+pub fn walk(
+    robot: &dyn Dynamics,
+    log: &Log,
+    going: &Going,
+    mut call: impl FnMut(&Block, &[f64]) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let mut residuals = Vec::new();
+    for block in states(&log.path, &log.columns)? {
+        let block = block?;
+        going.check()?;
+        // Every row of it may have a null.
+        if !block.is_empty() {
+            robot.residuals(block.len(), &block.quantities, &mut residuals)?;
+            call(&block, &residuals)?;
+        }
+    }
+    Ok(())
 }

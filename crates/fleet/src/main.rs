@@ -8,16 +8,15 @@ use std::time::Duration;
 use clap::Parser;
 use dalembert_fleet::commands::{Arguments, run};
 use dalembert_fleet::progress::{Going, INTERRUPTED};
+use tokio::runtime::Builder;
 
 /// The exit code after Ctrl-C: 128 + SIGINT.
 const ENDED: u8 = 130;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let runtime = match tokio::runtime::Builder::new_multi_thread()
-        .enable_all()
-        .build()
-    {
+    let runtime = Builder::new_multi_thread().enable_all().build();
+    let runtime = match runtime {
         Ok(runtime) => runtime,
         Err(why) => return failed(&why.to_string()),
     };

@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use dalembert_fit::robot_file::write_whole;
+
 use crate::error::Error;
 
 static NEXT: AtomicU32 = AtomicU32::new(0);
 
 /// A file or folder that has not got its name yet; without [`Unfinished::finish`] it goes again.
-#[derive(Debug)]
 pub struct Unfinished {
     part: PathBuf,
     name: PathBuf,
@@ -18,9 +19,6 @@ pub struct Unfinished {
 
 impl Unfinished {
     /// Chooses a name in the same folder, so that what is there can be renamed.
-    ///
-    /// # Errors
-    /// A name that is a folder's, or in a folder that does not exist.
     pub fn beside(name: &Path) -> Result<Unfinished, Error> {
         let file = name.file_name().filter(|_| !name.is_dir());
         let file = file.ok_or_else(|| Error::new("it is a folder").at(name.display()))?;
@@ -43,9 +41,6 @@ impl Unfinished {
     }
 
     /// Gives it its name.
-    ///
-    /// # Errors
-    /// The system's.
     pub fn finish(self) -> Result<(), Error> {
         fs::rename(&self.part, &self.name).map_err(|why| Error::new(why).at(self.name.display()))
     }
@@ -59,27 +54,17 @@ impl Drop for Unfinished {
 }
 
 /// Writes a text, whole or not at all.
-///
-/// # Errors
-/// The system's, with the name.
 pub fn write(name: &Path, text: &str) -> Result<(), Error> {
-    let part = Unfinished::beside(name)?;
-    let written = fs::write(part.path(), text);
-    written.map_err(|why| Error::new(why).at(name.display()))?;
-    part.finish()
+    write_whole(name, text).map_err(|why| Error::new(why).at(name.display()))
 }
 
 /// A folder for what is needed while a command runs; it goes with this.
-#[derive(Debug)]
 pub struct Scratch {
     folder: PathBuf,
 }
 
 impl Scratch {
     /// Creates a folder in another one.
-    ///
-    /// # Errors
-    /// The system's.
     pub fn within(parent: &Path) -> Result<Scratch, Error> {
         let number = NEXT.fetch_add(1, Ordering::Relaxed);
         let folder = parent.join(format!("dalembert-fleet.{}.{number}", process::id()));

@@ -9,7 +9,6 @@ const LEFT: f64 = 70.0;
 const TOP: f64 = 24.0;
 
 /// The residuals of a log, as many as a picture can show.
-#[derive(Clone, Debug)]
 pub struct Curves {
     name: String,
     rows: u64,
@@ -112,8 +111,6 @@ fn strip(svg: &mut String, y: f64, joint: usize, ranges: &[[f64; 2]]) {
 
 fn text(svg: &mut String, x: f64, y: f64, anchor: &str, text: &str) {
     let text = text.replace('&', "&amp;").replace('<', "&lt;");
-    let _ = writeln!(
-        svg,
-        "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}</text>"
-    );
+    let at = format!("x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\"");
+    let _ = writeln!(svg, "<text {at}>{text}</text>");
 }

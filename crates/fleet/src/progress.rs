@@ -25,9 +25,6 @@ impl Going {
     }
 
     /// Waits for work, or until it is to end.
-    ///
-    /// # Errors
-    /// Those of the work, or that it was ended.
     pub async fn unless_ended<T>(
         &self,
         work: impl Future<Output = Result<T, Error>>,
@@ -46,9 +43,6 @@ impl Going {
     }
 
     /// Does work that computes or reads, beside what waits; it looks itself whether to go on.
-    ///
-    /// # Errors
-    /// Those of the work, and that it was ended.
     pub async fn blocking<T: Send + 'static>(
         &self,
         work: impl FnOnce(&Going) -> Result<T, Error> + Send + 'static,
@@ -60,9 +54,6 @@ impl Going {
     }
 
     /// Returns an error if it was ended.
-    ///
-    /// # Errors
-    /// That it was ended.
     pub fn check(&self) -> Result<(), Error> {
         match *self.0.borrow() {
             true => Err(Error::new(INTERRUPTED)),

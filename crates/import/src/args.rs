@@ -6,6 +6,8 @@ use dalembert_model::robot::values::one_line;
 
 use crate::Options;
 use crate::lock::OTHERS;
+use crate::problems::{Problems, instead};
+use crate::urdf::Urdf;
 
 /// The options that choose the chain of a URDF or an MJCF; none of them is for a robot file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -108,6 +110,45 @@ impl fmt::Display for ChainArgs {
     }
 }
 
+/// Checks the names of links and joints that the file and the options speak of.
+pub(crate) fn check_names(urdf: &Urdf, options: &Options, problems: &mut Problems) {
+    let [links, joints] = &urdf.names;
+    let ends = urdf.joints.iter();
+    for (name, span) in ends.flat_map(|joint| [&joint.parent, &joint.child]) {
+        if !links.contains(name) {
+            let message = format!("there is no link `{name}`");
+            problems.error(span, message, &instead(name, links));
+        }
+    }
+    let base = options.base.iter().map(|name| ("--base", name));
+    let tip = options.tip.iter().map(|name| ("--tip", name));
+    let without = options.without.iter().map(|name| ("--without", name));
+    for (option, name) in base.chain(tip).chain(without) {
+        if links.contains(name) {
+            continue;
+        }
+        let message = format!("{option}: there is no link `{name}`");
+        let help = match urdf.joints.iter().find(|joint| joint.name == *name) {
+            Some(joint) => format!("`{name}` is a joint; its link is `{}`", joint.child.0),
+            None => instead(name, links),
+        };
+        problems.error(&urdf.span, message, &help);
+    }
+    for (name, _) in &options.lock {
+        if name == OTHERS || joints.contains(name) || urdf.joint(name).is_some() {
+            continue;
+        }
+        let message = format!("--lock: there is no joint `{name}`");
+        let help = match (name.parse::<usize>(), urdf.moving().len()) {
+            (Ok(_), count @ 1..) => {
+                format!("those that move are 1 to {count}, from the root outwards")
+            }
+            _ => instead(name, joints),
+        };
+        problems.error(&urdf.span, message, &help);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -126,10 +167,8 @@ mod tests {
         let shown = "--tip tool0 --lock elbow=pi/2 --lock-others -0.1 --without left --without right --ignore-ties";
         assert_eq!(args.to_string(), shown);
         assert!(ChainArgs::default().pairs().is_empty());
-        assert_eq!(
-            ChainArgs::from_pairs(&[("top".to_owned(), String::new())]),
-            None
-        );
+        let unknown = [("top".to_owned(), String::new())];
+        assert_eq!(ChainArgs::from_pairs(&unknown), None);
         let locks = args.choose(Options::default()).lock;
         assert_eq!(locks[1], ("*".to_owned(), "-0.1".to_owned()));
     }

@@ -71,21 +71,18 @@ pub fn arms(text: &Text, options: &Options) -> Result<(Vec<Imported>, Vec<Shared
 }
 
 fn shared(arms: &[(String, Imported)]) -> Vec<Shared> {
-    let joints = |arm: &Imported| -> Vec<String> {
+    let names = |arm: &Imported| -> Vec<String> {
         let joints = arm.robot.joints.iter();
         joints.filter_map(|joint| joint.name.clone()).collect()
     };
     let mut pairs = Vec::new();
     for (index, (one, arm)) in arms.iter().enumerate() {
         for (other, beside) in &arms[index + 1..] {
-            let theirs = joints(beside);
-            let both = joints(arm).into_iter().filter(|name| theirs.contains(name));
-            let both: Vec<String> = both.collect();
-            if !both.is_empty() {
-                pairs.push(Shared {
-                    arms: [one.clone(), other.clone()],
-                    joints: both,
-                });
+            let (mut joints, theirs) = (names(arm), names(beside));
+            joints.retain(|name| theirs.contains(name));
+            if !joints.is_empty() {
+                let arms = [one.clone(), other.clone()];
+                pairs.push(Shared { arms, joints });
             }
         }
     }

@@ -9,14 +9,13 @@ use num_traits::Zero;
 
 use crate::lock;
 use crate::tree::{Moving, Step, Tree};
-use crate::urdf::{Joint, Kind, Mimic, Tied};
+use crate::urdf::{Kind, Tied};
 
 impl Tree<'_, '_, '_> {
     pub(crate) fn hold(&mut self, joint: usize) -> Option<Step> {
         let own = &self.urdf.joints[joint];
-        let text = self.others.clone();
-        let is_held = |kind: Kind| kind.has_one_axis() || kind == Kind::Ball;
-        let Some(text) = text.filter(|_| is_held(own.kind)) else {
+        let is_held = own.kind.has_one_axis() || own.kind == Kind::Ball;
+        let Some(text) = self.others.clone().filter(|_| is_held) else {
             self.moves_beside(joint);
             return None;
         };
@@ -126,8 +125,8 @@ impl Tree<'_, '_, '_> {
                     let own =
                         |moving: &&Moving| names.contains(&self.urdf.joints[moving.joint].name);
                     found.extend(moving.iter().find(own).map(|moving| {
-                        let joint = &self.urdf.joints[moving.joint].name;
-                        let at = lock::advised(&self.urdf.joints[moving.joint]);
+                        let joint = &self.urdf.joints[moving.joint];
+                        let (joint, at) = (&joint.name, lock::advised(joint));
                         let message = format!("joint `{joint}` of the chain is tied by {}", tie.name);
                         let help = format!("each joint moves by itself: add --lock {joint}={at}, end before it by --tip, or leave the tie out by --ignore-ties");
                         (&tie.span, message, help)
@@ -136,11 +135,8 @@ impl Tree<'_, '_, '_> {
                 Tied::Links(names) => {
                     let movers: BTreeSet<Option<usize>> = names.iter().map(mover).collect();
                     if movers.len() > 1 {
-                        let message = format!(
-                            "{} ties `{}`, which move apart",
-                            tie.name,
-                            names.join("` and `")
-                        );
+                        let (tie_name, names) = (&tie.name, names.join("` and `"));
+                        let message = format!("{tie_name} ties `{names}`, which move apart");
                         let help = "closed loops are not read: hold what moves between them by --lock, or leave the tie out by --ignore-ties".to_owned();
                         found.push((&tie.span, message, help));
                     }
@@ -155,11 +151,9 @@ impl Tree<'_, '_, '_> {
     }
 
     pub(crate) fn say_held(&mut self, joints: &BTreeSet<usize>) {
-        let locked = self
-            .locks
-            .iter()
-            .filter(|(joint, _)| joints.contains(joint));
-        let mut held: BTreeMap<usize, &Position> = locked.map(|(joint, at)| (*joint, at)).collect();
+        let locked = self.locks.iter().map(|(joint, at)| (*joint, at));
+        let mut held: BTreeMap<usize, &Position> = locked.collect();
+        held.retain(|joint, _| joints.contains(joint));
         held.extend(self.held.iter().map(|(joint, at)| (*joint, at)));
         if let Some(first) = held.keys().next() {
             let name = |(joint, at): (&usize, &&Position)| {
@@ -183,33 +177,22 @@ impl Tree<'_, '_, '_> {
     }
 
     fn moves_beside(&mut self, joint: usize) {
-        let Joint {
-            name,
-            span,
-            kind,
-            child: (child, _),
-            mimic,
-            ..
-        } = &self.urdf.joints[joint];
-        let follows = match mimic {
-            Some(Mimic { joint: other, .. }) => format!(", mimics `{other}`"),
-            None => String::new(),
-        };
+        let own = &self.urdf.joints[joint];
+        let (name, kind, child, at) = (&own.name, own.kind, &own.child.0, lock::advised(own));
+        let follows = own.mimic.as_ref().map(|mimic| &mimic.joint);
+        let follows = follows.map_or_else(String::new, |other| format!(", mimics `{other}`"));
         let message = format!(
             "joint `{name}` is {}{follows} and hangs on the chain without being part of it",
             kind.word()
         );
         let help = match kind.has_one_axis() {
             false => format!("leave its link away: --without {child}"),
-            true => {
-                let at = lock::advised(&self.urdf.joints[joint]);
-                format!(
-                    "add --lock {name}={at}, or leave its link away: --without {child}; \
-                     --lock-others 0 holds all that hangs on the chain"
-                )
-            }
+            true => format!(
+                "add --lock {name}={at}, or leave its link away: --without {child}; \
+                 --lock-others 0 holds all that hangs on the chain"
+            ),
         };
-        self.problems.error(span, message, &help);
+        self.problems.error(&own.span, message, &help);
     }
 
     /// Says what hangs on the base: it moves no joint of the chain, and is left out.
@@ -228,13 +211,11 @@ impl Tree<'_, '_, '_> {
         }
         others.sort_unstable();
         let [first, ..] = others[..] else { return };
-        let names = others
-            .iter()
-            .map(|joint| self.urdf.joints[*joint].name.as_str());
-        let names = names.collect::<Vec<_>>().join(", ");
-        let message = format!("what hangs on the base is left out: {names}");
+        let name = |joint: &usize| self.urdf.joints[*joint].name.as_str();
+        let names: Vec<&str> = others.iter().map(name).collect();
+        let message = format!("what hangs on the base is left out: {}", names.join(", "));
         let help = "a base that stands still feels nothing of it";
-        self.problems
-            .note(&self.urdf.joints[first].span, message, help);
+        let span = &self.urdf.joints[first].span;
+        self.problems.note(span, message, help);
     }
 }

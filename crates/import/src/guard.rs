@@ -8,8 +8,8 @@ use std::ops::Range;
 
 use roxmltree::{Document, Error};
 
-use crate::MAX_BYTES;
 use crate::problems::Problems;
+use crate::{MAX_BYTES, MAX_MIB};
 
 /// The most attributes of one element: a URDF has six, an actuator of MJCF thirty.
 pub(crate) const MAX_ATTRIBUTES: usize = 64;
@@ -32,17 +32,11 @@ pub(crate) fn parse<'s>(source: &'s str, problems: &mut Problems) -> Option<Docu
         Ok(document) => return Some(document),
         Err(error) => error,
     };
-    if matches!(
-        error,
-        Error::UnexpectedEndOfStream | Error::UnclosedRootNode
-    ) {
+    if let Error::UnexpectedEndOfStream | Error::UnclosedRootNode = error {
         let end = source.trim_end().len();
-        problems.error(
-            &(end.saturating_sub(1)..end),
-            "the file ends before its XML does".into(),
-            "it was probably cut off: get the whole file; a URDF ends in </robot>, an MJCF in </mujoco>",
-        );
-        return None;
+        let message = "the file ends before its XML does";
+        let help = "it was probably cut off: get the whole file; a URDF ends in </robot>, an MJCF in </mujoco>";
+        return problems.refuse(&(end.saturating_sub(1)..end), message, help);
     }
     let at = error.pos();
     let before = source.lines().take(at.row.saturating_sub(1) as usize);
@@ -52,16 +46,12 @@ pub(crate) fn parse<'s>(source: &'s str, problems: &mut Problems) -> Option<Docu
         true => "",
         false => "a URDF is XML: <robot name=\"arm\"> …; so is MJCF: <mujoco> …",
     };
-    problems.error(&(at..at + 1), format!("no XML: {error}"), help);
-    None
+    problems.refuse(&(at..at + 1), format!("no XML: {error}"), help)
 }
 
 fn admits(source: &str, problems: &mut Problems) -> bool {
     if source.len() > MAX_BYTES {
-        let message = format!(
-            "the file is too long: a model of a robot has at most {} MiB",
-            MAX_BYTES >> 20
-        );
+        let message = format!("the file is too long: a model of a robot has at most {MAX_MIB} MiB");
         problems.error(&(0..0), message, "is this the right file?");
         return false;
     }
@@ -73,12 +63,10 @@ fn admits(source: &str, problems: &mut Problems) -> bool {
         if let Some(at) = expression.min().or(is_xacro.then_some(0)) {
             let word = text[at..].split([' ', '"', '\'', '>', '\n', '\t', '\r', '/']);
             let word: String = word.take(1).flat_map(str::chars).take(40).collect();
-            let end = span.start + at + word.len();
-            problems.error(
-                &(span.start + at..end),
-                format!("`{word}` is not expanded"),
-                "this is a xacro: run `xacro arm.urdf.xacro > arm.urdf` first",
-            );
+            let start = span.start + at;
+            let message = format!("`{word}` is not expanded");
+            let help = "this is a xacro: run `xacro arm.urdf.xacro > arm.urdf` first";
+            problems.error(&(start..start + word.len()), message, help);
             return false;
         }
         if !is_tag {
@@ -90,7 +78,8 @@ fn admits(source: &str, problems: &mut Problems) -> bool {
             (false, true) => depth,
             (false, false) => depth + 1,
         };
-        let problem = match attributes(text) {
+        let attributes = outside_of_quotes(text).filter(|(_, byte)| *byte == b'=');
+        let problem = match attributes.count() {
             count if count > MAX_ATTRIBUTES => {
                 format!("an element with {count} attributes, more than {MAX_ATTRIBUTES}")
             }
@@ -131,12 +120,6 @@ fn pieces(source: &str) -> impl Iterator<Item = (bool, Range<usize>)> {
             return Some((true, start..at));
         }
     })
-}
-
-fn attributes(tag: &str) -> usize {
-    outside_of_quotes(tag)
-        .filter(|(_, byte)| *byte == b'=')
-        .count()
 }
 
 fn outside_of_quotes(tag: &str) -> impl Iterator<Item = (usize, u8)> {

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::problems::Problems;
 use crate::text::Text;
-use crate::{MAX_BYTES, guard};
+use crate::{MAX_BYTES, MAX_MIB, guard};
 
 const MAX_FILES: usize = 256;
 
@@ -14,7 +14,7 @@ struct Open {
     file: usize,
     rest: Range<usize>,
     /// The files that it includes, the last first: where, and their names.
-    includes: Vec<(Range<usize>, String)>,
+    inner: Vec<(Range<usize>, String)>,
 }
 
 impl Text {
@@ -41,7 +41,7 @@ impl Text {
         let mut open = vec![made.open(0)?];
         while let Some(file) = open.last_mut() {
             let (index, at) = (file.file, file.rest.start);
-            let Some((span, name)) = file.includes.pop() else {
+            let Some((span, name)) = file.inner.pop() else {
                 let rest = file.rest.clone();
                 open.pop();
                 made.take(index, rest);
@@ -73,10 +73,7 @@ impl Text {
             }
             let others: usize = made.files.iter().map(|(_, text)| text.len()).sum();
             if others + text.len() > MAX_BYTES {
-                let message = format!(
-                    "with this, the model is longer than {} MiB",
-                    MAX_BYTES >> 20
-                );
+                let message = format!("with this, the model is longer than {MAX_MIB} MiB");
                 return Err(made.error(index, span, message, "is this a model of a robot?"));
             }
             made.files.push((whole.display().to_string(), text));
@@ -99,24 +96,18 @@ impl Text {
             (Some(first), Some(last)) => first.range().start..last.range().end,
             _ => end..end,
         };
-        let includes = root
-            .descendants()
-            .filter(|node| node.has_tag_name("include"));
-        let mut named = Vec::new();
-        for node in includes {
+        let mut inner = Vec::new();
+        let nodes = root.descendants();
+        for node in nodes.filter(|node| node.has_tag_name("include")) {
             let Some(name) = node.attribute("file") else {
                 let help = "<include file=\"arm.xml\"/>";
                 let message = "<include> has no `file`".to_owned();
                 return Err(self.error(file, node.range(), message, help));
             };
-            named.push((node.range(), name.to_owned()));
+            inner.push((node.range(), name.to_owned()));
         }
-        named.reverse();
-        Ok(Open {
-            file,
-            rest,
-            includes: named,
-        })
+        inner.reverse();
+        Ok(Open { file, rest, inner })
     }
 
     fn error(&self, file: usize, span: Range<usize>, message: String, help: &str) -> String {

@@ -10,8 +10,8 @@
 //! - `mjcf`: what an MJCF says, in the terms of a URDF
 //! - `problems`: what is wrong or odd, at its place in the file
 //! - `open`: a robot of a path, whichever format it has
-//! - `args`: the options of a chain, as commands take them and generated files keep them
-//! - `names`: names that the file does not have
+//! - `args`: the options of a chain, as commands take them and generated files keep them, and names
+//!   in them that the file does not have
 //! - `tree`: the chain, and what hangs on its links
 //! - `beside`: what hangs beside the chain, or is tied to it
 //! - `tip`: where an arm ends, when nobody says
@@ -85,7 +85,6 @@ mod lock;
 mod meant;
 mod merge;
 mod mjcf;
-mod names;
 mod open;
 mod problems;
 mod snap;
@@ -110,6 +109,8 @@ pub use text::Text;
 
 /// The largest URDF that is read, in bytes: meshes are not in it.
 pub const MAX_BYTES: usize = 1 << 24;
+
+const MAX_MIB: usize = MAX_BYTES >> 20;
 
 /// The largest change of a torque, relative to its limit, that snapping makes unasked.
 pub const FELT: f64 = 1e-6;
@@ -191,7 +192,7 @@ fn model(source: &str, options: &Options, problems: &mut Problems) -> Option<urd
         true => mjcf::read(&document, problems)?,
         false => urdf::read(&document, problems)?,
     };
-    names::check(&urdf, options, problems);
+    args::check_names(&urdf, options, problems);
     if options.ignore_ties {
         urdf.untie(problems);
     }
@@ -210,23 +211,16 @@ fn imported(source: &str, options: &Options, problems: &mut Problems) -> Option<
         let change = change::bound(&as_written, &arm, &snapped, &chain, options);
         Some((snapped, snaps, arm, change))
     };
-    let all = match options.exact {
-        true => Snapping::None,
-        false => Snapping::All,
-    };
-    let mut taken = snapped(all)?;
     let mut stays = options.exact;
+    let mut taken = snapped(if stays { Snapping::None } else { Snapping::All })?;
     if !options.snap && taken.3.relative() > FELT {
         let message = format!(
             "rounded numbers stay as they are: the exact ones that were probably meant would change \
              the torques by {}",
             taken.3
         );
-        problems.note(
-            &urdf.span,
-            message,
-            "--snap takes the exact ones, and code gets shorter",
-        );
+        let help = "--snap takes the exact ones, and code gets shorter";
+        problems.note(&urdf.span, message, help);
         stays = true;
         taken = snapped(Snapping::Near)?;
         if taken.3.relative() > FELT {
@@ -235,17 +229,12 @@ fn imported(source: &str, options: &Options, problems: &mut Problems) -> Option<
     }
     let (snapped, snaps, arm, change) = taken;
     let text = write::file(&snapped, &chain, &arm, (&snaps, stays), options, problems);
-    let reading = match read::parse(&text) {
-        Ok(reading) => reading,
-        Err(errors) => {
-            problems.refused(&errors, &text);
-            return None;
-        }
-    };
+    let reading = read::parse(&text).map_err(|errors| problems.refused(&errors, &text));
+    let robot = reading.ok()?.robot;
     let change = (!snaps.is_empty()).then_some(change);
     Some(Imported {
         text,
-        robot: reading.robot,
+        robot,
         notes: Vec::new(),
         snaps,
         change,

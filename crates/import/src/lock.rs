@@ -34,8 +34,7 @@ fn read(joint: &Joint, text: &str, problems: &mut Problems) -> Option<Position> 
     let read = match kind {
         Kind::Fixed | Kind::Planar | Kind::Floating | Kind::Ball => {
             let message = format!("--lock {name}: a {} joint has no position", kind.word());
-            problems.error(&joint.span, message, "leave it out");
-            return None;
+            return problems.refuse(&joint.span, message, "leave it out");
         }
         Kind::Prismatic => number.map(Position::Length),
         Kind::Revolute | Kind::Continuous => number
@@ -59,18 +58,15 @@ pub(crate) fn position(joint: &Joint, text: &str, problems: &mut Problems) -> Op
     if let Some([lower, upper]) = &joint.position
         && is_outside(&at, text, [lower, upper])
     {
-        let message = format!(
-            "--lock {name}={text}: the joint's limits are {} to {}",
-            lower.text, upper.text
-        );
+        let (low, high) = (&lower.text, &upper.text);
+        let message = format!("--lock {name}={text}: the joint's limits are {low} to {high}");
         let help = match (&at, kind) {
             (Position::Angle(Angle::Radians(_)), Kind::Revolute) => {
                 "lock it where it can be; a number is in rad, degrees are written as 90deg"
             }
             _ => "lock it where it can be",
         };
-        problems.error(&lower.span, message, help);
-        return None;
+        return problems.refuse(&lower.span, message, help);
     }
     Some(at)
 }

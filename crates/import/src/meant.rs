@@ -108,15 +108,14 @@ mod tests {
 
     #[test]
     fn digits_and_their_unit() {
-        let one = |exponent| power(exponent);
-        for (text, unit, count) in [
-            ("1.5708", one(-4), 5),
-            ("-0.0120", one(-4), 3),
-            ("1e-3", one(-3), 1),
-            ("12", one(0), 2),
-            ("1.50E+2", one(0), 3),
+        for (text, exponent, count) in [
+            ("1.5708", -4, 5),
+            ("-0.0120", -4, 3),
+            ("1e-3", -3, 1),
+            ("12", 0, 2),
+            ("1.50E+2", 0, 3),
         ] {
-            assert_eq!(digits(text), (unit, count), "{text}");
+            assert_eq!(digits(text), (power(exponent), count), "{text}");
         }
     }
 }

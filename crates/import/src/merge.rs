@@ -42,18 +42,18 @@ pub(crate) fn arm(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> Option
     if !are_possible(urdf, chain, problems) {
         return None;
     }
-    let size = size(urdf, chain);
+    let joints = chain.joints().into_iter();
+    let sizes = joints.map(|joint| urdf.joints[joint].origin.placement().size());
+    let size = size_of(sizes.sum());
     let links = chain.moving.iter().map(|moving| {
         let joint = &urdf.joints[moving.joint];
         let own = pose(&joint.origin.placement());
         let before = way(urdf, &moving.before)?;
         // Where nothing lies between, the placement is the file's own.
+        let pose = before.then(&own);
         let (pose, placement) = match moving.before.is_empty() {
             true => (own, joint.origin.placement()),
-            false => {
-                let pose = before.then(&own);
-                (pose.clone(), placement(&pose, &size))
-            }
+            false => (pose.clone(), placement(&pose, &size)),
         };
         Some(Link {
             pose,
@@ -137,16 +137,9 @@ fn without_mass(links: &[&urdf::Link], problems: &mut Problems) {
     problems.warning(&first.span, message, help);
 }
 
-/// Returns what lengths are small against.
-fn size(urdf: &Urdf, chain: &Chain) -> Rational {
-    let joints = chain.joints().into_iter();
-    let sizes = joints.map(|joint| urdf.joints[joint].origin.placement().size());
-    let size: Rational = sizes.sum();
-    if size.is_zero() {
-        Rational::one()
-    } else {
-        size
-    }
+/// Returns what lengths are small against, from the sum of those that there are.
+pub(crate) fn size_of(sum: Rational) -> Rational {
+    if sum.is_zero() { One::one() } else { sum }
 }
 
 /// Returns the way from the first step's parent to the last one's child.
@@ -199,12 +192,10 @@ fn body(urdf: &Urdf, moving: &Moving, size: &Rational) -> Option<Body> {
         parts.push(moved(&own, &at, &size));
     }
     let mass: Rational = parts.iter().map(|part| &part.mass).sum();
+    let is_zero = mass.is_zero();
     let centre: [Rational; 3] = core::array::from_fn(|i| {
         let moment: Rational = parts.iter().map(|part| &part.mass * &part.com[i]).sum();
-        match mass.is_zero() {
-            true => moment,
-            false => moment / &mass,
-        }
+        if is_zero { moment } else { moment / &mass }
     });
     let entry = |i: usize, k: usize| {
         let parts = parts.iter().map(|part| {

@@ -4,9 +4,9 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
-use dalembert_model::read::{self, Reading};
+use dalembert_model::read::{self, Diagnostic, Reading};
 
-use crate::{Imported, MAX_BYTES, Options, Text, import_text};
+use crate::{Imported, MAX_BYTES, MAX_MIB, Options, Text, import_text};
 
 /// A robot that was read from a path, or from a text.
 #[derive(Clone, Debug)]
@@ -34,18 +34,12 @@ impl Opened {
     /// Returns the warnings and notes about the file, as they are shown.
     pub fn notes(&self) -> Vec<String> {
         let source = &self.source;
-        match &self.imported {
-            Some(imported) => {
-                let notes = imported.notes.iter().map(std::slice::from_ref);
-                notes.map(|note| source.render(note)).collect()
-            }
-            None => {
-                let notes = self.reading.notes.iter();
-                notes
-                    .map(|note| note.render(source.name(), source.as_str()))
-                    .collect()
-            }
-        }
+        let Some(imported) = &self.imported else {
+            let render = |note: &Diagnostic| note.render(source.name(), source.as_str());
+            return self.reading.notes.iter().map(render).collect();
+        };
+        let notes = imported.notes.iter().map(std::slice::from_ref);
+        notes.map(|note| source.render(note)).collect()
     }
 }
 
@@ -65,14 +59,12 @@ pub fn open_text(path: &Path) -> Result<Text, Unopened> {
     let shown = path.display().to_string();
     let bytes = first_bytes(path, MAX_BYTES as u64 + 1).map_err(Unopened::System)?;
     if is_model(&bytes) {
-        let wrong = |why: String| Unopened::Wrong(format!("error: `{shown}` {why}"));
+        let wrong = |why: &str| Unopened::Wrong(format!("error: `{shown}` {why}"));
         if bytes.len() > MAX_BYTES {
-            let most = MAX_BYTES >> 20;
-            return Err(wrong(format!(
-                "is longer than {most} MiB, the most that is read"
-            )));
+            let why = format!("is longer than {MAX_MIB} MiB, the most that is read");
+            return Err(wrong(&why));
         }
-        let text = String::from_utf8(bytes).map_err(|_| wrong("is not UTF-8 text".to_owned()))?;
+        let text = String::from_utf8(bytes).map_err(|_| wrong("is not UTF-8 text"))?;
         let text = Text::of(&shown, text).with_includes(path, included);
         return text.map_err(Unopened::Wrong);
     }
@@ -99,10 +91,8 @@ pub fn read_robot(source: Text, options: &Options) -> Result<Opened, String> {
         }
         true => Some(import_text(&source, options).map_err(|errors| source.render(&errors.0))?),
     };
-    let robot_file = match &imported {
-        Some(imported) => imported.text.clone(),
-        None => source.as_str().to_owned(),
-    };
+    let robot_file = imported.as_ref().map_or(source.as_str(), |own| &own.text);
+    let robot_file = robot_file.to_owned();
     let reading = read::parse(&robot_file);
     // What was imported was read once already.
     let reading = reading.map_err(|errors| errors.render(source.name(), &robot_file))?;

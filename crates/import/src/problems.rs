@@ -45,8 +45,19 @@ impl<'s> Problems<'s> {
         }
     }
 
-    pub(crate) fn error(&mut self, span: &Range<usize>, message: String, help: &str) {
-        self.push(Severity::Error, span, message, help);
+    pub(crate) fn error(&mut self, span: &Range<usize>, message: impl Into<String>, help: &str) {
+        self.push(Severity::Error, span, message.into(), help);
+    }
+
+    /// Adds an error, of which there is nothing to return but that.
+    pub(crate) fn refuse<T>(
+        &mut self,
+        span: &Range<usize>,
+        message: impl Into<String>,
+        help: &str,
+    ) -> Option<T> {
+        self.error(span, message, help);
+        None
     }
 
     pub(crate) fn warning(&mut self, span: &Range<usize>, message: String, help: &str) {
@@ -101,13 +112,9 @@ impl<'s> Problems<'s> {
     pub(crate) fn refused(&mut self, errors: &Diagnostics, text: &str) {
         for error in &errors.0 {
             let line = text.lines().nth(error.line.saturating_sub(1));
-            let message = format!(
-                "the robot file would be refused: {} in `{}`",
-                error.message,
-                line.unwrap_or_default()
-            );
-            let help = error.help.clone().unwrap_or_default();
-            self.error(&(0..0), message, &help);
+            let (message, line) = (&error.message, line.unwrap_or_default());
+            let message = format!("the robot file would be refused: {message} in `{line}`");
+            self.error(&(0..0), message, error.help.as_deref().unwrap_or_default());
         }
     }
 
@@ -118,10 +125,8 @@ impl<'s> Problems<'s> {
             last.message += &format!(" (and {} more errors)", self.more);
         }
         self.found.sort_by_key(|found| found.span.start);
-        let (errors, notes): (Vec<_>, Vec<_>) = self
-            .found
-            .into_iter()
-            .partition(|found| found.severity == Severity::Error);
+        let is_error = |found: &Diagnostic| found.severity == Severity::Error;
+        let (errors, notes): (Vec<_>, Vec<_>) = self.found.into_iter().partition(is_error);
         match errors.is_empty() {
             true => Ok([self.differences, notes].concat()),
             false => Err(Diagnostics(errors)),
@@ -134,16 +139,13 @@ pub(crate) fn instead<'n, N: AsRef<str> + ?Sized + 'n>(
     names: impl IntoIterator<Item = &'n N>,
 ) -> String {
     let names: Vec<&str> = names.into_iter().map(|name| name.as_ref()).collect();
-    let has_it = |known: &&&str| !name.is_empty() && known.contains(name);
-    let longer: Vec<&str> = names.iter().filter(has_it).copied().collect();
-    match closest(name, &names) {
-        Some(meant) => format!("did you mean `{meant}`?"),
-        None if (1..=3).contains(&longer.len()) => {
-            format!("did you mean `{}`?", longer.join("` or `"))
-        }
-        None if names.len() > MAX_NAMES => {
-            format!("known: {}, …", names[..MAX_NAMES].join(", "))
-        }
-        None => format!("known: {}", names.join(", ")),
+    let mut meant = Vec::from_iter(closest(name, &names));
+    if meant.is_empty() && !name.is_empty() {
+        meant.extend(names.iter().filter(|known| known.contains(name)));
+    }
+    match (meant.len(), names.get(..MAX_NAMES)) {
+        (1..=3, _) => format!("did you mean `{}`?", meant.join("` or `")),
+        (_, Some(first)) if names.len() > MAX_NAMES => format!("known: {}, …", first.join(", ")),
+        _ => format!("known: {}", names.join(", ")),
     }
 }

@@ -43,11 +43,6 @@ impl Snap {
             ),
         })
     }
-
-    /// Returns the line of the URDF, from one.
-    pub fn line(&self, source: &str) -> usize {
-        crate::text::place(source, self.span.start).0
-    }
 }
 
 impl fmt::Display for Snap {
@@ -90,11 +85,8 @@ pub(crate) fn snapped(urdf: &Urdf, chain: &Chain, snapping: Snapping) -> (Urdf, 
             continue;
         };
         let of = |what: &str| format!("link {}, {what}", link.name);
-        snaps.origin(
-            &mut inertial.origin,
-            &of("centre of mass"),
-            &of("axes of inertia"),
-        );
+        let [centre, axes] = ["centre of mass", "axes of inertia"].map(of);
+        snaps.origin(&mut inertial.origin, &centre, &axes);
         let tensor = &mut inertial.inertia;
         let moments = [&tensor.xx, &tensor.yy, &tensor.zz];
         let moments = moments.map(|moment| moment.value.abs());

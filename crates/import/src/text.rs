@@ -63,9 +63,8 @@ impl Text {
 
     fn place(&self, byte: usize) -> (usize, usize) {
         let index = self.parts.partition_point(|(end, ..)| *end <= byte);
-        let start = index
-            .checked_sub(1)
-            .map_or(0, |before| self.parts[before].0);
+        let before = index.checked_sub(1);
+        let start = before.map_or(0, |before| self.parts[before].0);
         match self.parts.get(index).or(self.parts.last()) {
             Some((_, file, at)) => (*file, at + byte.saturating_sub(start)),
             None => (0, byte),

@@ -16,16 +16,14 @@ const FINGER: usize = 4;
 const FINGERS: [&str; 4] = ["finger", "jaw", "claw", "thumb"];
 const HANDS: [&str; 7] = ["hand", "flange", "tool", "palm", "tcp", "grasp", "ee_"];
 
-struct Ends {
-    tips: Vec<usize>,
-    holds: bool,
-}
+/// The joints that move behind each link, one behind the other.
+type Heights = BTreeMap<usize, usize>;
 
 impl Tree<'_, '_, '_> {
     /// Takes the first of several links that one joint moves.
     pub(crate) fn tip(&mut self, base: usize) -> Option<usize> {
-        let heights = self.heights_or_circle(base)?;
-        let Ends { tips, holds } = self.ends(base, &heights, false);
+        let heights = self.heights(base)?;
+        let (tips, holds) = self.ends(base, &heights, false);
         let most = heights.get(&base).copied().unwrap_or_default();
         let name = |link: &usize| self.urdf.links[*link].name.as_str();
         let moved: BTreeSet<usize> = tips.iter().map(|tip| self.moved_with(*tip, base)).collect();
@@ -53,9 +51,8 @@ impl Tree<'_, '_, '_> {
         };
         // One end of each chain: those that one joint moves differ in poses alone.
         let mut chains = BTreeSet::new();
-        let ends = tips
-            .iter()
-            .filter(|tip| chains.insert(self.moved_with(**tip, base)));
+        let is_new = |tip: &&usize| chains.insert(self.moved_with(**tip, base));
+        let ends = tips.iter().filter(is_new);
         let names: Vec<&str> = ends.take(MAX_NAMES).map(name).collect();
         let mut help = format!("choose the end by --tip: {}", names.join(", "));
         let stands = self.fixed_to(base);
@@ -66,14 +63,13 @@ impl Tree<'_, '_, '_> {
                 false => "; --lock-others 0 holds all else that hangs on the chain",
             };
         }
-        self.problems.error(&self.urdf.span, message, &help);
-        None
+        self.problems.refuse(&self.urdf.span, message, &help)
     }
 
     /// Returns one link for each joint that is the last to move.
     pub(crate) fn tips(&mut self, base: usize) -> Option<Vec<usize>> {
-        let heights = self.heights_or_circle(base)?;
-        let Ends { tips, .. } = self.ends(base, &heights, true);
+        let heights = self.heights(base)?;
+        let (tips, _) = self.ends(base, &heights, true);
         let mut last = BTreeSet::new();
         let tips = tips.into_iter().filter(|tip| {
             let link = self.moved_with(*tip, base);
@@ -82,10 +78,8 @@ impl Tree<'_, '_, '_> {
         let mut tips: Vec<usize> = tips.collect();
         tips.sort_unstable();
         if tips.is_empty() {
-            let message = "no arm hangs on the base".to_owned();
-            let help = "choose the beginning by --base";
-            self.problems.error(&self.urdf.span, message, help);
-            return None;
+            let (message, help) = ("no arm hangs on the base", "choose the beginning by --base");
+            return self.problems.refuse(&self.urdf.span, message, help);
         }
         Some(tips)
     }
@@ -99,28 +93,15 @@ impl Tree<'_, '_, '_> {
         link
     }
 
-    fn heights_or_circle(&mut self, base: usize) -> Option<BTreeMap<usize, usize>> {
-        let heights = self.heights(base);
-        if heights.is_none() {
-            let message = "links hang on each other in a circle".to_owned();
-            let help = "every chain ends somewhere: closed loops are not read";
-            let span = &self.urdf.links[base].span;
-            self.problems.error(span, message, help);
-        }
-        heights
-    }
-
-    fn ends(&self, base: usize, heights: &BTreeMap<usize, usize>, all: bool) -> Ends {
+    /// Returns the ends, and whether there are fingers, which hold something, on some of them.
+    fn ends(&self, base: usize, heights: &Heights, all: bool) -> (Vec<usize>, bool) {
         let mut tips = Vec::new();
         let mut palms = Vec::new();
         let mut open = vec![(base, 0)];
         while let Some((link, moved)) = open.pop() {
             let fixed = self.fixed_to(link);
-            let joints: Vec<usize> = fixed
-                .iter()
-                .flat_map(|link| self.hanging(*link))
-                .filter(|joint| self.step(*joint).is_none())
-                .collect();
+            let joints = fixed.iter().flat_map(|link| self.hanging(*link));
+            let joints: Vec<usize> = joints.filter(|joint| self.step(*joint).is_none()).collect();
             let left = |joint: usize| 1 + heights.get(&self.ends[joint][1]).copied().unwrap_or(0);
             let leaves = fixed.iter().filter(|link| self.hanging(**link).is_empty());
             let Some(longest) = joints.iter().map(|joint| left(*joint)).max() else {
@@ -153,11 +134,11 @@ impl Tree<'_, '_, '_> {
         tips.sort_by_key(|link| (!has_one_of(name(link), &HANDS), *link));
         palms.sort_unstable();
         tips.splice(0..0, palms);
-        Ends { tips, holds }
+        (tips, holds)
     }
 
     /// Joints that hang on the links that stand still do not count.
-    fn is_loaded(&self, tip: usize, stands: &[usize], heights: &BTreeMap<usize, usize>) -> bool {
+    fn is_loaded(&self, tip: usize, stands: &[usize], heights: &Heights) -> bool {
         let mut chain = vec![tip];
         let mut next = Some(tip);
         // The first of them is the base.
@@ -167,34 +148,32 @@ impl Tree<'_, '_, '_> {
             next = self.on(link);
             chain.extend(next);
         }
-        let moves = |joint: &usize| {
-            let child = self.ends[*joint][1];
+        let moves = |joint: usize| {
+            let child = self.ends[joint][1];
             let height = heights.get(&child).copied().unwrap_or(0);
-            !chain.contains(&child) && (self.step(*joint).is_none() || height > 0)
+            !chain.contains(&child) && (self.step(joint).is_none() || height > 0)
         };
         let links = chain.iter().filter(|link| !stands.contains(link));
-        links
-            .flat_map(|link| self.hanging(*link))
-            .any(|joint| moves(&joint))
+        links.flat_map(|link| self.hanging(*link)).any(moves)
     }
 
-    /// Counts the joints that move one behind the other from each link on; `None` for a circle.
-    fn heights(&self, base: usize) -> Option<BTreeMap<usize, usize>> {
+    /// Counts the joints that move one behind the other from each link on; a circle is an error.
+    fn heights(&mut self, base: usize) -> Option<Heights> {
         let mut order = vec![base];
         let mut at = 0;
         while let Some(link) = order.get(at).copied() {
             at += 1;
-            order.extend(
-                self.hanging(link)
-                    .into_iter()
-                    .map(|joint| self.ends[joint][1]),
-            );
+            let hanging = self.hanging(link).into_iter();
+            order.extend(hanging.map(|joint| self.ends[joint][1]));
             // Every link hangs on one joint: only the base can come again.
             if order[1..].contains(&base) {
-                return None;
+                let span = &self.urdf.links[base].span;
+                let message = "links hang on each other in a circle";
+                let help = "every chain ends somewhere: closed loops are not read";
+                return self.problems.refuse(span, message, help);
             }
         }
-        let mut heights = BTreeMap::new();
+        let mut heights = Heights::new();
         for link in order.into_iter().rev() {
             let below = self.hanging(link).into_iter().map(|joint| {
                 let moves = usize::from(self.step(joint).is_none());
@@ -234,18 +213,10 @@ impl Tree<'_, '_, '_> {
         let Some(mimic) = &self.urdf.joints[joint].mimic else {
             return false;
         };
-        let mut link = self.ends[joint][0];
+        let above = |joint: &usize| self.above.get(&self.ends[*joint][0]).copied();
         // In a circle there is no end.
-        for _ in 0..self.ends.len() {
-            let Some(above) = self.above.get(&link) else {
-                break;
-            };
-            if self.urdf.joints[*above].name == mimic.joint {
-                return false;
-            }
-            link = self.ends[*above][0];
-        }
-        true
+        let mut all = std::iter::successors(above(&joint), above).take(self.ends.len());
+        all.all(|above| self.urdf.joints[above].name != mimic.joint)
     }
 
     fn is_finger(&self, joint: usize) -> bool {

@@ -44,9 +44,8 @@ impl Chain {
             let steps = moving.before.iter().chain(ways).map(|step| step.joint);
             steps.chain([moving.joint])
         });
-        moving
-            .chain(self.tool.iter().map(|step| step.joint))
-            .collect()
+        let tool = self.tool.iter().map(|step| step.joint);
+        moving.chain(tool).collect()
     }
 
     pub(crate) fn links(&self) -> BTreeSet<usize> {
@@ -56,6 +55,7 @@ impl Chain {
 }
 
 const MAX_STEPS: usize = 100;
+const OTHER_ENDS: &str = "take another --base or --tip";
 
 pub(crate) struct Tree<'u, 'p, 's> {
     pub(crate) urdf: &'u Urdf,
@@ -103,14 +103,10 @@ pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> 
         }
     }
     if moving.is_empty() {
-        let span = &tree.urdf.links[tip].span;
-        let message = format!(
-            "no joint moves between link `{}` and link `{}`",
-            urdf.links[base].name, urdf.links[tip].name
-        );
-        tree.problems
-            .error(span, message, "take another --base or --tip");
-        return None;
+        let [from, to] = [base, tip].map(|link| &urdf.links[link].name);
+        let message = format!("no joint moves between link `{from}` and link `{to}`");
+        let span = &urdf.links[tip].span;
+        return tree.problems.refuse(span, message, OTHER_ENDS);
     }
     let on_path: BTreeSet<usize> = path.iter().copied().collect();
     for moving in &mut moving {
@@ -118,22 +114,19 @@ pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> 
         good &= tree.gather(child, &on_path, &mut moving.links);
     }
     good &= tree.is_free_of_ties(&moving);
-    good &= moving
-        .iter()
-        .all(|moving| tree.leads_nothing_beside(moving.joint));
+    let mut all = moving.iter();
+    good &= all.all(|moving| tree.leads_nothing_beside(moving.joint));
     tree.beside_the_base(base, &on_path);
     if tree.above.contains_key(&base) {
         let link = &urdf.links[base];
         let message = format!("link `{}` is the base, and not the root", link.name);
-        let help = match urdf.gravity {
-            None => {
-                "gravity is taken to pull against its z: change `gravity` in the robot file if it is tilted"
-            }
-            Some(_) => {
-                "gravity is taken in its axes as it is in the world's: change `gravity` in the robot file if it is tilted"
-            }
+        let how = match urdf.gravity {
+            None => "to pull against its z",
+            Some(_) => "in its axes as it is in the world's",
         };
-        tree.problems.difference(&link.span, message, help);
+        let help =
+            format!("gravity is taken {how}: change `gravity` in the robot file if it is tilted");
+        tree.problems.difference(&link.span, message, &help);
     }
     let chain = Chain {
         base,
@@ -169,10 +162,8 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             tree.ends.push([parent, child]);
             tree.below.entry(parent).or_default().push(index);
             if let Some(other) = tree.above.insert(child, index) {
-                let message = format!(
-                    "link `{}` hangs on joint `{}` already",
-                    joint.child.0, urdf.joints[other].name
-                );
+                let (link, other) = (&joint.child.0, &urdf.joints[other].name);
+                let message = format!("link `{link}` hangs on joint `{other}` already");
                 let help = "a link hangs on one joint: closed loops are not read";
                 tree.problems.error(&joint.child.1, message, help);
                 good = false;
@@ -228,29 +219,25 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
                 format!("choose one by --base: {}", names.join(", ")),
             ),
         };
-        self.problems.error(&self.urdf.span, message, &help);
-        None
+        self.problems.refuse(&self.urdf.span, message, &help)
     }
 
     /// Returns the link behind the joints that let the whole robot float or drive.
     fn standing(&mut self, root: usize) -> usize {
         let (mut base, mut link) = (root, root);
         while let [joint] = self.arms_on(link)[..] {
-            let Joint {
-                name, span, kind, ..
-            } = &self.urdf.joints[joint];
+            let Joint { name, kind, .. } = &self.urdf.joints[joint];
             link = self.ends[joint][1];
-            match kind {
-                Kind::Fixed if link != root => {}
-                kind if !kind.has_one_axis() && link != root => {
-                    let word = kind.word();
-                    let message =
-                        format!("the chain begins behind joint `{name}`, which is {word}");
-                    let help = "--base LINK chooses another beginning";
-                    self.problems.note(span, message, help);
-                    base = link;
-                }
-                _ => break,
+            if link == root || *kind != Kind::Fixed && kind.has_one_axis() {
+                break;
+            }
+            if *kind != Kind::Fixed {
+                let word = kind.word();
+                let message = format!("the chain begins behind joint `{name}`, which is {word}");
+                let help = "--base LINK chooses another beginning";
+                let span = &self.urdf.joints[joint].span;
+                self.problems.note(span, message, help);
+                base = link;
             }
         }
         base
@@ -286,30 +273,23 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
     }
 
     fn can_move(&mut self, joint: usize, path: &[usize]) -> bool {
-        let Joint {
-            name,
-            span,
-            kind,
-            mimic,
-            ..
-        } = &self.urdf.joints[joint];
+        let own = &self.urdf.joints[joint];
+        let (name, kind, child) = (&own.name, own.kind, &own.child.0);
         if !kind.has_one_axis() {
             let message = format!("joint `{name}` of the chain is {}", kind.word());
             let help = format!(
-                "joints turn about or slide along one axis: begin behind it, --base {}",
-                self.urdf.joints[joint].child.0
+                "joints turn about or slide along one axis: begin behind it, --base {child}"
             );
-            self.problems.error(span, message, &help);
+            self.problems.error(&own.span, message, &help);
             return false;
         }
-        let Some(mimic) = mimic.as_ref().filter(|_| self.step(joint).is_none()) else {
-            return true;
-        };
-        let Some(why) = self.cannot_follow(joint, mimic, path) else {
+        let mimic = own.mimic.as_ref().filter(|_| self.step(joint).is_none());
+        let why = mimic.and_then(|mimic| self.cannot_follow(joint, mimic, path));
+        let Some((mimic, why)) = mimic.zip(why) else {
             return true;
         };
         let message = format!("joint `{name}` of the chain mimics `{}`{why}", mimic.joint);
-        let at = lock::advised(&self.urdf.joints[joint]);
+        let at = lock::advised(own);
         let help = format!("hold it, --lock {name}={at}, or end before it");
         self.problems.error(&mimic.span, message, &help);
         false
@@ -326,10 +306,8 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         };
         let slides = own == Kind::Prismatic;
         if slides != (other == Kind::Prismatic) {
-            let (own, other) = match slides {
-                true => ("slides", "turns"),
-                false => ("turns", "slides"),
-            };
+            let [own, other] =
+                [slides, !slides].map(|slides| if slides { "slides" } else { "turns" });
             return Some(format!(", and {own} where that {other}"));
         }
         let most = Rational::from_integer(Follower::MAX_TURNS.into());
@@ -351,18 +329,14 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             let Some(joint) = above.filter(|_| path.len() <= self.ends.len()) else {
                 let [base, tip] = [base, tip].map(|link| &self.urdf.links[link]);
                 let message = format!("link `{}` does not hang on link `{}`", tip.name, base.name);
-                self.problems
-                    .error(&tip.span, message, "take another --base or --tip");
-                return None;
+                return self.problems.refuse(&tip.span, message, OTHER_ENDS);
             };
             path.push(joint);
             if self.without.contains(&at) {
-                let name = &self.urdf.links[at].name;
-                let message = format!("--without {name}: the chain passes through it");
+                let link = &self.urdf.links[at];
+                let message = format!("--without {}: the chain passes through it", link.name);
                 let help = "take another --tip, or leave it in";
-                self.problems
-                    .error(&self.urdf.links[at].span, message, help);
-                return None;
+                return self.problems.refuse(&link.span, message, help);
             }
             at = self.ends[joint][0];
         }

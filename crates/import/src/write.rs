@@ -17,7 +17,7 @@ use crate::merge::{Arm, Link};
 use crate::problems::Problems;
 use crate::snap::Snap;
 use crate::tree::Chain;
-use crate::urdf::{Joint, Kind, Number, Urdf};
+use crate::urdf::{Joint, Kind, Number, Urdf, positive};
 
 /// `stays`: digits stay as they stand, and the reader of the file does not warn of them.
 pub(crate) fn file(
@@ -58,8 +58,10 @@ pub(crate) fn file(
         None => "[0, 0, -9.81]".to_owned(),
         Some(gravity) => list(gravity.iter().map(|x| number(&x.value))),
     };
+    let gravity = ("gravity", Some(gravity));
     let tool = (!arm.tool.is_identity()).then(|| placement(&as_read(&arm.tool)));
     let allow = stays.then(|| "[\"near_right_angle\"]".to_owned());
+    let (tool, allow) = (("tool", tool), ("allow", allow));
     let name = ("name", Some(quoted(&name)));
     let joints = chain.moving.iter();
     let joints: Vec<&Joint> = joints.map(|moving| &urdf.joints[moving.joint]).collect();
@@ -67,13 +69,7 @@ pub(crate) fn file(
     let differences = problems.differences.iter();
     let differences: Vec<String> = differences.map(|own| one_line(&own.message)).collect();
     let notes = ("notes", texts(&differences));
-    let rest = [
-        ("gravity", Some(gravity)),
-        ("tool", tool),
-        ("allow", allow),
-        notes,
-    ];
-    lines(&mut text, [name].into_iter().chain(rest));
+    lines(&mut text, [name, gravity, tool, allow, notes]);
     for (index, (own, link)) in joints.iter().zip(&arm.links).enumerate() {
         text.push_str("\n[[joint]]\n");
         let name = name_of(own, index, problems);
@@ -155,10 +151,7 @@ fn joint(text: &mut String, joint: &Joint, link: &Link, options: &Options) {
             length => position(length),
         }))
     });
-    let limit = |own: &Option<Number>| {
-        let own = own.as_ref().filter(|own| own.value.is_positive());
-        own.map(|own| number(&own.value))
-    };
+    let limit = |own: &Option<Number>| positive(own).map(|own| number(&own.value));
     let limits = table([
         ("position", range),
         ("velocity", limit(&joint.velocity)),
@@ -259,19 +252,14 @@ fn say_friction(joints: &[&Joint], problems: &mut Problems) {
         Kind::Prismatic => "m/s",
         _ => "rad/s",
     };
-    let (message, whose) = match friction.as_slice() {
+    let (of, whose) = match friction.as_slice() {
         [_] => (
-            format!(
-                "the Coulomb friction of joint `{}`, {}, is left out",
-                joint.name, first.text
-            ),
+            format!("joint `{}`, {},", joint.name, first.text),
             "the joint",
         ),
-        all => (
-            format!("the Coulomb friction of {} is left out", names(all)),
-            "each joint its own, such as",
-        ),
+        all => (names(all), "each joint its own, such as"),
     };
+    let message = format!("the Coulomb friction of {of} is left out");
     let help = format!(
         "to have it in the torques, give {whose} `coulomb = {}` and `coulomb_width = 0.01`, \
          the speed in {unit} over which its sign is smoothed",

@@ -1,7 +1,7 @@
 //! Whatever the bytes are: an answer, never a panic, and the same one twice; and
 //! a robot file that was made reads.
 
-use crate::support::{NAMES, snapped, source};
+use crate::support::{NAMES, data, snapped, source, to};
 use dalembert_import::{Options, import};
 use dalembert_model::read;
 
@@ -17,23 +17,10 @@ impl Draw {
     }
 }
 
+/// The sign of the second −1 is not ASCII's.
 const WORDS: [&str; 16] = [
-    "",
-    "0",
-    "-1",
-    "1e400",
-    "1e-320",
-    "nan",
-    "inf",
-    "0x10",
-    ".5",
-    "5.",
-    "${pi/2}",
-    "1,5",
-    "\u{2212}1",
-    "1.5708",
-    "é\u{0}",
-    "revolute",
+    "", "0", "-1", "1e400", "1e-320", "nan", "inf", "0x10", ".5", "5.", "${pi/2}", "1,5", "−1",
+    "1.5708", "é\u{0}", "revolute",
 ];
 
 fn mutated(source: &str, draw: &mut Draw) -> String {
@@ -56,14 +43,11 @@ fn mutated(source: &str, draw: &mut Draw) -> String {
                 text.splice(at..end.min(at + 3), word.chars());
             }
             _ => {
-                let quote = text[at..].iter().position(|c| *c == '"').map(|q| at + q);
-                let Some(open) = quote else { continue };
-                let close = text[open + 1..].iter().position(|c| *c == '"');
-                let Some(close) = close.map(|q| open + 1 + q) else {
-                    continue;
-                };
+                let quote = |from: usize| Some(from + text[from..].iter().position(|c| *c == '"')?);
+                let inside = quote(at).and_then(|open| Some(open + 1..quote(open + 1)?));
+                let Some(inside) = inside else { continue };
                 let word = WORDS[draw.below(WORDS.len())];
-                text.splice(open + 1..close, word.chars());
+                text.splice(inside, word.chars());
             }
         }
         if text.is_empty() {
@@ -118,15 +102,8 @@ fn an_answer_for_every_mjcf() {
         ("geoms", "three"),
         ("so101", "gripper_link"),
     ];
-    let cases = tips.map(|(name, tip)| {
-        let path = format!("{}/tests/data/mjcf/{name}.xml", env!("CARGO_MANIFEST_DIR"));
-        let options = Options {
-            tip: Some(tip.to_owned()),
-            lock: vec![("*".to_owned(), "0".to_owned())],
-            ..Options::default()
-        };
-        (std::fs::read_to_string(path).unwrap(), options)
-    });
+    let source = |name: &str| data(&format!("mjcf/{name}.xml"));
+    let cases = tips.map(|(name, tip)| (source(name), to(tip, &[("*", "0")])));
     let (made, refused) = answers(0x2545_f491_4f6c_dd1d, &cases);
     // Small files: little of them may go.
     assert!(made > 5 && refused > 30, "{made} made, {refused} refused");
@@ -135,9 +112,8 @@ fn an_answer_for_every_mjcf() {
 #[test]
 fn hostile_files_are_refused_at_once() {
     let entities = "<!DOCTYPE r [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;\">]><robot name=\"&b;\"/>";
-    let links: String = (0..5000)
-        .map(|i| format!("<link name=\"l{i}\"/>"))
-        .collect();
+    let links = (0..5000).map(|i| format!("<link name=\"l{i}\"/>"));
+    let links: String = links.collect();
     let circle = "<link name=\"a\"/><link name=\"b\"/>\
         <joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>\
         <joint name=\"k\" type=\"fixed\"><parent link=\"b\"/><child link=\"a\"/></joint>";
@@ -173,10 +149,7 @@ fn hostile_files_are_refused_at_once() {
             ..Options::default()
         };
         let errors = import(&text, &options).expect_err("no robot");
-        assert!(
-            !errors.0.is_empty(),
-            "{base:?}: {}",
-            &text[..text.len().min(80)]
-        );
+        let begin = &text[..text.len().min(80)];
+        assert!(!errors.0.is_empty(), "{base:?}: {begin}");
     }
 }

@@ -89,10 +89,8 @@ fn the_bound_is_the_size_of_the_change() {
     // Weight times lever times δ is what a tilt can do at most; it is turned by a
     // matrix whose distance is √2 δ.
     let most = 2.0 * 9.81 * 0.5 * delta;
-    assert!(
-        (most..1.5 * most).contains(&bound),
-        "{bound:e} against {most:e}"
-    );
+    let is_near = (most..1.5 * most).contains(&bound);
+    assert!(is_near, "{bound:e} against {most:e}");
     let hand = change.hand(&still);
     assert!((delta..1.5 * delta).contains(&hand.angle), "{hand:?}");
     let quarter = 0.25 * delta..0.25 * 1.5 * delta;

@@ -6,7 +6,9 @@ use dalembert_model::outputs::{Argument, Quantity};
 use dalembert_model::reference::{JointVectors, Reference};
 use nalgebra::DVector;
 
-use crate::support::{flat, imported, json, refused, relative, source};
+use crate::support::{
+    data, flat, has, imported, json, locks, refused, relative, source, taken, to,
+};
 
 const ARM: &str = "wafer";
 
@@ -20,16 +22,10 @@ fn options() -> Options {
 #[test]
 fn the_runtime_gives_what_pinocchio_gives() {
     let imported = imported(ARM, &options());
-    let folder = env!("CARGO_MANIFEST_DIR");
-    let kept = std::fs::read_to_string(format!("{folder}/../../codegen/tests/data/{ARM}.toml"));
-    assert_eq!(kept.unwrap(), imported.text);
-    let names: Vec<_> = imported
-        .robot
-        .joints
-        .iter()
-        .map(|j| j.name.clone())
-        .collect();
-    let names: Vec<&str> = names.iter().map(|name| name.as_deref().unwrap()).collect();
+    let kept = data(&format!("../../../../codegen/tests/data/{ARM}.toml"));
+    assert_eq!(kept, imported.text);
+    let joints = imported.robot.joints.iter();
+    let names: Vec<&str> = joints.map(|j| j.name.as_deref().unwrap()).collect();
     assert_eq!(names, ["turn", "lift", "shoulder", "tilt"]);
     let runtime = Reference::<f64>::from_robot(&imported.robot);
     let json = json(ARM);
@@ -59,14 +55,11 @@ fn limits_of_a_follower_are_its_leaders() {
     let [lift, shoulder] = [1, 2].map(|joint| &robot.joints[joint].limits);
     let text = dalembert_model::robot::write(&robot);
     // extend: 0.75 q + 0.02 in 0 to 0.32; elbow: −2 q + 0.1 in −2.7 to 2.9.
-    assert!(
-        text.contains("limits = { position = [0, 0.4], velocity = 0.6"),
-        "{text}"
-    );
-    assert!(
-        text.contains("limits = { position = [-1.4, 1.4], velocity = 2.5"),
-        "{text}"
-    );
+    let limits = [
+        "limits = { position = [0, 0.4], velocity = 0.6",
+        "limits = { position = [-1.4, 1.4], velocity = 2.5",
+    ];
+    has(&text, &limits);
     assert!(lift.position.is_some() && shoulder.position.is_some());
     let again = dalembert_model::read::parse(&text).unwrap();
     assert_eq!(again.robot, robot);
@@ -74,17 +67,15 @@ fn limits_of_a_follower_are_its_leaders() {
 
 #[test]
 fn followers_are_held_with_their_leader() {
-    let held = Options {
-        lock: vec![("shoulder".into(), "0.25".into())],
-        ..options()
+    let robot = |lock: &[(&str, &str)]| {
+        let options = Options {
+            lock: locks(lock),
+            ..options()
+        };
+        imported(ARM, &options).robot
     };
-    let fixed = Options {
-        lock: [("shoulder", "0.25"), ("elbow", "-0.4"), ("level", "0.25")]
-            .map(|(joint, at)| (joint.into(), at.into()))
-            .into(),
-        ..options()
-    };
-    let [held, fixed] = [held, fixed].map(|options| imported(ARM, &options).robot);
+    let held = robot(&[("shoulder", "0.25")]);
+    let fixed = robot(&[("shoulder", "0.25"), ("elbow", "-0.4"), ("level", "0.25")]);
     assert_eq!(held.joints.len(), 3);
     assert_eq!(held, fixed);
     let fingers = r#"<link name="thumb"><inertial><mass value="0.1"/><inertia ixx="1e-4" ixy="0" ixz="0" iyy="1e-4" iyz="0" izz="1e-4"/></inertial></link>
@@ -93,14 +84,7 @@ fn followers_are_held_with_their_leader() {
       <joint name="other" type="prismatic"><parent link="blade"/><child link="finger"/><axis xyz="0 1 0"/><mimic joint="grip" multiplier="-1" offset="0.01"/><limit lower="-0.04" upper="0.04" velocity="1" effort="1"/></joint>
     </robot>"#;
     let grips = source(ARM).replace("</robot>", fingers);
-    let at = |lock: &[(&str, &str)]| Options {
-        tip: Some("blade".into()),
-        lock: (lock.iter())
-            .map(|(joint, at)| ((*joint).into(), (*at).into()))
-            .collect(),
-        ..options()
-    };
-    let robot = |lock: &[(&str, &str)]| dalembert_import::import(&grips, &at(lock)).unwrap().robot;
+    let robot = |lock: &[(&str, &str)]| taken(&grips, &to("blade", lock)).robot;
     let follows = robot(&[("grip", "0.03")]);
     assert_eq!(follows, robot(&[("grip", "0.03"), ("other", "-0.02")]));
     assert_ne!(follows, robot(&[("grip", "0.03"), ("other", "0.01")]));
@@ -108,12 +92,6 @@ fn followers_are_held_with_their_leader() {
 
 #[test]
 fn what_cannot_follow_is_refused_by_name() {
-    let refusal = |from: &str, to: &str, base: Option<&str>| {
-        let changed = source(ARM).replace(from, to);
-        assert_ne!((changed.as_str(), base), (source(ARM).as_str(), None));
-        let base = base.map(str::to_owned);
-        refused(&changed, &Options { base, ..options() })
-    };
     for (from, to, base, said) in [
         (
             "multiplier=\"-2\"",
@@ -140,7 +118,9 @@ fn what_cannot_follow_is_refused_by_name() {
             "there is no position at which both are within their limits",
         ),
     ] {
-        let text = refusal(from, to, base);
-        assert!(text.contains(said), "{text}");
+        let changed = source(ARM).replace(from, to);
+        assert_ne!((changed.as_str(), base), (source(ARM).as_str(), None));
+        let base = base.map(str::to_owned);
+        has(&refused(&changed, &Options { base, ..options() }), &[said]);
     }
 }

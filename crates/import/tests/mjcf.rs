@@ -1,26 +1,20 @@
 //! Models of MuJoCo: torques, gravity loads, inertia matrices and poses are those of the
 //! `mujoco` package, and what cannot be read is refused by name.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::support::{Golden, bounded, flat_states, largest, worst};
+use crate::support::{Golden, bounded, flat_states, json, largest, locks, worst};
 use dalembert_import::{Imported, Options, open};
-use serde_json::Value;
 
 const NAMES: [&str; 8] = [
     "features", "degrees", "geoms", "panda", "so101", "xarm7", "ur5", "z1",
 ];
 
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/mjcf")
-}
-
 fn golden(name: &str) -> (Golden, Options) {
-    let path = folder().join(format!("{name}.golden.json"));
-    let json: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let json = json(&format!("mjcf/{name}"));
     let options = Options {
         tip: json["tip"].as_str().map(str::to_owned),
-        lock: vec![("*".to_owned(), "0".to_owned())],
+        lock: locks(&[("*", "0")]),
         snap: true,
         ..Options::default()
     };
@@ -28,7 +22,8 @@ fn golden(name: &str) -> (Golden, Options) {
 }
 
 fn imported(name: &str, options: &Options) -> Imported {
-    let opened = open(&folder().join(format!("{name}.xml")), options);
+    let path = format!("{}/tests/data/mjcf/{name}.xml", env!("CARGO_MANIFEST_DIR"));
+    let opened = open(Path::new(&path), options);
     opened.unwrap().imported.unwrap()
 }
 

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use crate::support::{has, refused};
+use crate::support::{has, refused, to};
 use dalembert_import::{Options, Text, import, import_text};
 
 const ARM: &str = r#"<mujoco model="arm">
@@ -31,11 +31,7 @@ const ARM: &str = r#"<mujoco model="arm">
 "#;
 
 fn at_the_hand() -> Options {
-    Options {
-        tip: Some("hand".into()),
-        lock: vec![("*".into(), "0".into())],
-        ..Options::default()
-    }
+    to("hand", &[("*", "0")])
 }
 
 fn with(what: &str, by: &str) -> String {
@@ -47,21 +43,9 @@ fn with(what: &str, by: &str) -> String {
 fn the_arm_itself_is_taken() {
     let imported = import(ARM, &at_the_hand()).unwrap();
     assert_eq!(imported.robot.joints.len(), 2);
-    assert!(
-        imported.text.contains("\narmature = 0.1\n"),
-        "{}",
-        imported.text
-    );
-    let at_the_site = Options {
-        tip: Some("grip".into()),
-        ..at_the_hand()
-    };
-    assert!(
-        import(ARM, &at_the_site)
-            .unwrap()
-            .text
-            .contains("to link grip of")
-    );
+    has(&imported.text, &["\narmature = 0.1\n"]);
+    let at_the_site = import(ARM, &to("grip", &[("*", "0")]));
+    has(&at_the_site.unwrap().text, &["to link grip of"]);
 }
 
 /// What of the arm is replaced by what, and below it words of what is said.
@@ -164,12 +148,9 @@ fn what_is_tied_beside_the_chain_is_held() {
         "<equality><joint joint1=\"follow\" joint2=\"finger\" polycoef=\"0.01 -2\"/></equality>\
          <tendon><fixed><joint joint=\"finger\" coef=\"1\"/></fixed></tendon></mujoco>",
     );
-    let options = Options {
-        lock: vec![("*".into(), "0".into()), ("finger".into(), "0.03".into())],
-        ..at_the_hand()
-    };
+    let options = to("hand", &[("*", "0"), ("finger", "0.03")]);
     let text = import(&source, &options).unwrap().text;
-    assert!(text.contains("`follow` at -0.05"), "{text}");
+    has(&text, &["`follow` at -0.05"]);
 }
 
 #[test]
@@ -178,19 +159,15 @@ fn a_tendon_over_one_joint_is_a_limit() {
         let tendon = format!("<tendon><fixed {tendon}/></fixed></tendon></mujoco>");
         let source = with("</mujoco>", &tendon);
         let text = import(&source, &at_the_hand()).unwrap().text;
-        let limits: Vec<String> = text
-            .lines()
-            .filter_map(|line| line.strip_prefix("limits = "))
-            .map(str::to_owned)
-            .collect();
-        limits.join(" ")
+        let lines = text.lines();
+        let limits = lines.filter_map(|line| line.strip_prefix("limits = "));
+        limits.collect::<Vec<_>>().join(" ")
     };
     let own = "{ position = [-1, 2] }";
     assert_eq!(limits("name=\"a\"><joint joint=\"turn\" coef=\"1\""), own);
     let range = |coef: &str| {
-        limits(&format!(
-            "range=\"-0.5 4\"><joint joint=\"turn\" coef=\"{coef}\""
-        ))
+        let tendon = format!("range=\"-0.5 4\"><joint joint=\"turn\" coef=\"{coef}\"");
+        limits(&tendon)
     };
     assert_eq!(range("1"), "{ position = [-0.5, 2] }");
     assert_eq!(range("-2"), "{ position = [-1, 0.25] }");
@@ -214,12 +191,7 @@ fn ties_are_ignored_where_that_is_asked_for() {
     let plain = import(ARM, &at_the_hand()).unwrap();
     assert_eq!(imported.robot.joints, plain.robot.joints);
     let said = "equality `weld`, fixed tendon `pull`, the equality of joint `reach`";
-    let mut notes = imported.robot.notes.iter();
-    assert!(
-        notes.any(|note| note.contains(said)),
-        "{:?}",
-        imported.robot.notes
-    );
+    has(&imported.robot.notes.join("\n"), &[said]);
 }
 
 #[test]
@@ -275,8 +247,8 @@ fn includes_are_checked() {
     let made = text(include, part).unwrap();
     let errors = import_text(&made, &Options::default()).unwrap_err();
     let shown = made.render(&errors.0);
-    assert!(shown.contains("robots/part.xml:2:36"), "{shown}");
-    assert!(shown.contains("`quat` has 1 numbers, not 4"), "{shown}");
+    let said = ["robots/part.xml:2:36", "`quat` has 1 numbers, not 4"];
+    has(&shown, &said);
 }
 
 #[test]
@@ -285,9 +257,10 @@ fn hostile_files_are_refused_at_once() {
         format!("{}{}", open.repeat(count), close.repeat(count))
     };
     let model = |inside: &str| format!("<mujoco><worldbody>{inside}</worldbody></mujoco>");
-    let classes: String = (0..6000)
-        .map(|i| format!("<default class='c{i}'/>"))
-        .collect();
+    let classes = (0..6000).map(|i| format!("<default class='c{i}'/>"));
+    let classes: String = classes.collect();
+    let body = |inside: String| model(&format!("<body>{inside}</body>"));
+    let default = |inside: &str| format!("<mujoco><default>{inside}</default></mujoco>");
     let entities = "<!DOCTYPE m [<!ENTITY a \"aaaaaaaaaa\">]><mujoco>&a;</mujoco>";
     let doubled = "<joint joint1='a' joint2='b'/><joint joint1='b' joint2='a'/>";
     let joint = "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/><joint type='slide' name=";
@@ -300,26 +273,16 @@ fn hostile_files_are_refused_at_once() {
         model(&nested("<body>", "</body>", 200)),
         model(&nested("<frame>", "</frame>", 100_000)),
         model(&"<body/>".repeat(100_000)),
-        model(&format!("<body>{}</body>", "<joint/>".repeat(50_000))),
-        model(&format!(
-            "<body>{}</body>",
-            "<site name='s'/>".repeat(50_000)
-        )),
-        format!("<mujoco><default>{classes}</default></mujoco>"),
-        format!(
-            "<mujoco>{}</mujoco>",
-            nested("<default class='a'>", "</default>", 200)
-        ),
+        body("<joint/>".repeat(50_000)),
+        body("<site name='s'/>".repeat(50_000)),
+        default(&classes),
+        default(&nested("<default class='a'>", "</default>", 199)),
         entities.to_owned(),
         model("<body pos='1e999999999 0 0'><joint/></body>"),
     ] {
         let errors = import(&text, &Options::default()).expect_err("no robot");
         assert!(!errors.0.is_empty(), "{}", &text[..text.len().min(80)]);
     }
-    let options = Options {
-        tip: Some("x".into()),
-        lock: vec![("*".into(), "0".into())],
-        ..Options::default()
-    };
-    assert_eq!(import(&circle, &options).unwrap().robot.joints.len(), 1);
+    let robot = import(&circle, &to("x", &[("*", "0")])).unwrap().robot;
+    assert_eq!(robot.joints.len(), 1);
 }

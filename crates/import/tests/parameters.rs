@@ -1,9 +1,10 @@
 //! τ = Y π with the ten numbers that the model itself gives of each link, in the frame of that link,
 //! what is fixed to it included.
 
-use crate::support::{exact, imported, source};
-use dalembert_import::{Options, import};
-use dalembert_model::outputs::{Argument, Quantity};
+use crate::support::{data, exact, imported, source, taken, to};
+use dalembert_import::Options;
+use dalembert_model::outputs::Argument::{Acceleration, Position, Velocity};
+use dalembert_model::outputs::Quantity;
 use dalembert_model::reference::{JointVectors, Reference};
 use dalembert_model::robot::Robot;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -50,17 +51,13 @@ fn origin(node: Node) -> Pose {
     let origin = child(node, "origin");
     let list = |key| origin.map_or(vec![0.0; 3], |own| list(own, key, "0 0 0"));
     let rpy = list("rpy");
-    let ([sr, sp, sy], [cr, cp, cy]) = (
-        [0, 1, 2].map(|i| rpy[i].sin()),
-        [0, 1, 2].map(|i| rpy[i].cos()),
-    );
+    let [sr, sp, sy] = [0, 1, 2].map(|i| rpy[i].sin());
+    let [cr, cp, cy] = [0, 1, 2].map(|i| rpy[i].cos());
     let about_x = Matrix3::new(1.0, 0.0, 0.0, 0.0, cr, -sr, 0.0, sr, cr);
     let about_y = Matrix3::new(cp, 0.0, sp, 0.0, 1.0, 0.0, -sp, 0.0, cp);
     let about_z = Matrix3::new(cy, -sy, 0.0, sy, cy, 0.0, 0.0, 0.0, 1.0);
-    Pose(
-        about_z * about_y * about_x,
-        Vector3::from_column_slice(&list("xyz")),
-    )
+    let at = Vector3::from_column_slice(&list("xyz"));
+    Pose(about_z * about_y * about_x, at)
 }
 
 fn add_link(sum: &mut Parameters, root: Node, link: &str, at: Pose, moving: &[String]) {
@@ -71,18 +68,13 @@ fn add_link(sum: &mut Parameters, root: Node, link: &str, at: Pose, moving: &[St
         let [xx, yy, zz, xy, yz, xz] =
             ["ixx", "iyy", "izz", "ixy", "iyz", "ixz"].map(|key| number("inertia", key));
         let inertia = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-        add(
-            sum,
-            number("mass", "value"),
-            inertia,
-            at.then(origin(inertial)),
-        );
+        let mass = number("mass", "value");
+        add(sum, mass, inertia, at.then(origin(inertial)));
     }
     for joint in tagged("joint") {
         let end = |tag: &str| child(joint, tag).and_then(|own| own.attribute("link"));
-        let is_moving = moving
-            .iter()
-            .any(|own| joint.attribute("name") == Some(own.as_str()));
+        let name = joint.attribute("name");
+        let is_moving = moving.iter().any(|own| name == Some(own.as_str()));
         if end("parent") == Some(link) && !is_moving {
             let at = at.then(origin(joint));
             add_link(sum, root, end("child").unwrap(), at, moving);
@@ -98,10 +90,8 @@ fn add_body(sum: &mut Parameters, body: Node, at: Pose) {
         let square = w * w + v.dot(&v);
         let turned = Matrix3::identity() * (w * w - v.dot(&v))
             + 2.0 * (v * v.transpose() + w * v.cross_matrix());
-        Pose(
-            turned / square,
-            Vector3::from_column_slice(&list(node, "pos", "0 0 0")),
-        )
+        let at = Vector3::from_column_slice(&list(node, "pos", "0 0 0"));
+        Pose(turned / square, at)
     };
     let inertial = child(body, "inertial").unwrap();
     let moments = list(inertial, "diaginertia", "0 0 0");
@@ -117,11 +107,8 @@ fn add_body(sum: &mut Parameters, body: Node, at: Pose) {
 fn parameters(robot: &Robot, text: &str) -> Vec<f64> {
     let document = Document::parse(text).unwrap();
     let root = document.root_element();
-    let names: Vec<String> = robot
-        .joints
-        .iter()
-        .map(|joint| joint.name.clone().unwrap())
-        .collect();
+    let joints = robot.joints.iter();
+    let names: Vec<String> = joints.map(|joint| joint.name.clone().unwrap()).collect();
     let link = |name: &String| {
         let mut sum = [0.0; 10];
         let named = |own: &Node| own.attribute("name") == Some(name.as_str());
@@ -141,10 +128,8 @@ fn parameters(robot: &Robot, text: &str) -> Vec<f64> {
 
 /// Compares Y π with the torques, relative to what the sums are made of.
 fn check(name: &str, robot: &Robot, text: &str) {
-    let (n, pi) = (
-        robot.joints.len(),
-        DVector::from_vec(parameters(robot, text)),
-    );
+    let n = robot.joints.len();
+    let pi = DVector::from_vec(parameters(robot, text));
     let runtime = Reference::<f64>::from_robot(robot);
     for state in 0..8 {
         let [q, qd, qdd] = [1.7, 2.3, 5.9].map(|most| {
@@ -156,11 +141,7 @@ fn check(name: &str, robot: &Robot, text: &str) {
                 .map(|own| own.to_f64().unwrap());
             viscous * qd[i] + armature * qdd[i]
         });
-        let given = [
-            Argument::Position,
-            Argument::Velocity,
-            Argument::Acceleration,
-        ];
+        let given = [Position, Velocity, Acceleration];
         let given = given.into_iter().zip([q, qd, qdd]);
         let y = runtime.entries(Quantity::LinkRegressor, &JointVectors::new(given));
         let y = DMatrix::from_row_slice(n, 10 * n, &y.unwrap());
@@ -170,19 +151,18 @@ fn check(name: &str, robot: &Robot, text: &str) {
     }
 }
 
-#[test]
-fn the_numbers_of_a_urdf_give_the_torques() {
-    let path = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../../gallery/urdf/iiwa14.urdf"
-    );
-    let text = std::fs::read_to_string(path).unwrap();
+fn robot(text: &str, tip: &str) -> Robot {
     let options = Options {
         exact: true,
-        tip: Some("iiwa_link_ee".to_owned()),
-        ..Options::default()
+        ..to(tip, &[])
     };
-    check("iiwa14", &import(&text, &options).unwrap().robot, &text);
+    taken(text, &options).robot
+}
+
+#[test]
+fn the_numbers_of_a_urdf_give_the_torques() {
+    let text = data("../../../../gallery/urdf/iiwa14.urdf");
+    check("iiwa14", &robot(&text, "iiwa_link_ee"), &text);
     for name in ["panda", "z1", "so101"] {
         check(name, &imported(name, &exact(name)).robot, &source(name));
     }
@@ -190,12 +170,6 @@ fn the_numbers_of_a_urdf_give_the_torques() {
 
 #[test]
 fn the_numbers_of_an_mjcf_give_the_torques() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/mjcf/ur5.xml");
-    let text = std::fs::read_to_string(path).unwrap();
-    let options = Options {
-        exact: true,
-        tip: Some("tool0".to_owned()),
-        ..Options::default()
-    };
-    check("ur5", &import(&text, &options).unwrap().robot, &text);
+    let text = data("mjcf/ur5.xml");
+    check("ur5", &robot(&text, "tool0"), &text);
 }

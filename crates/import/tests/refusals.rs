@@ -1,9 +1,9 @@
 //! What is refused, by name, with the line of the URDF and what to do about it;
 //! and what is said of what is taken.
 
-use crate::support::{has, refused, source};
-use dalembert_import::{Imported, Options, Snap, import};
-use dalembert_model::read::{self, Diagnostic, Severity};
+use crate::support::{has, locks, refused, source, taken, to};
+use dalembert_import::{Imported, Options, Snap};
+use dalembert_model::read::{self, Severity};
 
 const ARM: &str = r#"<?xml version="1.0"?>
 <robot name="Test Arm">
@@ -62,18 +62,14 @@ fn with(change: impl FnOnce(&mut Options)) -> Options {
 }
 
 fn locked(joint: &str, at: &str) -> Options {
-    with(|o| o.lock = vec![(joint.into(), at.into())])
+    with(|o| o.lock = locks(&[(joint, at)]))
 }
 
 fn others(at: &str) -> Options {
     Options {
-        lock: vec![("*".into(), at.into())],
+        lock: locks(&[("*", at)]),
         ..Options::default()
     }
-}
-
-fn taken(source: &str, options: &Options) -> Imported {
-    import(source, options).unwrap_or_else(|errors| panic!("{}", errors.render("arm.urdf", source)))
 }
 
 fn notes(imported: &Imported) -> Vec<(usize, &str)> {
@@ -126,11 +122,10 @@ fn one_note_for_one_fact() {
     let weightless = ARM.replace("<inertial>", "<!--");
     let weightless = weightless.replace("</inertial>", "-->");
     let imported = taken(&weightless, &at_the_hand());
-    let mut massless = notes(&imported);
-    massless.retain(|(_, message)| message.contains("no mass"));
+    let mut massless: Vec<&str> = notes(&imported).iter().map(|note| note.1).collect();
+    massless.retain(|message| message.contains("no mass"));
     let expected = "the links `upper`, `lower`, and what is fixed to them, have no mass";
-    assert_eq!(massless.len(), 1);
-    assert_eq!(massless[0].1, expected);
+    assert_eq!(massless, [expected]);
 }
 
 #[test]
@@ -160,13 +155,8 @@ fn what_is_locked_moves_with_the_link() {
 fn what_hangs_on_the_chain_is_held() {
     let limits = "<limit lower=\"0.01\" upper=\"0.04\" effort=\"1\"";
     let source = ARM.replacen("<limit effort=\"1\"", limits, 1);
-    let at = |joint: &str, at: &str| Options {
-        tip: Some("hand".into()),
-        lock: vec![(joint.into(), at.into())],
-        ..Options::default()
-    };
-    let own = taken(&source, &at("finger", "0.01"));
-    let held = taken(&source, &at("*", "0"));
+    let own = taken(&source, &to("hand", &[("finger", "0.01")]));
+    let held = taken(&source, &to("hand", &[("*", "0")]));
     assert_eq!(held.robot, own.robot);
     let said = "joints are held: `finger` at 0.01";
     has(&held.text, &[&format!("    \"{said}\",\n")]);
@@ -179,10 +169,8 @@ fn numbers_are_no_names() {
         let source = ARM.replace("name=\"turn\"", &format!("name=\"{turn}\""));
         let source = source.replace("name=\"reach\"", &format!("name=\"{reach}\""));
         let joints = taken(&source, &at_the_hand()).robot.joints.into_iter();
-        assert_eq!(
-            joints.flat_map(|joint| joint.name).collect::<Vec<_>>(),
-            names
-        );
+        let found: Vec<String> = joints.flat_map(|joint| joint.name).collect();
+        assert_eq!(found, names);
     }
 }
 
@@ -233,11 +221,8 @@ fn limits_are_where_a_joint_can_be() {
 fn refusals_name_the_joint_and_the_way_out() {
     let hand = at_the_hand();
     let open = with(|o| o.without.clear());
-    let mimic = ARM.replacen(
-        "<limit lower=\"-1\"",
-        "<mimic joint=\"reach\"/><limit lower=\"-1\"",
-        1,
-    );
+    let mimic = "<mimic joint=\"reach\"/><limit lower=\"-1\"";
+    let mimic = ARM.replacen("<limit lower=\"-1\"", mimic, 1);
     let kind = |kind: &str| ARM.replacen("type=\"prismatic\"", &format!("type=\"{kind}\""), 1);
     let cases: Vec<(String, Options, &[&str])> = vec![
         (ARM.into(), open.clone(), &["arm.urdf:28:3", "joint `finger` is prismatic", "add --lock finger=0", "--without thumb"]),
@@ -322,10 +307,8 @@ fn doubtful_inertials_are_named() {
         (&bare, Some((14, missing))),
     ];
     for (source, expected) in cases.into_iter().chain([(&ARM.to_owned(), None)]) {
-        let imported = taken(source, &at_the_hand());
-        let warnings = imported.notes.iter();
-        let warnings = warnings.filter(|note| note.severity == Severity::Warning);
-        let found: Vec<&Diagnostic> = warnings.collect();
+        let mut found = taken(source, &at_the_hand()).notes;
+        found.retain(|note| note.severity == Severity::Warning);
         assert_eq!(found.len(), usize::from(expected.is_some()), "{found:?}");
         for (own, (line, message)) in found.iter().zip(expected) {
             assert_eq!(own.line, line);
@@ -392,11 +375,8 @@ fn one_of_several_chains_holds_the_others() {
     let help = "choose the end by --tip: left, right; --lock-others 0 holds all else that hangs on the chain";
     let text = refused(&arms, &Options::default());
     has(&text, &["2 chains have 2 joints", help]);
-    let options = Options {
-        tip: Some("right".into()),
-        ..others("0")
-    };
-    has(&taken(&arms, &options).text, &["\"j_right\""]);
+    let right = taken(&arms, &to("right", &[("*", "0")]));
+    has(&right.text, &["\"j_right\""]);
     let frames = robot(&[
         ["continuous", "base", "arm"],
         ["fixed", "arm", "front"],

@@ -14,9 +14,8 @@ use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
 use dalembert_stamp::{Comment, Stamp};
 
-use crate::cache::{self, Folder};
+use crate::cache::{self, Entry, Folder, Proved};
 use crate::compile::Signature;
-use crate::entry::{Entry, Proved};
 use crate::error::LoadError;
 use crate::make::{claimed, made, read_robot};
 use crate::native::Native;

@@ -15,10 +15,11 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use dalembert_codegen::Plan;
+use dalembert_codegen::workspace::{Emitted, Sizes};
+use dalembert_codegen::{GeneratedFunction, Plan};
 use hmac_sha256::Hash;
+use serde::{Deserialize, Serialize};
 
-use crate::entry::Entry;
 use crate::request::{Cache, Load};
 
 /// Changes when entries of before mean something else, or the generator's sources change.
@@ -26,6 +27,61 @@ const GENERATOR: &str = concat!("entry 2 of ", env!("DALEMBERT_SOURCES"));
 
 /// Larger files are none of ours.
 const MAX_BYTES: u64 = 1 << 28;
+
+/// What is kept of a loaded arm.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Entry {
+    pub(crate) robot: String,
+    pub(crate) notes: Vec<String>,
+    pub(crate) functions: Vec<Proved>,
+    pub(crate) rust: Vec<String>,
+    pub(crate) claim: String,
+    /// With exact constants.
+    pub(crate) plan: String,
+    pub(crate) ended: bool,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Proved {
+    /// Its name, and what it bundles if it is a bundle.
+    pub(crate) function: String,
+    pub(crate) scalar: String,
+    /// The index in `rust`.
+    pub(crate) file: usize,
+    pub(crate) arguments: Vec<String>,
+    /// Rows, joints, base parameters and load: [`Sizes`].
+    pub(crate) sizes: [usize; 4],
+    pub(crate) proof: String,
+}
+
+impl Proved {
+    pub(crate) fn of(file: usize, function: &GeneratedFunction, emitted: &Emitted) -> Proved {
+        let sizes = emitted.sizes;
+        let arguments = function.program.arguments.iter();
+        let tolerance = match function.admitted {
+            None => "",
+            Some(_) => "; what a tolerance left out of it is bounded in its claim",
+        };
+        Proved {
+            function: function.function.text(),
+            scalar: emitted.scalar.name().to_owned(),
+            file,
+            arguments: arguments.map(|own| own.name().to_owned()).collect(),
+            sizes: [sizes.rows, sizes.joints, sizes.base, sizes.load],
+            proof: format!("{}{tolerance}", function.proof),
+        }
+    }
+
+    pub(crate) fn sizes(&self) -> Sizes {
+        let [rows, joints, base, load] = self.sizes;
+        Sizes {
+            rows,
+            joints,
+            base,
+            load,
+        }
+    }
+}
 
 pub(crate) struct Folder(PathBuf);
 
@@ -125,9 +181,8 @@ impl Folder {
         static WRITES: AtomicUsize = AtomicUsize::new(0);
         private_folder(&self.0).ok()?;
         let number = WRITES.fetch_add(1, Ordering::Relaxed);
-        let unfinished = self
-            .0
-            .join(format!("{name}.{}.{number}.tmp", process::id()));
+        let unfinished = format!("{name}.{}.{number}.tmp", process::id());
+        let unfinished = self.0.join(unfinished);
         let hash = hexadecimal(Hash::hash(text.as_bytes()));
         let written = private_file(&unfinished)
             .and_then(|mut file| file.write_all(format!("{hash}\n{text}").as_bytes()))
@@ -201,10 +256,8 @@ mod tests {
     fn another_generator_has_other_keys() {
         let ours = sources::hash(Path::new("."), &sources::SOURCES).unwrap();
         assert!(GENERATOR.ends_with(&ours), "of the sources as they are");
-        assert_ne!(
-            hash_of(GENERATOR, &["a"]),
-            hash_of("entry 1 of others", &["a"])
-        );
+        let others = hash_of("entry 1 of others", &["a"]);
+        assert_ne!(hash_of(GENERATOR, &["a"]), others);
     }
 
     #[test]
@@ -236,21 +289,14 @@ mod tests {
     #[test]
     fn a_request_has_its_key_wherever_it_is_kept() {
         let load = Load::default();
-        let off = Load {
-            cache: Cache::Off,
-            ..Load::default()
+        let with = |change: fn(&mut Load)| {
+            let mut load = load.clone();
+            change(&mut load);
+            load
         };
-        let thorough = Load {
-            asked: "effort: thorough".parse().unwrap(),
-            ..Load::default()
-        };
-        let exact = Load {
-            urdf: dalembert_import::Options {
-                exact: true,
-                ..Default::default()
-            },
-            ..Load::default()
-        };
+        let off = with(|load| load.cache = Cache::Off);
+        let thorough = with(|load| load.asked = "effort: thorough".parse().unwrap());
+        let exact = with(|load| load.urdf.exact = true);
         assert_eq!(key("a", "b", None, &load), key("a", "b", None, &off));
         let keys = [
             key("a", "b", None, &load),

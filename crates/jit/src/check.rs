@@ -25,9 +25,7 @@ const SPECIAL: [f64; 8] = [
 fn entry<T: Machine>(state: usize, argument: Argument, index: usize) -> T {
     let text = format!("{state} {} {index}", argument.name());
     let hash = hmac_sha256::Hash::hash(text.as_bytes());
-    let mut number = [0; 8];
-    number.copy_from_slice(&hash[..8]);
-    let number = u64::from_le_bytes(number);
+    let number = u64::from_le_bytes(std::array::from_fn(|byte| hash[byte]));
     let special = (number % 31 == 0 && state % 2 == 1)
         .then(|| SPECIAL[(number / 31) as usize % SPECIAL.len()]);
     let unit = (number >> 11) as f64 / (1u64 << 53) as f64;
@@ -44,12 +42,12 @@ fn reach(argument: Argument) -> f64 {
 
 fn drawn<T: Machine>(signature: &Signature) -> Vec<Vec<Vec<T>>> {
     let state = |state: usize| {
-        let of = |&(argument, len): &(Argument, usize)| {
-            (0..len)
-                .map(|index| entry(state, argument, index))
-                .collect()
-        };
-        signature.arguments.iter().map(of).collect()
+        let arguments = signature.arguments.iter();
+        let entries = arguments.map(|&(argument, len)| {
+            let entries = 0..len;
+            entries.map(|index| entry(state, argument, index)).collect()
+        });
+        entries.collect()
     };
     (0..STATES).map(state).collect()
 }
@@ -115,11 +113,8 @@ pub(crate) fn check_many<T: Machine + Default>(
     let rows = data.iter().zip(&signature.arguments);
     let rows = rows.map(|(data, &(_, len))| (data.as_slice(), place(len)));
     let rows: Vec<(&[T], Place)> = rows.collect();
-    let mut found: Vec<Vec<T>> = signature
-        .results
-        .iter()
-        .map(|len| vec![T::default(); len * STATES])
-        .collect();
+    let found = signature.results.iter();
+    let mut found: Vec<_> = found.map(|len| vec![T::default(); len * STATES]).collect();
     let results = found.iter_mut().zip(&signature.results);
     let results = results.map(|(data, &len)| (data.as_mut_slice(), place(len)));
     call(&rows, &mut results.collect::<Vec<_>>())?;
@@ -130,8 +125,7 @@ pub(crate) fn check_many<T: Machine + Default>(
         let own = found.iter().zip(&signature.results);
         let own: Vec<T> = own.flat_map(entries).collect();
         if let Some(result) = differing(&expected(program, signature, arguments), &own) {
-            let error = CompileError::Differs { state, result };
-            return Err(CallError::Compile(error));
+            return Err(CallError::Compile(CompileError::Differs { state, result }));
         }
     }
     Ok(())

@@ -62,18 +62,15 @@ pub(crate) fn compile(
         ("probestack_strategy", "inline"),
         ("enable_verifier", verifies.as_str()),
     ] {
-        flags.set(name, value).map_err(CompileError::cranelift)?;
+        CompileError::checked(flags.set(name, value))?;
     }
-    let isa = cranelift_native::builder().map_err(CompileError::cranelift)?;
-    let isa = isa.finish(settings::Flags::new(flags));
-    let isa = isa.map_err(CompileError::cranelift)?;
+    let isa = CompileError::checked(cranelift_native::builder())?;
+    let isa = CompileError::checked(isa.finish(settings::Flags::new(flags)))?;
     let mut builder = JITBuilder::with_isa(isa, default_libcall_names());
     builder.symbol(LIBRARY, library);
     let mut module = JITModule::new(builder);
     let function = define(&mut module, code, signature, states)?;
-    module
-        .finalize_definitions()
-        .map_err(CompileError::cranelift)?;
+    CompileError::checked(module.finalize_definitions())?;
     let entry = module.get_finalized_function(function);
     Ok((module, entry))
 }
@@ -94,11 +91,11 @@ fn define(
     let mut library = module.make_signature();
     library.params = vec![AbiParam::new(types::I64); 3];
     let library = module.declare_function(LIBRARY, Linkage::Import, &library);
-    let library = library.map_err(CompileError::cranelift)?;
+    let library = CompileError::checked(library)?;
     let mut own = module.make_signature();
     own.params = vec![AbiParam::new(types::I64); parameters];
     let function = module.declare_function("function", Linkage::Local, &own);
-    let function = function.map_err(CompileError::cranelift)?;
+    let function = CompileError::checked(function)?;
     let mut context: Context = module.make_context();
     context.func.signature = own;
     let library = module.declare_func_in_func(library, &mut context.func);
@@ -117,9 +114,7 @@ fn define(
     builder.ins().return_(&[]);
     builder.seal_all_blocks();
     builder.finalize(module.target_config());
-    module
-        .define_function(function, &mut context)
-        .map_err(CompileError::cranelift)?;
+    CompileError::checked(module.define_function(function, &mut context))?;
     Ok(function)
 }
 

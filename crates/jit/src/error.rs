@@ -29,8 +29,8 @@ pub enum CompileError {
 }
 
 impl CompileError {
-    pub(crate) fn cranelift(error: impl fmt::Display) -> CompileError {
-        CompileError::Cranelift(error.to_string())
+    pub(crate) fn checked<T>(result: Result<T, impl fmt::Display>) -> Result<T, CompileError> {
+        result.map_err(|error| CompileError::Cranelift(error.to_string()))
     }
 }
 
@@ -94,6 +94,21 @@ pub enum CallError {
     },
     /// There is no machine code for many states.
     Compile(CompileError),
+}
+
+impl CallError {
+    pub(crate) fn unless(self, holds: bool) -> Result<(), CallError> {
+        if holds { Ok(()) } else { Err(self) }
+    }
+
+    pub(crate) fn length(place: usize, expected: usize, found: usize) -> Result<(), CallError> {
+        let error = CallError::Length {
+            place,
+            expected,
+            found,
+        };
+        error.unless(expected == found)
+    }
 }
 
 impl fmt::Display for CallError {

@@ -29,7 +29,7 @@
 //! # Parts
 //!
 //! - `arm`, `request`: a robot and what is wanted of it; `make`: what is generated for it;
-//!   `entry`, `cache`: what is kept
+//!   `cache`: what is kept
 //! - `compile`: functions around a program; `program`: its instructions, `sines`: those of
 //!   its sines; `emit`: instructions on one number or a vector
 //! - `native`: the code in memory and its calls: all that is `unsafe`; `rows`: where
@@ -42,7 +42,6 @@ mod cache;
 mod check;
 mod compile;
 mod emit;
-mod entry;
 mod error;
 mod make;
 mod native;

@@ -2,14 +2,13 @@
 
 use std::path::Path;
 
-use dalembert_codegen::workspace::{Emitted, claim, generate_anew, input_hash, keep};
+use dalembert_codegen::workspace::{claim, generate_anew, input_hash, keep};
 use dalembert_codegen::{Generated, Plan, Request, generate};
 use dalembert_import::{Snap, Text};
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 
-use crate::cache::{self, Folder};
-use crate::entry::{Entry, Proved};
+use crate::cache::{self, Entry, Folder, Proved};
 use crate::error::LoadError;
 use crate::request::Load;
 
@@ -77,13 +76,11 @@ pub(crate) fn made(
 
 fn proved(generated: &Generated) -> Vec<Proved> {
     let functions = &generated.functions;
-    let emitted = generated.emitted.chunks(functions.len().max(1)).enumerate();
-    let of = |(file, emitted): (usize, &[Emitted])| {
-        let both = functions.iter().zip(emitted);
-        both.map(move |(function, emitted)| Proved::of(file, function, emitted))
-            .collect::<Vec<_>>()
-    };
-    emitted.flat_map(of).collect()
+    // File by file.
+    let emitted = generated.emitted.iter().enumerate();
+    let both = emitted.zip(functions.iter().cycle());
+    both.map(|((index, own), function)| Proved::of(index / functions.len(), function, own))
+        .collect()
 }
 
 pub(crate) fn claimed(

@@ -143,12 +143,10 @@ impl Native {
             States::Adjacent => Place::columns(entries, STATES),
             _ => Place::rows(entries),
         };
-        check_many(
-            &self.program,
-            &self.signature,
-            place,
-            |arguments, results| self.rows::<T>(code, arguments, results, STATES, 1),
-        )
+        let (program, signature) = (&self.program, &self.signature);
+        check_many(program, signature, place, |arguments, results| {
+            self.rows::<T>(code, arguments, results, STATES, 1)
+        })
     }
 
     /// Returns the program.
@@ -163,10 +161,7 @@ impl Native {
 
     fn check_scalar<T: Real>(&self) -> Result<(), CallError> {
         let expected = self.program.scalar;
-        match T::SCALAR == expected {
-            true => Ok(()),
-            false => Err(CallError::Scalar { expected }),
-        }
+        CallError::Scalar { expected }.unless(T::SCALAR == expected)
     }
 
     /// Computes the results of one state, one array after the other.
@@ -179,13 +174,10 @@ impl Native {
         count(expected.len(), arguments.len())?;
         let lengths = expected.iter().map(|&(_, len)| len).enumerate();
         for ((place, expected), argument) in lengths.zip(arguments) {
-            length(place, expected, argument.len())?;
+            CallError::length(place, expected, argument.len())?;
         }
-        length(
-            expected.len(),
-            self.program.dag.outputs.len(),
-            results.len(),
-        )?;
+        let outputs = self.program.dag.outputs.len();
+        CallError::length(expected.len(), outputs, results.len())?;
         self.run_one(arguments, results);
         Ok(())
     }
@@ -246,14 +238,10 @@ impl Native {
             place.check(at, len, states, data.len())?;
             place.check_apart(at, states)?;
         }
-        let read: Vec<(*const T, &Place)> = arguments
-            .iter()
-            .map(|(data, place)| (data.as_ptr(), place))
-            .collect();
-        let written: Vec<(*mut T, &Place)> = results
-            .iter_mut()
-            .map(|(data, place)| (data.as_mut_ptr(), &*place))
-            .collect();
+        let read = arguments.iter().map(|(data, place)| (data.as_ptr(), place));
+        let written = results.iter_mut();
+        let written = written.map(|(data, place)| (data.as_mut_ptr(), &*place));
+        let (read, written): (Vec<_>, Vec<_>) = (read.collect(), written.collect());
         let (read, written) = (Shared(read), Shared(written));
         let lanes = vector(self.program.scalar).lane_count() as usize;
         let threads = threads.clamp(1, (states / LEAST_STATES).max(1));
@@ -371,21 +359,7 @@ const LEAST_STATES: usize = 2048;
 pub const MOST_ARGUMENTS: usize = dalembert_codegen::workspace::Argument::COUNT;
 
 fn count(expected: usize, found: usize) -> Result<(), CallError> {
-    match expected == found {
-        true => Ok(()),
-        false => Err(CallError::Count { expected, found }),
-    }
-}
-
-fn length(place: usize, expected: usize, found: usize) -> Result<(), CallError> {
-    match expected == found {
-        true => Ok(()),
-        false => Err(CallError::Length {
-            place,
-            expected,
-            found,
-        }),
-    }
+    CallError::Count { expected, found }.unless(expected == found)
 }
 
 #[cfg(test)]

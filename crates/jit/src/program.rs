@@ -34,6 +34,43 @@ impl<R: FnMut(Argument, usize) -> Option<Value>> Inputs<'_, '_, R> {
     fn angle(&mut self, joint: usize) -> Result<Value, CompileError> {
         self.input(Input::Entry(Argument::Position, joint))
     }
+
+    fn sines(&mut self, code: &Code) -> Result<(), CompileError> {
+        let emitter = self.emitter;
+        let (own, called): (Vec<&Pair>, Vec<&Pair>) =
+            code.pairs.iter().partition(|pair| pair.kernel.is_some());
+        let mut pairs = Vec::new();
+        for pair in own {
+            let angle = self.angle(pair.joint)?;
+            if let Some(kernel) = &pair.kernel {
+                pairs.push((pair.joint, polynomials(emitter, kernel, angle)?));
+            }
+        }
+        let angles = called.iter().map(|pair| self.angle(pair.joint));
+        let angles = angles.collect::<Result<Vec<Value>, CompileError>>()?;
+        let computed = match (code.library, code.scalar) {
+            (Library::Together, ScalarType::F64) => together::<f64>(emitter, &angles),
+            (Library::Together, ScalarType::F32) => together::<f32>(emitter, &angles),
+            (Library::Libm, _) => {
+                let all = called.iter().zip(&angles);
+                let call = all.flat_map(|(pair, &angle)| {
+                    let kind = match (pair.need.sin, pair.need.cos) {
+                        (true, false) => Call::Sine,
+                        (false, true) => Call::Cosine,
+                        _ => Call::Both,
+                    };
+                    emitter.call(kind, &[angle], None)
+                });
+                call.collect()
+            }
+        };
+        pairs.extend(called.iter().map(|pair| pair.joint).zip(computed));
+        for (joint, (sin, cos)) in pairs {
+            self.read_before.insert(Input::Sin(joint), sin);
+            self.read_before.insert(Input::Cos(joint), cos);
+        }
+        Ok(())
+    }
 }
 
 pub(crate) fn emit(
@@ -46,7 +83,7 @@ pub(crate) fn emit(
         read,
         read_before: BTreeMap::new(),
     };
-    sines(&mut inputs, code)?;
+    inputs.sines(code)?;
     for speed in &code.speeds {
         let qd = inputs.input(Input::Entry(Argument::Velocity, speed.joint))?;
         let (one, square) = (emitter.constant(1.0), emitter.constant(speed.square.0));
@@ -56,52 +93,10 @@ pub(crate) fn emit(
             let root = b.ins().sqrt(sum);
             b.ins().fdiv(one, root)
         });
-        inputs
-            .read_before
-            .insert(Input::PerSpeed(speed.joint), value);
+        let name = Input::PerSpeed(speed.joint);
+        inputs.read_before.insert(name, value);
     }
     run(emitter, &code.dag, |input| inputs.input(*input))
-}
-
-fn sines<R>(inputs: &mut Inputs<'_, '_, R>, code: &Code) -> Result<(), CompileError>
-where
-    R: FnMut(Argument, usize) -> Option<Value>,
-{
-    let emitter = inputs.emitter;
-    let (own, called): (Vec<&Pair>, Vec<&Pair>) =
-        code.pairs.iter().partition(|pair| pair.kernel.is_some());
-    let mut pairs = Vec::new();
-    for pair in own {
-        let angle = inputs.angle(pair.joint)?;
-        if let Some(kernel) = &pair.kernel {
-            pairs.push((pair.joint, polynomials(emitter, kernel, angle)?));
-        }
-    }
-    let angles: Result<Vec<Value>, CompileError> =
-        called.iter().map(|pair| inputs.angle(pair.joint)).collect();
-    let angles = angles?;
-    let computed = match (code.library, code.scalar) {
-        (Library::Together, ScalarType::F64) => together::<f64>(emitter, &angles),
-        (Library::Together, ScalarType::F32) => together::<f32>(emitter, &angles),
-        (Library::Libm, _) => {
-            let all = called.iter().zip(&angles);
-            let call = all.flat_map(|(pair, &angle)| {
-                let kind = match (pair.need.sin, pair.need.cos) {
-                    (true, false) => Call::Sine,
-                    (false, true) => Call::Cosine,
-                    _ => Call::Both,
-                };
-                emitter.call(kind, &[angle], None)
-            });
-            call.collect()
-        }
-    };
-    pairs.extend(called.iter().map(|pair| pair.joint).zip(computed));
-    for (joint, (sin, cos)) in pairs {
-        inputs.read_before.insert(Input::Sin(joint), sin);
-        inputs.read_before.insert(Input::Cos(joint), cos);
-    }
-    Ok(())
 }
 
 /// A sine or cosine that is not wanted is the angle, which nobody reads.

@@ -41,13 +41,7 @@ impl Place {
         states: usize,
         length: usize,
     ) -> Result<(), CallError> {
-        if self.offsets.len() != entries {
-            return Err(CallError::Length {
-                place,
-                expected: entries,
-                found: self.offsets.len(),
-            });
-        }
+        CallError::length(place, entries, self.offsets.len())?;
         let (Some(last), Some(&farthest)) = (states.checked_sub(1), self.offsets.iter().max())
         else {
             return Ok(());
@@ -55,10 +49,8 @@ impl Place {
         let end = last.checked_mul(self.state);
         let end = end.and_then(|end| end.checked_add(farthest));
         // Offsets of bytes are signed in the code.
-        match end {
-            Some(end) if end < length && self.state < isize::MAX as usize / 8 => Ok(()),
-            _ => Err(CallError::Outside { place }),
-        }
+        let is_inside = end.is_some_and(|end| end < length) && self.state < isize::MAX as usize / 8;
+        CallError::Outside { place }.unless(is_inside)
     }
 
     /// Checks that no two numbers have one place: rows, columns, or a part of such.
@@ -67,19 +59,13 @@ impl Place {
         sorted.sort_unstable();
         let gaps = sorted.windows(2).map(|pair| pair[1] - pair[0]);
         let least = gaps.min().unwrap_or(usize::MAX);
-        let span = match (sorted.first(), sorted.last()) {
-            (Some(first), Some(last)) => last - first,
-            _ => return Ok(()),
+        let (Some(first), Some(last)) = (sorted.first(), sorted.last()) else {
+            return Ok(());
         };
-        let is_row = self.state > span;
-        let is_column = self.state > 0
-            && states
-                .saturating_sub(1)
-                .checked_mul(self.state)
-                .is_some_and(|length| length < least);
-        match states == 0 || (least > 0 && (states == 1 || is_row || is_column)) {
-            true => Ok(()),
-            false => Err(CallError::Overlap { place }),
-        }
+        let is_row = self.state > last - first;
+        let length = states.saturating_sub(1).checked_mul(self.state);
+        let is_column = self.state > 0 && length.is_some_and(|length| length < least);
+        let is_apart = states == 0 || (least > 0 && (states == 1 || is_row || is_column));
+        CallError::Overlap { place }.unless(is_apart)
     }
 }

@@ -38,10 +38,8 @@ impl<T: Into<f64>> Number<T> for Traced<'_, '_> {
 
     fn fused(self, factor: Self, addend: Self) -> Self {
         let Traced(own, emitter) = self;
-        Traced(
-            emitter.with(|b| b.ins().fma(own, factor.0, addend.0)),
-            emitter,
-        )
+        let fused = emitter.with(|b| b.ins().fma(own, factor.0, addend.0));
+        Traced(fused, emitter)
     }
 }
 

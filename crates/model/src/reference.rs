@@ -193,22 +193,18 @@ impl<T: Float> Reference<T> {
         let vector = |argument: Argument| &at.given[argument.index()];
         let position = Argument::Position;
         let q = self.positions(self.values(position, vector(position))?);
-        let mut given = Vec::with_capacity(Argument::COUNT);
-        for argument in Argument::ALL {
-            given.push(match argument {
-                Argument::Gravity | Argument::Load | Argument::Payload => Vec::new(),
-                _ if quantity.arguments().contains(&argument) => {
-                    self.values(argument, vector(argument))?.to_vec()
-                }
-                _ => zeros(argument.length(self.sizes())),
-            });
-        }
+        let given = Argument::ALL.into_iter().map(|argument| match argument {
+            Argument::Gravity | Argument::Load | Argument::Payload => Ok(Vec::new()),
+            _ if quantity.arguments().contains(&argument) => {
+                self.values(argument, vector(argument)).map(<[T]>::to_vec)
+            }
+            _ => Ok(zeros(argument.length(self.sizes()))),
+        });
+        let mut given = given.collect::<Result<Vec<Vec<T>>, WrongLength>>()?;
         let mut motion = Motion::new(q, |argument| core::mem::take(&mut given[argument.index()]));
         motion.loading.clone_from(&at.loading);
-        let arm = match quantity.facts().depends_on_base {
-            true => &self.whole,
-            false => &self.arm,
-        };
+        let is_of_whole = quantity.facts().depends_on_base;
+        let arm = if is_of_whole { &self.whole } else { &self.arm };
         let motion = motion.of_rows(&arm.following);
         let arm = at_speeds(arm, &motion.qd);
         let columns = match quantity.shape().0.contains(&Axis::LinkParameters) {

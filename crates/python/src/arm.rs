@@ -40,17 +40,15 @@ impl Arm {
     /// Returns the joints: their names and kinds.
     #[getter]
     fn joints(&self) -> Vec<(String, &'static str)> {
-        let joints = self.0.robot().joints.iter().enumerate();
-        let of = |(index, joint): (usize, &Joint)| {
+        let of = |(number, joint): (usize, &Joint)| {
             let name = joint.name.clone();
-            let name = name.unwrap_or_else(|| format!("joint{}", index + 1));
             let kind = match joint.kind {
                 JointKind::Revolute => "revolute",
                 JointKind::Prismatic => "prismatic",
             };
-            (name, kind)
+            (name.unwrap_or_else(|| format!("joint{number}")), kind)
         };
-        joints.map(of).collect()
+        (1..).zip(&self.0.robot().joints).map(of).collect()
     }
 
     /// Returns each joint's limits: lowest and highest position, velocity, acceleration, torque;
@@ -60,10 +58,8 @@ impl Arm {
         let joints = self.0.robot().joints.iter().map(|joint| {
             let limits = &joint.limits;
             let all = [f64::NEG_INFINITY, f64::INFINITY];
-            let [low, high] = limits
-                .position
-                .as_ref()
-                .map_or(all, |l| l.each_ref().map(Position::to_f64));
+            let position = limits.position.as_ref();
+            let [low, high] = position.map_or(all, |l| l.each_ref().map(Position::to_f64));
             let [velocity, acceleration, torque] =
                 [&limits.velocity, &limits.acceleration, &limits.torque]
                     .map(|most| most.as_ref().map_or(f64::INFINITY, f64::nearest_rational));

@@ -6,10 +6,8 @@ use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use crate::convert;
+use crate::convert::{self, Quantity, broadcast, shown};
 use crate::memory::{self, Layout};
-use crate::results::{self, Quantity};
-use crate::shape::{broadcast, shown};
 
 /// For fewer states, letting other threads of Python run takes longer than computing.
 const RELEASE: usize = 64;
@@ -55,7 +53,7 @@ impl Call<'_> {
         if self.refuses_nan {
             self.refuse_nan(&read)?;
         }
-        let results = results::arrays::<T>(py, self.name(), self.quantities, &batch, out)?;
+        let results = convert::arrays::<T>(py, self.name(), self.quantities, &batch, out)?;
         let mut written: Vec<Layout<T>> = Vec::with_capacity(results.len());
         let mut copies = Vec::with_capacity(results.len());
         for (array, (_, shape)) in results.iter().zip(self.quantities) {

@@ -1,11 +1,14 @@
-//! Objects of Python as arrays of the scalar that is computed in, and errors as exceptions.
+//! Objects of Python as arrays of the scalar that is computed in, and errors as exceptions; the
+//! arrays that results are written to; how Python writes shapes, how leading axes are broadcast.
 
 use dalembert_jit::{LoadError, Real, Scalar};
-use numpy::{Element, PyArrayDyn};
+use numpy::{Element, PyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+
+use crate::memory::zeros;
 
 pub(crate) fn dtype(scalar: Scalar) -> &'static str {
     match scalar {
@@ -48,4 +51,84 @@ pub(crate) fn raised(error: &LoadError) -> PyErr {
         LoadError::Compile(..) => PyRuntimeError::new_err(error.to_string()),
         _ => PyValueError::new_err(error.to_string()),
     }
+}
+
+/// A result: its name, and its shape for one state.
+pub(crate) type Quantity = (&'static str, Vec<usize>);
+
+pub(crate) fn arrays<'py, T: Real + Element>(
+    py: Python<'py>,
+    function: &str,
+    quantities: &[Quantity],
+    batch: &[usize],
+    out: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Vec<Bound<'py, PyArrayDyn<T>>>> {
+    let whole = |(_, shape): &Quantity| -> Vec<usize> { [batch, shape].concat() };
+    let Some(out) = out else {
+        let new = |quantity: &Quantity| zeros(py, &whole(quantity));
+        return quantities.iter().map(new).collect();
+    };
+    let given: Vec<Bound<'py, PyAny>> = match quantities.len() {
+        1 => vec![out.clone()],
+        _ => out.try_iter()?.collect::<PyResult<_>>()?,
+    };
+    if given.len() != quantities.len() {
+        let (found, expected) = (given.len(), quantities.len());
+        return Err(PyValueError::new_err(format!(
+            "{function}: `out` has {found} arrays, expected {expected}"
+        )));
+    }
+    let checked = |(object, quantity): (Bound<'py, PyAny>, &Quantity)| {
+        checked(function, object, quantity.0, &whole(quantity))
+    };
+    given.into_iter().zip(quantities).map(checked).collect()
+}
+
+fn checked<'py, T: Real + Element>(
+    function: &str,
+    object: Bound<'py, PyAny>,
+    name: &str,
+    expected: &[usize],
+) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
+    let shape = shown(expected);
+    let array = object.cast_into::<PyArrayDyn<T>>().map_err(|_| {
+        let dtype = dtype(T::SCALAR);
+        PyTypeError::new_err(format!(
+            "{function}: `out` for `{name}` must be an array of {dtype} with shape {shape}"
+        ))
+    })?;
+    if array.shape() != expected {
+        let found = shown(array.shape());
+        return Err(PyValueError::new_err(format!(
+            "{function}: `out` for `{name}` has shape {found}, expected {shape}"
+        )));
+    }
+    let is_writeable = array.getattr("flags")?.getattr("writeable")?;
+    match is_writeable.extract()? {
+        true => Ok(array),
+        false => Err(PyValueError::new_err(format!(
+            "{function}: `out` for `{name}` is read-only"
+        ))),
+    }
+}
+
+pub(crate) fn shown(shape: &[usize]) -> String {
+    let lengths: Vec<String> = shape.iter().map(usize::to_string).collect();
+    let end = if shape.len() == 1 { "," } else { "" };
+    format!("({}{end})", lengths.join(", "))
+}
+
+/// Broadcasts two shapes by NumPy's rule; `None` where they do not fit.
+pub(crate) fn broadcast(left: &[usize], right: &[usize]) -> Option<Vec<usize>> {
+    let axes = left.len().max(right.len());
+    // The length of an axis, counted from the last.
+    let length = |shape: &[usize], axis: usize| {
+        let place = (axis + shape.len()).checked_sub(axes);
+        place.map_or(1, |place| shape[place])
+    };
+    let both = |axis| match (length(left, axis), length(right, axis)) {
+        (1, other) | (other, 1) => Some(other),
+        (one, other) => (one == other).then_some(one),
+    };
+    (0..axes).map(both).collect()
 }

@@ -9,10 +9,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::call::Call;
-use crate::convert::dtype;
+use crate::convert::{Quantity, dtype, shown};
 use crate::payload::{self, Load};
-use crate::results::Quantity;
-use crate::shape::shown;
 use crate::xla;
 
 /// A function of an arm, in one scalar or both.
@@ -148,10 +146,8 @@ impl Function {
     }
 
     fn __repr__(&self) -> String {
-        let results = self.quantities.iter();
-        let results: Vec<String> = results
-            .map(|(name, shape)| format!("{name} {}", shown(shape)))
-            .collect();
+        let result = |(name, shape): &Quantity| format!("{name} {}", shown(shape));
+        let results: Vec<String> = self.quantities.iter().map(result).collect();
         let (name, arguments) = (self.__name__(), self.arguments.join(", "));
         format!("{name}({arguments}) -> {}", results.join(", "))
     }
@@ -179,13 +175,11 @@ impl Function {
         // Of both, floats are for who gives nothing else.
         let is_f32 = |array: &Bound<'_, PyAny>| array.cast::<PyArrayDyn<f32>>().is_ok();
         match (self.in_scalar(Scalar::F64), self.in_scalar(Scalar::F32)) {
-            (Some(own), None) => self.call::<f64>(py, own, &given, out, threads),
-            (None, Some(own)) => self.call::<f32>(py, own, &given, out, threads),
-            (Some(_), Some(own)) if given.iter().all(is_f32) => {
+            (double, Some(own)) if double.is_none() || given.iter().all(is_f32) => {
                 self.call::<f32>(py, own, &given, out, threads)
             }
-            (Some(own), Some(_)) => self.call::<f64>(py, own, &given, out, threads),
-            (None, None) => Err(PyTypeError::new_err("nothing was compiled")),
+            (Some(own), _) => self.call::<f64>(py, own, &given, out, threads),
+            (None, _) => Err(PyTypeError::new_err("nothing was compiled")),
         }
     }
 }

@@ -1,13 +1,4 @@
 //! The Rust side of the Python package: arms, and functions that take NumPy arrays.
-//!
-//! - `load`: loading an arm, with progress and an end by Ctrl-C
-//! - `arm`: what is known of an arm
-//! - `function`: what is known of a function, and its arguments by place or by name
-//! - `payload`: which payloads are refused, and the loads that they are
-//! - `call`: a call with arrays; `convert`: objects as arrays, `shape`: broadcasting,
-//!   `results`: where results go
-//! - `xla`: calls from compiled programs of JAX
-//! - `memory`: arrays and buffers as slices: all that is `unsafe`
 #![deny(unsafe_code)]
 
 mod arm;
@@ -17,16 +8,13 @@ mod function;
 mod load;
 mod memory;
 mod payload;
-mod results;
-mod shape;
 mod xla;
 
 use std::ffi::OsString;
 
 use pyo3::prelude::*;
 
-/// Runs the command with its arguments, the first of which is its name, and returns the exit
-/// code.
+/// Runs the command with its arguments, the first of which is its name, and returns the exit code.
 #[pyfunction]
 fn command(arguments: Vec<OsString>) -> u8 {
     dalembert_cli::run(arguments)

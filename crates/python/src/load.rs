@@ -6,8 +6,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use dalembert_jit::{Cache, Load, OPTIONS};
-use dalembert_jit::{Observer, Progress, Watch};
+use dalembert_jit::{Cache, Load, OPTIONS, Observer, Progress, Watch};
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::robot::suggested_name;
@@ -189,10 +188,8 @@ fn wanted(options: &Options<'_, '_>) -> PyResult<Load> {
     }
     load.cache = match options.get::<PathBuf>("cache_folder")? {
         Some(folder) => Cache::At(folder),
-        None => match options.get("cache")?.unwrap_or(true) {
-            true => Cache::User,
-            false => Cache::Off,
-        },
+        None if options.get("cache")?.unwrap_or(true) => Cache::User,
+        None => Cache::Off,
     };
     Ok(load)
 }

@@ -54,10 +54,8 @@ impl<T: Element> Layout<T> {
         }
         let mut offsets = vec![0];
         for (&step, &length) in steps.iter().zip(shape).skip(state_axes) {
-            offsets = offsets
-                .iter()
-                .flat_map(|offset| (0..length).map(move |index| offset + index * step))
-                .collect();
+            let along = |offset: usize| (0..length).map(move |index| offset + index * step);
+            offsets = offsets.into_iter().flat_map(along).collect();
         }
         let (state, states) = match state_axes {
             0 => (0, 1),
@@ -363,10 +361,8 @@ unsafe fn numbers<T>(buffers: &Buffers, dtype: i32) -> Result<Vec<(*mut T, usize
         // kind of argument or result.
         let buffer = unsafe { &**buffers.items.add(index) };
         if buffer.dtype != dtype {
-            let found = buffer.dtype;
-            return Err(format!(
-                "buffer {index} is of XLA's type {found}, expected {dtype}"
-            ));
+            let found = format!("is of XLA's type {}", buffer.dtype);
+            return Err(format!("buffer {index} {found}, expected {dtype}"));
         }
         let mut length = 1;
         for axis in 0..usize::try_from(buffer.rank).unwrap_or(0) {

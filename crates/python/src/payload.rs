@@ -50,22 +50,16 @@ pub(crate) fn check(payloads: &Bound<'_, PyAny>) -> PyResult<()> {
     let Ok(rows) = rows.call_method0("tolist")?.extract::<Vec<Numbers>>() else {
         return Ok(());
     };
-    match rows
-        .iter()
-        .enumerate()
-        .find_map(|(k, own)| Some((k, defect(own)?)))
-    {
-        None => Ok(()),
-        Some((state, why)) => {
-            let which = if rows.len() > 1 {
-                format!(" at state {state}")
-            } else {
-                String::new()
-            };
-            let message = format!("load: argument `payload`{which}: {why}");
-            Err(PyValueError::new_err(message))
-        }
-    }
+    let mut states = rows.iter().enumerate();
+    let Some((state, why)) = states.find_map(|(state, own)| Some((state, defect(own)?))) else {
+        return Ok(());
+    };
+    let which = match rows.len() > 1 {
+        true => format!(" at state {state}"),
+        false => String::new(),
+    };
+    let message = format!("load: argument `payload`{which}: {why}");
+    Err(PyValueError::new_err(message))
 }
 
 /// Moments may be rounded to six digits, as in generated code.

@@ -44,22 +44,19 @@ pub(crate) fn run<T: Real>(
     };
     let whole = |(found, length): (usize, &usize)| found == states * length;
     let mut read = arguments.iter().map(|data| data.len()).zip(&lengths);
-    let mut written = results
-        .iter()
-        .map(|data| data.len())
-        .zip(&signature.results);
+    let written = results.iter().map(|data| data.len());
+    let mut written = written.zip(&signature.results);
+    let name = function.name();
     if !(read.all(whole) && written.all(whole)) {
-        let name = function.name();
-        return Err(format!(
-            "{name}: expected {lengths:?} numbers of {states} states"
-        ));
+        let expected = format!("{lengths:?} numbers of {states} states");
+        return Err(format!("{name}: expected {expected}"));
     }
-    let rows = arguments.iter().zip(&lengths);
-    let rows = rows.map(|(&data, &length)| (data, Place::rows(length)));
-    let rows: Vec<(&[T], Place)> = rows.collect();
-    let out = results.into_iter().zip(&signature.results);
-    let out = out.map(|(data, &length)| (data, Place::rows(length)));
-    let mut out: Vec<(&mut [T], Place)> = out.collect();
+    let places = |lengths: &[usize]| -> Vec<Place> {
+        lengths.iter().map(|&length| Place::rows(length)).collect()
+    };
+    let rows = arguments.iter().copied().zip(places(&lengths));
+    let out = results.into_iter().zip(places(&signature.results));
+    let (rows, mut out): (Vec<_>, Vec<_>) = (rows.collect(), out.collect());
     let done = native.call_rows(&rows, &mut out, states, 1);
-    done.map_err(|error| format!("{}: {error}", function.name()))
+    done.map_err(|error| format!("{name}: {error}"))
 }

@@ -111,9 +111,8 @@
 #![forbid(unsafe_code)]
 
 mod angle;
-mod double;
+mod constants;
 mod number;
-mod single;
 #[cfg(test)]
 mod tests;
 #[cfg(any(

@@ -205,9 +205,7 @@ impl<T: Copy, V: Number<T>> Number<T> for Pair<V> {
 
     #[inline(always)]
     fn fused(self, factor: Self, addend: Self) -> Self {
-        Pair(
-            self.0.fused(factor.0, addend.0),
-            self.1.fused(factor.1, addend.1),
-        )
+        let first = self.0.fused(factor.0, addend.0);
+        Pair(first, self.1.fused(factor.1, addend.1))
     }
 }

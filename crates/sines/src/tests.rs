@@ -9,7 +9,8 @@ use dalembert_model::scalar::field::Points;
 use std::vec::Vec;
 
 use crate::angle::{Angle, singly};
-use crate::{double, single, vectors};
+use crate::constants::{COSINE, COSINE_F32, SINE, SINE_F32};
+use crate::vectors;
 
 fn exact(x: f64) -> Rational {
     Rational::from_float(x).unwrap()
@@ -80,18 +81,14 @@ fn error(polynomial: &[f64], first: u64, power: usize, reach: f64) -> f64 {
 /// r⁴·Δp is the absolute one.
 #[test]
 fn polynomials_are_as_near_as_stated() {
-    let single_sine = single::SINE.map(f64::from);
-    let single_cosine = single::COSINE.map(f64::from);
+    let sine = SINE_F32.map(f64::from);
+    let cosine = COSINE_F32.map(f64::from);
     let least = (0.78545f64.sin() / 0.78545).log2();
     for (what, found, stated) in [
-        ("sine", error(&double::SINE, 3, 2, 0.78541) - least, -57.6),
-        ("cosine", error(&double::COSINE, 4, 4, 0.78541), -63.9),
-        (
-            "sine of f32",
-            error(&single_sine, 3, 2, 0.78545) - least,
-            -27.6,
-        ),
-        ("cosine of f32", error(&single_cosine, 4, 4, 0.78545), -32.9),
+        ("sine", error(&SINE, 3, 2, 0.78541) - least, -57.6),
+        ("cosine", error(&COSINE, 4, 4, 0.78541), -63.9),
+        ("sine of f32", error(&sine, 3, 2, 0.78545) - least, -27.6),
+        ("cosine of f32", error(&cosine, 4, 4, 0.78545), -32.9),
     ] {
         std::println!("{what}: 2^{found:.2}");
         assert!(found < stated, "{what}: 2^{found}");

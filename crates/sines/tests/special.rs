@@ -18,36 +18,32 @@ fn same(a: f64, b: f64) -> bool {
 #[test]
 fn what_polynomials_are_not_for_is_libms() {
     let large = [LARGEST.next_up(), 1e5, 1e22, f64::MAX, f64::INFINITY];
-    for x in large.into_iter().chain([f64::NAN]) {
-        for x in [x, -x] {
-            let ([sin], [cos]) = sincos(&[x]);
-            let (libm_sin, libm_cos) = libm::sincos(x);
-            assert!(same(sin, libm_sin) && same(cos, libm_cos), "{x:e}");
-        }
+    let all = large.into_iter().chain([f64::NAN]);
+    for x in all.flat_map(|x| [x, -x]) {
+        let ([sin], [cos]) = sincos(&[x]);
+        let (libm_sin, libm_cos) = libm::sincos(x);
+        assert!(same(sin, libm_sin) && same(cos, libm_cos), "{x:e}");
     }
     let large = [LARGEST_F32.next_up(), 1e5, 1e22, f32::MAX, f32::INFINITY];
-    for x in large.into_iter().chain([f32::NAN]) {
-        for x in [x, -x] {
-            let ([sin], [cos]) = sincosf(&[x]);
-            let (libm_sin, libm_cos) = libm::sincosf(x);
-            let all_same = same(sin.into(), libm_sin.into()) && same(cos.into(), libm_cos.into());
-            assert!(all_same, "{x:e}");
-        }
+    let all = large.into_iter().chain([f32::NAN]);
+    for x in all.flat_map(|x| [x, -x]) {
+        let ([sin], [cos]) = sincosf(&[x]);
+        let (libm_sin, libm_cos) = libm::sincosf(x);
+        let all_same = same(sin.into(), libm_sin.into()) && same(cos.into(), libm_cos.into());
+        assert!(all_same, "{x:e}");
     }
 }
 
 #[test]
 fn what_is_tiny_is_its_own_sine() {
-    for x in [0.0, 5e-324, f64::MIN_POSITIVE, 1e-300, 1e-30, 1e-9] {
-        for x in [x, -x] {
-            assert_eq!(bits(sincos(&[x])), [(x.to_bits(), 1f64.to_bits())], "{x:e}");
-        }
+    let tiny = [0.0f64, 5e-324, f64::MIN_POSITIVE, 1e-300, 1e-30, 1e-9];
+    for x in tiny.into_iter().flat_map(|x| [x, -x]) {
+        assert_eq!(bits(sincos(&[x])), [(x.to_bits(), 1f64.to_bits())], "{x:e}");
     }
-    for x in [0.0, 1e-45, f32::MIN_POSITIVE, 1e-30, 1e-13, 1e-5] {
-        for x in [x, -x] {
-            let own = [(x.to_bits(), 1f32.to_bits())];
-            assert_eq!(bitsf(sincosf(&[x])), own, "{x:e}");
-        }
+    let tiny = [0.0f32, 1e-45, f32::MIN_POSITIVE, 1e-30, 1e-13, 1e-5];
+    for x in tiny.into_iter().flat_map(|x| [x, -x]) {
+        let own = [(x.to_bits(), 1f32.to_bits())];
+        assert_eq!(bitsf(sincosf(&[x])), own, "{x:e}");
     }
 }
 

@@ -1,6 +1,7 @@
 //! The options that somebody asked for: `outputs: inverse_dynamics, gravity; scalar: f64`.
 
 use std::fmt;
+use std::path::{Path, PathBuf};
 
 /// The options by their names, in the order in which they are written, and the word of each that
 /// means as much as leaving it out.
@@ -69,10 +70,15 @@ fn is_near(name: &str, found: &str) -> bool {
 
 /// Returns the end of the name of a file or module in Rust: `_f32` for that scalar of a pair.
 pub fn suffix(scalar: &str, is_pair: bool) -> &'static str {
-    match is_pair && scalar == "f32" {
-        true => "_f32",
-        false => "",
-    }
+    let is_second = is_pair && scalar == "f32";
+    if is_second { "_f32" } else { "" }
+}
+
+/// Returns the path of a file with the [`suffix`] of its scalar: `arm_f32.rs` beside `arm.rs`.
+pub fn beside(path: &Path, suffix: &str) -> PathBuf {
+    let base = path.file_stem().unwrap_or_default().to_string_lossy();
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{base}{suffix}.{ending}"))
 }
 
 /// Returns the items of a value, without the spaces in them and without empty ones.
@@ -94,17 +100,17 @@ impl Asked {
         let value = items(value).collect::<Vec<String>>().join(", ");
         self.0.retain(|(own, _)| own != name);
         if !value.is_empty() && value != *default {
+            let place = |name: &str| OPTIONS.iter().position(|(own, _)| *own == name);
             self.0.push((name, value));
-            self.0
-                .sort_by_key(|(own, _)| OPTIONS.iter().position(|(name, _)| name == own));
+            self.0.sort_by_key(|(own, _)| place(own));
         }
         Ok(())
     }
 
     /// Returns the value of an option; none where it was not asked for.
     pub fn get(&self, option: &str) -> Option<&str> {
-        let mut all = self.0.iter();
-        all.find_map(|(own, value)| (*own == option).then_some(value.as_str()))
+        self.iter()
+            .find_map(|(name, value)| (name == option).then_some(value))
     }
 
     /// Returns the items of an option's value.
@@ -115,9 +121,8 @@ impl Asked {
 
     /// Returns the options that were asked for, with their values.
     pub fn iter(&self) -> impl Iterator<Item = (&'static str, &str)> {
-        self.0
-            .iter()
-            .map(|(option, value)| (*option, value.as_str()))
+        let options = self.0.iter();
+        options.map(|(option, value)| (*option, value.as_str()))
     }
 
     /// Returns the options of each file in Rust, which has one scalar, and the end of its name before
@@ -152,10 +157,8 @@ impl Asked {
 
 impl fmt::Display for Asked {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let each = self
-            .iter()
-            .map(|(option, value)| format!("{option}: {value}"));
-        f.write_str(&each.collect::<Vec<String>>().join("; "))
+        let shown = |(option, value): (&str, &str)| format!("{option}: {value}");
+        f.write_str(&self.iter().map(shown).collect::<Vec<String>>().join("; "))
     }
 }
 
@@ -191,12 +194,10 @@ mod tests {
 
     #[test]
     fn each_file_in_rust_has_a_scalar() {
+        let file = |(suffix, own): (&str, Asked)| format!("{suffix} {own}");
         let files = |text: &str| {
             let asked: Asked = text.parse().unwrap();
-            let files = asked.by_scalar().into_iter();
-            files
-                .map(|(suffix, own)| format!("{suffix} {own}"))
-                .collect::<Vec<String>>()
+            asked.by_scalar().into_iter().map(file).collect::<Vec<_>>()
         };
         assert_eq!(files(""), [" scalar: f64"]);
         assert_eq!(files("scalar: f32"), [" scalar: f32"]);

@@ -6,6 +6,7 @@ use dalembert_model::robot::{Convention, Inertia, JointKind};
 use dalembert_model::scalar::Scalar;
 use serde_json::Value;
 
+use super::random::CONVENTIONS;
 use super::{arm, link};
 use crate::support::{data, vector};
 
@@ -33,10 +34,7 @@ fn triple(json: &Value) -> [f64; 3] {
 pub fn read(name: &str) -> (Arm<f64>, Vec<Value>) {
     let json = json(&format!("golden/{name}"));
     let robot = &json["robot"];
-    let convention = match robot["mdh"].as_bool().unwrap() {
-        true => Convention::Modified,
-        false => Convention::Standard,
-    };
+    let convention = CONVENTIONS[usize::from(robot["mdh"].as_bool().unwrap())];
     let links = list(&robot["links"]).iter().map(golden_link).collect();
     let golden = arm(convention, triple(&robot["gravity"]), links);
     (golden, list(&json["states"]).to_vec())

@@ -1,7 +1,6 @@
 //! Arms for the tests of the equations: golden robots and random general ones.
 
 pub mod golden;
-pub mod known;
 pub mod random;
 
 use dalembert_model::equations::frames::Frames;

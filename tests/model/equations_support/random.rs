@@ -8,8 +8,8 @@ use dalembert_model::robot::{Convention, Inertia, JointKind};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
 
-use super::known::Known;
 use super::{arm, link};
+use crate::equations_slips::Known;
 
 pub const CONVENTIONS: [Convention; 2] = [Convention::Standard, Convention::Modified];
 
@@ -57,10 +57,9 @@ pub fn position<S: Scalar>(
 }
 
 pub fn pose(points: &mut Points) -> Columns<Field> {
-    let turned = Columns::identity()
-        .turn_z(&pair(points))
-        .turn_y(&pair(points));
-    let axes = turned.turn_x(&pair(points)).axes;
+    let turned = Columns::identity().turn_z(&pair(points));
+    let turned = turned.turn_y(&pair(points)).turn_x(&pair(points));
+    let axes = turned.axes;
     let origin = triple(points);
     Columns { axes, origin }
 }

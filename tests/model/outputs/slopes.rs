@@ -51,9 +51,8 @@ fn derivatives_are_rates_along_a_motion() {
         let rates = |values: &[Dual<Field>]| values.iter().map(|x| x.rate).collect::<Vec<_>>();
         let weighed = |rows: &[Vec<Dual<Field>>]| -> Vec<Field> {
             let column = |k: usize| rows.iter().map(|row| row[k].rate).collect::<Vec<_>>();
-            (0..n)
-                .map(|k| dot(&column(k), &motion.multiplier))
-                .collect()
+            let sum = |k: usize| dot(&column(k), &motion.multiplier);
+            (0..n).map(sum).collect()
         };
         let [q_slopes, v_slopes] = form.acceleration_slopes(&arm, &at, &qd, &tau, &moves);
         let torques = rates(&form.inverse_dynamics(&arm, &at, &qd, &qdd));

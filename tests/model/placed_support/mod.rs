@@ -259,10 +259,8 @@ pub fn compare(arm: &Arm, robot: &Robot, drawn: &mut Drawn) -> f64 {
         ];
         let given = given.into_iter().zip([&q, &qd, &qdd].map(Clone::clone));
         let y = runtime.entries(Quantity::LinkRegressor, &JointVectors::new(given));
-        let (y, pi) = (
-            DMatrix::from_row_slice(n, 10 * n, &y.unwrap()),
-            parameters(arm),
-        );
+        let y = DMatrix::from_row_slice(n, 10 * n, &y.unwrap());
+        let pi = parameters(arm);
         let drives = arm.joints.iter().enumerate();
         let drives = drives.map(|(i, own)| own.viscous * qd[i] + own.armature * qdd[i]);
         let found = &y * &pi + DVector::from_iterator(n, drives);

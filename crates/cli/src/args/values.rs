@@ -19,10 +19,8 @@ use num_traits::Signed;
 
 pub fn acceleration_parser() -> impl TypedValueParser<Value = Rational> {
     StringValueParser::new().try_map(|text| {
-        let number = parse_decimal(text.trim()).ok();
-        number
-            .filter(Signed::is_positive)
-            .ok_or("a limit of acceleration is a number above zero, such as 10")
+        let number = parse_decimal(text.trim()).ok().filter(Signed::is_positive);
+        number.ok_or("a limit of acceleration is a number above zero, such as 10")
     })
 }
 
@@ -57,10 +55,9 @@ pub fn certified_parser() -> impl TypedValueParser<Value = PathBuf> {
 
 pub fn positive_parser() -> impl TypedValueParser<Value = f64> {
     StringValueParser::new().try_map(|text| {
-        let number = text.parse::<f64>().ok();
-        number
-            .filter(|number| *number > 0.0 && number.is_finite())
-            .ok_or("a tolerance is a number above zero, such as 1e-3")
+        let is_good = |number: &f64| *number > 0.0 && number.is_finite();
+        let number = text.parse::<f64>().ok().filter(is_good);
+        number.ok_or("a tolerance is a number above zero, such as 1e-3")
     })
 }
 

@@ -100,10 +100,9 @@ impl View {
     /// From the front (x to the right, z up) and from above (x to the right, y up).
     pub(super) fn both(points: &[Vector<f64>], outlines: &[Vector<f64>]) -> [View; 2] {
         let ranges = [0, 1, 2].map(|k| {
-            let values = points.iter().map(|point| point[k]);
-            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
-                [low.min(x), high.max(x)]
-            })
+            let values = || points.iter().map(|point| point[k]);
+            let low = values().fold(f64::INFINITY, f64::min);
+            [low, values().fold(f64::NEG_INFINITY, f64::max)]
         });
         let reach = ranges.iter().map(|[low, high]| high - low);
         let reach = reach.fold(0.0, f64::max);

@@ -1,5 +1,7 @@
 //! A sheet of SVG: lines, shapes and texts in the fonts and colours that all pictures share.
 
+use crate::terminal::printable;
+
 /// Rules of paper (p), ink (i) and tables (c) on a light screen. Texts have an outline in the colour
 /// of the paper, so that they are legible on lines.
 const LIGHT: &str = "\
@@ -63,7 +65,6 @@ impl Paper {
 }
 
 fn escaped(text: &str) -> String {
-    let plain = |c: char| if c.is_control() { '\u{fffd}' } else { c };
-    let plain: String = text.chars().map(plain).collect();
-    plain.replace('&', "&amp;").replace('<', "&lt;")
+    let text: String = text.chars().map(printable).collect();
+    text.replace('&', "&amp;").replace('<', "&lt;")
 }

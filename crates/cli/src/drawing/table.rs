@@ -74,8 +74,8 @@ fn angle(value: &Angle) -> String {
 }
 
 fn short(text: Option<String>, most: usize, value: f64) -> String {
-    text.filter(|text| text.len() <= most)
-        .unwrap_or_else(|| six(value))
+    let short = text.filter(|text| text.len() <= most);
+    short.unwrap_or_else(|| six(value))
 }
 
 fn six(value: f64) -> String {

@@ -131,11 +131,9 @@ impl Change {
                 made = carrying.apply(robot);
             }
             Change::Repeated(most) => {
-                let unnamed = robot.joints.iter().map(|joint| Joint {
-                    name: None,
-                    ..joint.clone()
-                });
-                made.joints = unnamed.cycle().take(most.min(Robot::MAX_JOINTS)).collect();
+                made.joints.iter_mut().for_each(|joint| joint.name = None);
+                let joints = made.joints.iter().cycle().cloned();
+                made.joints = joints.take(most.min(Robot::MAX_JOINTS)).collect();
             }
             _ => {}
         }
@@ -190,10 +188,8 @@ fn scale_mass(joint: &mut Joint, factor: &Rational) {
 }
 
 fn scale_length(joint: &mut Joint, factor: &Rational) {
-    let lengths = [&mut joint.a, &mut joint.d]
-        .into_iter()
-        .chain(&mut joint.com);
-    lengths.for_each(|length| *length *= factor);
+    let lengths = [&mut joint.a, &mut joint.d].into_iter();
+    lengths.chain(&mut joint.com).for_each(|x| *x *= factor);
     joint.inertia = joint.inertia.map(|entry| entry * factor * factor);
 }
 

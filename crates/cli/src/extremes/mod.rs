@@ -66,18 +66,15 @@ pub struct Row {
 
 impl Row {
     fn new(case: &'static str, held: Held, worst: Result<Worst, GenerateError>) -> Row {
+        let is_good = |worst: &Worst| {
+            (worst.vector <= VECTOR || matches!(held, Held::Entries | Held::Weight))
+                && (worst.entry <= ENTRY || held == Held::Vector)
+        };
         let verdict = match &worst {
-            Ok(worst) => {
-                let vector = worst.vector <= VECTOR || matches!(held, Held::Entries | Held::Weight);
-                let entry = worst.entry <= ENTRY || held == Held::Vector;
-                match vector && entry {
-                    true => Verdict::Good,
-                    // Where robots are, no result is beyond any range.
-                    false if worst.overflows && case != INSIDE => Verdict::OutOfRange,
-                    false => Verdict::Failed,
-                }
-            }
-            Err(_) => Verdict::OutOfRange,
+            Ok(worst) if is_good(worst) => Verdict::Good,
+            // Where robots are, no result is beyond any range.
+            Ok(worst) if !worst.overflows || case == INSIDE => Verdict::Failed,
+            Ok(_) | Err(_) => Verdict::OutOfRange,
         };
         Row {
             case,

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use dalembert_codegen::workspace::claim;
-use dalembert_codegen::{Asked, Language, RobotFile, ask};
+use dalembert_codegen::{Asked, Language, Problem, RobotFile, ask};
 use dalembert_import::{ChainArgs, Options, Text, read_robot};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::{Robot, suggested_name};
@@ -37,10 +37,9 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Outcome {
     let folder = &args.folder;
     let name = crate_name(folder)?;
     if fs::symlink_metadata(folder).is_ok() {
-        return Err(Failure::Input(format!(
-            "error: `{}` is there already\n  = help: give the crate another name",
-            folder.display()
-        )));
+        let help = "give the crate another name";
+        let why = format!("`{}` is there already\n  = help: {help}", folder.display());
+        return Err(Failure::input(why));
     }
     let robot_file = match &args.from {
         None => {
@@ -91,25 +90,19 @@ fn code(file: &RobotFile) -> Result<[String; 2], Failure> {
     let asked = asked.map_err(|error| Failure::Input(error.to_string()))?;
     let name = &file.robot.name;
     let made = ask(file, &asked, Language::Rust, name).map_err(|problems| {
-        let each = problems
-            .iter()
-            .map(|problem| format!("error: {}", problem.complaint.message));
-        Failure::Input(each.collect::<Vec<String>>().join("\n\n"))
+        let why = |problem: &Problem| format!("error: {}", problem.complaint.message);
+        let each: Vec<String> = problems.iter().map(why).collect();
+        Failure::Input(each.join("\n\n"))
     })?;
-    let files = made
-        .generated
-        .files(&made.request, &format!("{name}.toml"), &file.source);
-    let claim = claim(&file.robot, &file.source, &made.request, &made.generated);
-    let claim = claim.map_err(|why| Failure::Input(format!("error: {why}")))?;
-    Ok([files.concat(), claim.write()])
+    let (request, generated) = (&made.request, &made.generated);
+    let files = generated.files(request, &format!("{name}.toml"), &file.source);
+    let claim = claim(&file.robot, &file.source, request, generated);
+    Ok([files.concat(), claim.map_err(Failure::input)?.write()])
 }
 
 pub(crate) const EXPECTED: &str = "expected";
 
 /// Returns the torques that the new crate expects, at three states, by the recursion for any arm.
-///
-/// # Errors
-/// The recursion refuses the robot.
 pub(crate) fn expected(robot: &Robot) -> Result<String, Failure> {
     let n = robot.joints.len();
     let runtime = Reference::<f64>::from_robot(robot);
@@ -123,7 +116,7 @@ pub(crate) fn expected(robot: &Robot) -> Result<String, Failure> {
         let qd = DVector::from_fn(n, |k, _| value(k + 1, 2.0));
         let qdd = DVector::from_fn(n, |k, _| value(k + 2, 5.0));
         let tau = runtime.inverse_dynamics(&q, &qd, &qdd);
-        let tau = tau.map_err(|error| Failure::Input(format!("error: {error}")))?;
+        let tau = tau.map_err(Failure::input)?;
         Ok([q, qd, qdd, tau].map(|vector| vector.as_slice().to_vec()))
     };
     let states: Result<Vec<texts::State>, Failure> = (1..=texts::STATES).map(state).collect();
@@ -134,9 +127,8 @@ pub(crate) fn expected(robot: &Robot) -> Result<String, Failure> {
 fn crate_name(folder: &Path) -> Result<String, Failure> {
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
     let refused = |help: String| {
-        Err(Failure::Input(format!(
-            "error: {name:?} cannot name a crate\n  = help: {help}"
-        )))
+        let why = format!("{name:?} cannot name a crate\n  = help: {help}");
+        Err(Failure::input(why))
     };
     let plain = name.replace('-', "_");
     match suggested_name(&plain) {
@@ -144,7 +136,7 @@ fn crate_name(folder: &Path) -> Result<String, Failure> {
         None => {
             refused("lower-case letters, digits, hyphens and underscores, a letter first".into())
         }
-        Some(good) if good == texts::DEPENDENCY => refused(format!(
+        Some(good) if good == "dalembert" => refused(format!(
             "the new crate depends on the crate `{good}`: write \"my_{good}\""
         )),
         Some(_) => Ok(name.into_owned()),
@@ -166,9 +158,8 @@ fn dependency(folder: &Path) -> String {
 /// Relative if both are below one folder of the root, so that they can be moved together.
 fn path_from(folder: &Path, checkout: &Path) -> String {
     let path = relative(checkout, &folder.join("Cargo.toml"));
-    let down = checkout
-        .components()
-        .filter(|part| matches!(part, Component::Normal(_)));
+    let is_name = |part: &Component| matches!(part, Component::Normal(_));
+    let down = checkout.components().filter(is_name);
     // As many names as the checkout has: nothing but the root is shared.
     let names = path.split('/').filter(|part| *part != "..");
     match names.count() < down.count() {

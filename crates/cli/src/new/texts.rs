@@ -26,8 +26,6 @@ inertia = [0, \"1/12\", \"1/12\", 0, 0, 0]
 limits = { position = [\"-pi\", \"pi\"], velocity = 3, acceleration = 10, torque = 30 }
 ";
 
-pub(super) const DEPENDENCY: &str = "dalembert";
-
 pub(super) const ASKED: &str = "outputs: inverse_dynamics, gravity; scalar: f64; sincos: together";
 
 /// q, q̇, q̈ and the torques there.
@@ -48,10 +46,8 @@ pub(super) const STATES: usize = 3;
 
 pub(super) fn expected(states: &[State]) -> String {
     let rows = states.iter().map(|vectors| {
-        let lines = vectors
-            .each_ref()
-            .map(|vector| format!("        {vector:?},\n"));
-        format!("    [\n{}    ],\n", lines.concat())
+        let line = |vector: &Vec<f64>| format!("        {vector:?},\n");
+        format!("    [\n{}    ],\n", vectors.each_ref().map(line).concat())
     });
     let rows: String = rows.collect();
     format!(

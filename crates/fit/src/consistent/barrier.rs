@@ -59,8 +59,8 @@ impl Barrier {
             theta[10 * i..10 * i + 10].copy_from_slice(&moments(j));
         }
         for drive in &self.drives {
-            if let Drive::Positive(at, file) = drive {
-                theta[*at] = *file;
+            if let Drive::Positive(at, file) = *drive {
+                theta[at] = file;
             }
         }
         theta

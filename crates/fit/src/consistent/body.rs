@@ -2,10 +2,10 @@
 
 use dalembert_codegen::workspace::Parameter;
 use dalembert_model::equations::regressor::LinkParameter;
-use dalembert_model::number::Rounded;
+use dalembert_model::number::{Rational, Rounded};
 use dalembert_model::robot::Joint;
 
-use super::{Bodies, Search, Unknown};
+use super::{Bodies, Unknown};
 use crate::dense::{cholesky, dot};
 use crate::fit::Fit;
 use crate::model::Model;
@@ -97,7 +97,7 @@ pub(super) fn of_joint(joint: &Joint) -> (Pseudo, Pseudo) {
     }
 }
 
-fn named(unknown: Unknown) -> Option<String> {
+pub(super) fn named(unknown: Unknown) -> Option<String> {
     Some(match unknown {
         Unknown::Armature(joint) => Parameter::Armature(joint).to_string(),
         Unknown::Viscous(joint) => Parameter::Viscous(joint).to_string(),
@@ -110,20 +110,17 @@ fn shifted(a: &[[f64; 3]; 3], x: f64) -> [[f64; 3]; 3] {
     core::array::from_fn(|i| core::array::from_fn(|k| a[i][k] + if i == k { x } else { 0.0 }))
 }
 
+/// Returns the bodies of θ, without how they were found.
 pub(super) fn bodies(
     model: &Model,
     fit: &Fit,
     unknowns: &[Unknown],
     map: &[Vec<f64>],
     theta: &[f64],
-    search: Search,
 ) -> Bodies {
     let joints = &model.robot().joints;
-    let file = |of: fn(&Joint) -> &dalembert_model::number::Rational| -> Vec<f64> {
-        joints
-            .iter()
-            .map(|joint| f64::nearest_rational(of(joint)))
-            .collect()
+    let file = |of: fn(&Joint) -> &Rational| -> Vec<f64> {
+        joints.iter().map(of).map(f64::nearest_rational).collect()
     };
     let parameters: Vec<f64> = map.iter().map(|row| dot(row, theta)).collect();
     let moved = (parameters.iter().zip(&fit.parameters))
@@ -135,13 +132,11 @@ pub(super) fn bodies(
         viscous: file(|joint| &joint.viscous),
         coulomb: file(|joint| &joint.coulomb),
         offset: vec![0.0; joints.len()],
-        distance: search.distance,
+        distance: 0.0,
         moved: moved.fold(0.0, f64::max),
-        stopped: (search.stopped.iter().map(|at| unknowns[*at]))
-            .filter_map(named)
-            .collect(),
+        stopped: Vec::new(),
         parameters,
-        steps: search.steps,
+        steps: 0,
     };
     for (unknown, value) in unknowns.iter().zip(theta) {
         let place = match *unknown {

@@ -4,6 +4,7 @@ use super::POWER;
 use crate::dense::singular;
 use crate::error::Error;
 use crate::fourier::Trajectory;
+use crate::limits::Limits;
 use crate::model::Model;
 use crate::random::{Random, within};
 use crate::reference::Reference;
@@ -22,16 +23,17 @@ pub(super) struct Search<'a> {
 impl Search<'_> {
     pub(super) fn draw(&self, period: f64, harmonics: usize, random: &mut Random) -> Trajectory {
         let limits = self.model.limits();
-        let mut series =
-            |limit: f64| -> Vec<f64> { (0..harmonics).map(|_| within(random, limit)).collect() };
+        let mut series = |of: &Limits| -> Vec<f64> {
+            (0..harmonics)
+                .map(|_| within(random, of.velocity))
+                .collect()
+        };
+        let middle = limits.iter().map(|of| of.middle() + 0.1 * of.reach());
         let drawn = Trajectory {
             period,
-            cosines: limits.iter().map(|of| series(of.velocity)).collect(),
-            sines: limits.iter().map(|of| series(of.velocity)).collect(),
-            middle: limits
-                .iter()
-                .map(|of| of.middle() + 0.1 * of.reach())
-                .collect(),
+            cosines: limits.iter().map(&mut series).collect(),
+            sines: limits.iter().map(&mut series).collect(),
+            middle: middle.collect(),
         };
         drawn.filling(limits)
     }
@@ -58,9 +60,9 @@ impl Search<'_> {
         let width = self.model.columns().len();
         let mut all = Triangle::new(width);
         for time in self.times(trajectory) {
-            let y = self.rows(&trajectory.at(time))?;
-            y.chunks(width)
-                .for_each(|row| all.push(row.iter().copied()));
+            for row in self.rows(&trajectory.at(time))?.chunks(width) {
+                all.push(row.iter().copied());
+            }
         }
         Ok(all.reduced())
     }
@@ -186,10 +188,9 @@ impl Search<'_> {
             }
             steps.push(own);
         }
-        let factor = if square > 0.0 {
-            length / libm::sqrt(square)
-        } else {
-            0.0
+        let factor = match square > 0.0 {
+            true => length / libm::sqrt(square),
+            false => 0.0,
         };
         let mut next = from.clone();
         for (i, step) in steps.iter().enumerate() {
@@ -202,9 +203,7 @@ impl Search<'_> {
 }
 
 fn coordinates(of: &Trajectory, joint: usize, middle: f64) -> Vec<f64> {
-    let own = of.cosines[joint].iter().chain(&of.sines[joint]);
-    [of.middle[joint] - middle]
-        .into_iter()
-        .chain(own.copied())
-        .collect()
+    let mut all = vec![of.middle[joint] - middle];
+    all.extend(of.cosines[joint].iter().chain(&of.sines[joint]));
+    all
 }

@@ -25,8 +25,9 @@ impl Model {
             for (largest, y) in largest.iter_mut().zip(&y) {
                 *largest = largest.max(y.abs());
             }
-            y.chunks(width)
-                .for_each(|row| all.push(row.iter().copied()));
+            for row in y.chunks(width) {
+                all.push(row.iter().copied());
+            }
         }
         let r = all.reduced();
         let norms = norms(&r, width);
@@ -45,12 +46,12 @@ impl Model {
     }
 
     pub(super) fn values(&self, base: &[Exact]) -> Vec<f64> {
-        let each = self.columns.iter().map(|column| match *column {
+        let value = |column: &Column| match *column {
             Column::Base(k) => f64::nearest(&base[k]),
             Column::Coulomb(joint) => f64::nearest_rational(&self.robot.joints[joint].coulomb),
             Column::Offset(_) => 0.0,
-        });
-        each.collect()
+        };
+        self.columns.iter().map(value).collect()
     }
 
     /// Returns the hash of the robot without what is identified, with what decides the columns.

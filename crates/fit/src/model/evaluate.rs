@@ -31,15 +31,12 @@ impl Model {
         let mut y = Vec::with_capacity(n * self.columns.len());
         for (i, row) in rows.into_iter().enumerate() {
             y.extend(row);
-            y.extend(
-                self.columns[self.base()..]
-                    .iter()
-                    .map(|column| match column {
-                        Column::Coulomb(joint) if *joint == i => self.coulomb(i, &qd[i]),
-                        Column::Offset(joint) if *joint == i => 1.0,
-                        _ => 0.0,
-                    }),
-            );
+            let entry = |column: &Column| match *column {
+                Column::Coulomb(joint) if joint == i => self.coulomb(i, &qd[i]),
+                Column::Offset(joint) if joint == i => 1.0,
+                _ => 0.0,
+            };
+            y.extend(self.columns[self.base()..].iter().map(entry));
         }
         Ok(y)
     }
@@ -60,22 +57,19 @@ impl Model {
         let mut gradient = Vec::with_capacity(3 * n);
         for along in 0..3 * n {
             let rate = |of: usize| f64::from(u8::from(of == along));
+            let dual = |value: f64, of: usize| Dual {
+                value,
+                rate: rate(of),
+            };
             let position: Vec<_> = (self.robot.joints.iter().zip(q).enumerate())
                 .map(|(i, (joint, q))| match joint.kind {
                     JointKind::Revolute => JointPosition::Revolute(pair(*q).turning(&rate(i))),
-                    JointKind::Prismatic => JointPosition::Prismatic(Dual {
-                        value: *q,
-                        rate: rate(i),
-                    }),
+                    JointKind::Prismatic => JointPosition::Prismatic(dual(*q, i)),
                 })
                 .collect();
             let moving = |values: &[f64], first: usize| -> Vec<Dual<f64>> {
-                let values = values.iter().enumerate();
-                let moving = values.map(|(i, value)| Dual {
-                    value: *value,
-                    rate: rate(first + i),
-                });
-                moving.collect()
+                let values = values.iter().zip(first..);
+                values.map(|(value, of)| dual(*value, of)).collect()
             };
             let rows = rows(&chain, &position, &moving(qd, n), &moving(qdd, 2 * n));
             let mut total = 0.0;

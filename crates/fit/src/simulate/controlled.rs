@@ -64,10 +64,8 @@ pub fn control(
     let n = controlled.controller.joints.len();
     recording.check(n)?;
     check("middle", &trajectory.middle, n)?;
-    let arms = controlled.arms.iter();
-    let arms: Vec<(f64, Reference<f64>)> = arms
-        .map(|(from, arm)| (*from, Reference::from_robot(arm)))
-        .collect();
+    let reference = |(from, arm): &(f64, Robot)| (*from, Reference::from_robot(arm));
+    let arms: Vec<(f64, Reference<f64>)> = controlled.arms.iter().map(reference).collect();
     for (_, arm) in &arms {
         if arm.joints() != n {
             return Err(Error::Length {

@@ -1,7 +1,8 @@
 //! Arms whose parameters are known, and what is taken for them at first.
 
 use dalembert_fit::random::{Random, normal, within};
-use dalembert_fit::{Accumulator, Model};
+use dalembert_fit::simulate::Log;
+use dalembert_fit::{Accumulator, Differentiator, Effort, Model, differentiate};
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::read::parse;
@@ -89,9 +90,8 @@ pub struct State {
 pub fn states(model: &Model, count: usize, seed: u64) -> Vec<State> {
     let mut random = Random::new(seed);
     let mut draw = |largest: &dyn Fn(usize) -> f64| -> Vec<f64> {
-        (0..model.joints())
-            .map(|i| within(&mut random, largest(i)))
-            .collect()
+        let each = (0..model.joints()).map(|i| within(&mut random, largest(i)));
+        each.collect()
     };
     let each = (0..count).map(|_| {
         let q = draw(&|_| 2.5);
@@ -116,16 +116,46 @@ pub fn noise(joint: usize) -> f64 {
     0.5 / (1.0 + joint as f64)
 }
 
+/// Asserts that numbers differ by less than a part of their size, or of one.
+#[track_caller]
+pub fn near(found: f64, wanted: f64, part: f64, what: &str) {
+    let most = part * (1.0 + wanted.abs());
+    assert!((found - wanted).abs() < most, "{what}: {found} {wanted}");
+}
+
+pub fn short_effort() -> Effort {
+    Effort {
+        starts: 8,
+        descents: 1,
+        steps: 10,
+        ..Effort::default()
+    }
+}
+
+/// Returns q, q̇ and q̈ of a log's positions; the first state is that at `filter.half()`.
+pub fn differentiated(filter: &Differentiator, log: &Log) -> Vec<[Vec<f64>; 3]> {
+    let joint = |i: usize| {
+        let q: Vec<f64> = log.q.iter().map(|q| q[i]).collect();
+        differentiate(filter, &q).unwrap()
+    };
+    let joints: Vec<[Vec<f64>; 3]> = (0..log.q[0].len()).map(joint).collect();
+    let state = |k: usize| -> [Vec<f64>; 3] {
+        [0, 1, 2].map(|of| joints.iter().map(|joint| joint[of][k]).collect())
+    };
+    (0..joints[0][0].len()).map(state).collect()
+}
+
 pub fn accumulated(
     model: &Model,
     states: &[State],
     parameters: &[f64],
-    mut seed: Option<&mut Random>,
+    seed: Option<u64>,
 ) -> Accumulator {
+    let mut random = seed.map(Random::new);
     let mut data = Accumulator::new(model);
     for state in states {
         let mut tau = torques(&state.y, parameters);
-        if let Some(random) = seed.as_deref_mut() {
+        if let Some(random) = &mut random {
             for (i, tau) in tau.iter_mut().enumerate() {
                 *tau += noise(i) * normal(random);
             }

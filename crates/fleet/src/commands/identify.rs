@@ -9,8 +9,7 @@ use dalembert_fit::{
 };
 use dalembert_model::robot::Robot;
 
-use super::Report;
-use super::table::{number, table};
+use super::{Report, number, table};
 use crate::dynamics::{Dynamics, no_model};
 use crate::error::Error;
 use crate::job::{Job, LogArgs};
@@ -39,9 +38,8 @@ pub(super) async fn run(args: &IdentifyArgs, going: &Going) -> Result<Report, Er
     }
     let mut job = Job::new(&args.logs, true, going).await?;
     let progress = job.progress.clone();
-    let found = progress
-        .shown(args.logs.progress, job.aggregates("_fit"))
-        .await?;
+    let found = progress.shown(args.logs.progress, job.aggregates("_fit"));
+    let found = found.await?;
     let robot = job.robot.clone();
     let logs = job.logs.clone();
     let is_written = args.output.is_some();
@@ -55,10 +53,8 @@ pub(super) async fn run(args: &IdentifyArgs, going: &Going) -> Result<Report, Er
             .and_then(|robot| save(name, &robot).map_err(|why| Error::new(why).at(name.display()))),
         _ => Ok(()),
     };
-    Ok(Report {
-        text,
-        failed: written.err(),
-    })
+    let failed = written.err();
+    Ok(Report { text, failed })
 }
 
 fn solve(
@@ -67,9 +63,8 @@ fn solve(
     logs: &[Log],
     is_written: bool,
 ) -> Result<(String, Option<Result<Robot, Error>>), Error> {
-    let files = found.iter();
-    let files = files.map(|bytes| Accumulator::from_bytes(model, bytes));
-    let files = files.collect::<Result<Vec<_>, _>>()?;
+    let read = |bytes: &Vec<u8>| Accumulator::from_bytes(model, bytes);
+    let files: Vec<Accumulator> = found.iter().map(read).collect::<Result<_, _>>()?;
     let mut all = Accumulator::new(model);
     for file in &files {
         all.merge(file)?;
@@ -119,11 +114,7 @@ fn solve(
             "of each log, with parameters from the others"
         }
     };
-    let last = if written.is_some() {
-        "written file"
-    } else {
-        ""
-    };
+    let last = written.as_ref().map_or("", |_| "written file");
     let head = ["residuals, rms", "joint", "before", "after", last];
     text += &format!("\n{}{what}\n", table(head, rows));
     let robot = bodies.map(|bodies| -> Result<Robot, Error> {

@@ -4,19 +4,18 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
+use dalembert_fit::Watch;
 
-use super::contacts::contacts;
-use super::table::{number, table};
+use super::{number, table};
 use crate::dynamics::Dynamics;
 use crate::engine::locate;
 use crate::error::Error;
 use crate::functions::{Joint, Residuals};
 use crate::job::{Job, LogArgs};
-use crate::logs::{Log, Table, canonical_names};
+use crate::logs::{Log, Table, canonical_names, walk};
 use crate::output::{self, Unfinished};
 use crate::picture::{Curves, picture};
 use crate::progress::Going;
-use crate::walk::walk;
 
 #[derive(Args, Debug)]
 pub(super) struct ResidualArgs {
@@ -169,9 +168,8 @@ async fn watched(args: &ResidualArgs, job: &Job, found: &[Residuals]) -> Result<
         }
     }
     if rows.is_empty() {
-        return Ok(format!(
-            "\nno contacts: no sum of residuals is over {bar:.0} times the noise\n"
-        ));
+        let why = format!("no sum of residuals is over {bar:.0} times the noise");
+        return Ok(format!("\nno contacts: {why}\n"));
     }
     let head = ["contact in", "from, s", "to, s", "joint", "largest, N·m"];
     Ok(format!("\n{}", table(head, rows)))
@@ -225,4 +223,54 @@ async fn write_residuals(job: &Job, output: &Path) -> Result<(), Error> {
     });
     written.await.map_err(|why| why.at(output.display()))?;
     part.finish()
+}
+
+/// Half of the change that is found soonest, in units of the noise.
+const DRIFT: f64 = 1.0;
+/// Alarms that are closer than this, s, are of one contact.
+const APART: f64 = 0.5;
+
+struct Contact {
+    start: f64,
+    end: f64,
+    joint: usize,
+    largest: f64,
+}
+
+/// Finds when residuals change; returns the largest sum, too, in units of the noise.
+fn contacts(
+    robot: &dyn Dynamics,
+    log: &Log,
+    noise: &[f64],
+    bar: f64,
+    going: &Going,
+) -> Result<(Vec<Contact>, f64), Error> {
+    let mut watch = Watch::new(noise, DRIFT, bar)?;
+    let (mut found, mut level): (Vec<Contact>, f64) = (Vec::new(), 0.0);
+    let mut state = vec![0.0; noise.len()];
+    walk(robot, log, going, |block, residuals| {
+        for (s, time) in block.time.iter().enumerate() {
+            for (i, value) in state.iter_mut().enumerate() {
+                *value = residuals[i * block.len() + s];
+            }
+            let alarm = watch.push(&state)?;
+            level = level.max(watch.level());
+            let last = found.last_mut().filter(|last| time - last.end < APART);
+            if let Some(last) = last {
+                if alarm.is_some() {
+                    last.end = *time;
+                }
+                last.largest = last.largest.max(state[last.joint].abs());
+            } else if let Some(joint) = alarm {
+                found.push(Contact {
+                    start: *time,
+                    end: *time,
+                    joint,
+                    largest: state[joint].abs(),
+                });
+            }
+        }
+        Ok(())
+    })?;
+    Ok((found, level))
 }

@@ -12,7 +12,7 @@ use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::robot::{Robot, write};
 use parquet::basic::{Compression, ZstdLevel};
 
-use super::table::number;
+use super::number;
 use crate::dynamics::{Dynamics, Loaded, States};
 use crate::error::Error;
 use crate::job::RobotArgs;
@@ -82,9 +82,8 @@ struct Scene {
 pub(super) async fn run(args: SimulateArgs, going: &Going) -> Result<String, Error> {
     let is_noise = args.noise >= 0.0 && args.noise.is_finite();
     if args.files == 0 || args.seconds * args.rate < 1.0 || !is_noise {
-        return Err(Error::new(
-            "there have to be files, states, and a noise that is not negative",
-        ));
+        let why = "there have to be files, states, and a noise that is not negative";
+        return Err(Error::new(why));
     }
     let folder = args.output.clone();
     let entries = folder.read_dir();
@@ -118,10 +117,9 @@ pub(super) async fn run(args: SimulateArgs, going: &Going) -> Result<String, Err
         Ok(said)
     });
     let said = progress.shown(shown, made).await?;
-    let folder = folder.display();
+    let (folder, states) = (folder.display(), states * files);
     Ok(format!(
-        "{said}{} states in {files} logs in {folder}\n",
-        states * files
+        "{said}{states} states in {files} logs in {folder}\n"
     ))
 }
 
@@ -237,8 +235,7 @@ impl Scene {
         for first in (0..recording.states).step_by(BLOCK) {
             going.check()?;
             let last = recording.states.min(first + BLOCK);
-            let time = (first..last).map(|k| k as f64 * recording.period);
-            let time: Vec<f64> = time.collect();
+            let time: Vec<f64> = (first..last).map(|k| k as f64 * recording.period).collect();
             let columns: [Vec<f64>; 4] = match &log {
                 Some(log) => [&log.q, &log.qd, &log.qdd, &log.tau].map(|of| {
                     let entry = |i: usize| of[first..last].iter().map(move |x| x[i]);
@@ -260,11 +257,9 @@ impl Scene {
         for one in &collisions {
             let joint = one.torque.iter().position(|x| *x != 0.0).unwrap_or(0);
             let (from, to) = (one.start, one.start + one.duration);
-            let peak = number(one.torque[joint]);
-            let joint = joint + 1;
-            said += &format!(
-                "{name}: contact from {from:.3} to {to:.3} s, joint {joint}, {peak} N·m\n"
-            );
+            let (joint, peak) = (joint + 1, number(one.torque[joint]));
+            let when = format!("from {from:.3} to {to:.3} s");
+            said += &format!("{name}: contact {when}, joint {joint}, {peak} N·m\n");
         }
         Ok(said)
     }

@@ -1,8 +1,9 @@
-//! What the aggregates share: names, arguments, and states as bytes.
+//! What the aggregates share: names, arguments, and states as bytes; and what fits keep.
 
 use std::fmt;
 use std::sync::Arc;
 
+use dalembert_fit::Accumulator as Triangles;
 use datafusion::arrow::array::{ArrayRef, AsArray};
 use datafusion::arrow::datatypes::{DataType, Field, FieldRef};
 use datafusion::error::Result;
@@ -12,11 +13,10 @@ use datafusion::logical_expr::{Accumulator, AggregateUDFImpl, Signature};
 use datafusion::scalar::ScalarValue;
 
 use super::Function;
-use super::fit::Parameters;
 use super::residuals::Residuals;
 use super::rms::Rms;
 use crate::arguments::{Piece, Shape, list};
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, States, no_model};
 use crate::error::Error;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -110,11 +110,8 @@ impl Accumulator for Keeping {
     }
 
     fn merge_batch(&mut self, states: &[ArrayRef]) -> Result<()> {
-        for bytes in states
-            .iter()
-            .flat_map(|array| array.as_binary::<i32>())
-            .flatten()
-        {
+        let all = states.iter().flat_map(|array| array.as_binary::<i32>());
+        for bytes in all.flatten() {
             self.kept.merge(self.robot.as_ref(), bytes)?;
         }
         Ok(())
@@ -137,5 +134,64 @@ impl Reader<'_> {
 
     pub(super) fn count(&mut self) -> Result<u64, Error> {
         Ok(u64::from_le_bytes(self.next()?))
+    }
+}
+
+/// Fewer states than in other pieces: of each there is a whole regressor.
+const FEW: usize = 128;
+
+/// What identification keeps: the triangles of all joints, read by [`Triangles::from_bytes`].
+#[derive(Debug)]
+struct Parameters {
+    kept: Triangles,
+    parts: [Vec<f64>; 4],
+    room: Vec<f64>,
+}
+
+impl Parameters {
+    fn new(robot: &dyn Dynamics) -> Result<Parameters> {
+        Ok(Parameters {
+            kept: Triangles::new(robot.model().ok_or_else(no_model)?),
+            parts: Default::default(),
+            room: Vec::new(),
+        })
+    }
+}
+
+impl Kept for Parameters {
+    fn add(&mut self, robot: &dyn Dynamics, piece: &Piece) -> Result<(), Error> {
+        let Parameters { kept, parts, room } = self;
+        for first in (0..piece.count).step_by(FEW) {
+            let last = piece.count.min(first + FEW);
+            for (part, all) in parts.iter_mut().zip(&piece.quantities) {
+                part.clear();
+                for column in all.chunks_exact(piece.count) {
+                    part.extend_from_slice(&column[first..last]);
+                }
+            }
+            let [q, qd, qdd, tau] = &*parts;
+            let count = last - first;
+            robot.accumulate(States { count, q, qd, qdd }, tau, room, kept)?;
+        }
+        Ok(())
+    }
+
+    fn to_bytes(&self) -> Vec<u8> {
+        self.kept.to_bytes()
+    }
+
+    fn merge(&mut self, robot: &dyn Dynamics, bytes: &[u8]) -> Result<(), Error> {
+        let model = robot.model().ok_or_else(no_model)?;
+        Ok(self.kept.merge(&Triangles::from_bytes(model, bytes)?)?)
+    }
+
+    fn value(&self) -> Result<ScalarValue> {
+        let bytes = (self.kept.states() > 0).then(|| self.kept.to_bytes());
+        Ok(ScalarValue::Binary(bytes))
+    }
+
+    fn size(&self) -> usize {
+        // The triangles, and 64 rows that each of them waits with.
+        4 * self.kept.to_bytes().len() + 8 * self.room.capacity()
     }
 }

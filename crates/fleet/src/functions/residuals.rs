@@ -140,9 +140,6 @@ impl Residuals {
     }
 
     /// Reads what an aggregate returned.
-    ///
-    /// # Errors
-    /// Bytes that are something else.
     pub fn from_bytes(bytes: &[u8]) -> Result<Residuals, Error> {
         let mut reader = Reader(bytes);
         if reader.count()? != VERSION {

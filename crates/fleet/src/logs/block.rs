@@ -104,9 +104,6 @@ pub(crate) fn projection(builder: &Builder<File>, names: &[&str]) -> ProjectionM
 
 impl<'a> Blocks<'a> {
     /// Opens a file.
-    ///
-    /// # Errors
-    /// A file that is not Parquet, or has not the columns.
     pub fn open(path: &Path, columns: &'a Columns) -> Result<Blocks<'a>, Error> {
         let builder = open(path)?;
         let layout = columns.layout(builder.schema())?;
@@ -115,12 +112,9 @@ impl<'a> Blocks<'a> {
             names.extend(source.columns().iter().map(String::as_str));
         }
         let mask = projection(&builder, &names);
-        let reader = builder
-            .with_projection(mask)
-            .with_batch_size(ROWS)
-            .build()?;
+        let builder = builder.with_projection(mask).with_batch_size(ROWS);
         Ok(Blocks {
-            reader,
+            reader: builder.build()?,
             columns,
             layout,
             row: 0,
@@ -241,7 +235,6 @@ fn picked<'a>(
     factor: f64,
 ) -> impl Iterator<Item = f64> + 'a {
     let values = array.as_primitive::<Float64Type>().values();
-    places
-        .iter()
-        .map(move |place| values[place * width + i] * factor)
+    let value = move |place: &usize| values[place * width + i] * factor;
+    places.iter().map(value)
 }

@@ -58,20 +58,19 @@ impl Log {
             rates.clone(),
         ];
         let told = facts.iter().filter(|fact| !fact.is_empty());
-        told.map(|fact| format!("{}: {fact}\n", self.name.display()))
-            .collect()
+        let line = |fact: &String| format!("{}: {fact}\n", self.name.display());
+        told.map(line).collect()
     }
 
     /// Returns true if no query can read it as it is: a recording of ROS 2, whose layout is empty,
     /// a log without rates, or lists in other units or of varying lengths.
     pub fn converts(&self) -> bool {
-        let sources = self.layout.iter().enumerate();
-        let mut needs = sources.map(|(quantity, source)| match source {
+        let mut sources = self.layout.iter().enumerate();
+        sources.any(|(quantity, source)| match source {
             None | Some(Source::Ragged(_)) => true,
             Some(Source::List(_)) => !self.columns.is_plain(quantity),
             Some(Source::Columns(_)) => false,
-        });
-        needs.any(|needs| needs)
+        })
     }
 }
 
@@ -94,9 +93,6 @@ impl Clock {
 }
 
 /// Looks at a file: its end, its columns, and every time.
-///
-/// # Errors
-/// The fault in it, without its name; or that the command was ended.
 pub fn inspect(path: &Path, columns: &Columns, going: &Going) -> Result<Log, Error> {
     let mut log = Log {
         name: path.to_owned(),
@@ -124,13 +120,10 @@ pub fn inspect(path: &Path, columns: &Columns, going: &Going) -> Result<Log, Err
         return Err(Error::new("it has no rows"));
     }
     let mask = projection(&builder, &[&columns.time]);
-    let reader = builder
-        .with_projection(mask)
-        .with_batch_size(ROWS)
-        .build()?;
+    let builder = builder.with_projection(mask).with_batch_size(ROWS);
     let mut clock = Clock::default();
     let mut row = 0;
-    for batch in reader {
+    for batch in builder.build()? {
         let batch = batch.map_err(|why| Error::new(why).at(format!("after row {row}")))?;
         let times = seconds(batch.column(0), columns.time_factor)?;
         let times = times.as_primitive::<Float64Type>();

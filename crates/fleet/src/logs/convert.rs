@@ -12,9 +12,6 @@ use crate::error::Error;
 use crate::progress::Going;
 
 /// Converts a log. Measured velocities are used unless they are not the positions' rates.
-///
-/// # Errors
-/// The fault in the log, with its row; or that the command was ended.
 pub fn convert(log: &Log, to: &Path, going: &Going) -> Result<Log, Error> {
     let (converted, wrong) = attempt(log, to, going, true)?;
     let Some(joint) = wrong else {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use dalembert_model::robot::{JointKind, Robot};
-use datafusion::arrow::datatypes::{DataType, Schema};
+use datafusion::arrow::datatypes::{DataType, Field, Schema};
 use serde::Deserialize;
 
 use crate::error::Error;
@@ -120,9 +120,6 @@ pub type Layout = [Option<Source>; 4];
 
 impl Mapping {
     /// Resolves flags, file and defaults for a robot; flags go before the file.
-    ///
-    /// # Errors
-    /// What is wrong with the file, or with a number of names or factors.
     pub fn resolve(&self, robot: &Robot) -> Result<Columns, Error> {
         let file = match &self.mapping {
             Some(path) => read(path)?,
@@ -142,9 +139,8 @@ impl Mapping {
         let constants = constants.unwrap_or_else(|| vec![1.0; n]);
         length("torque constants", constants.len(), n)?;
         if constants.iter().any(|x| !x.is_finite() || *x == 0.0) {
-            return Err(Error::new(
-                "torque constants have to be finite and not zero",
-            ));
+            let why = "torque constants have to be finite and not zero";
+            return Err(Error::new(why));
         }
         let frequency = self.motion_frequency.or(file.motion_frequency);
         let names = self.joint_names.clone().or(file.joint_names);
@@ -212,29 +208,21 @@ impl Columns {
 
     fn names(&self, quantity: usize) -> Vec<String> {
         let pattern = &self.patterns[quantity];
-        if pattern.contains("{}") {
-            let each = (1..=self.joints).map(|i| pattern.replace("{}", &i.to_string()));
-            each.collect()
-        } else {
-            let each = pattern.split(',').map(|name| name.trim().to_owned());
-            each.collect()
+        let trimmed = |name: &str| name.trim().to_owned();
+        let numbered = |i: usize| pattern.replace("{}", &i.to_string());
+        match pattern.contains("{}") {
+            true => (1..=self.joints).map(numbered).collect(),
+            false => pattern.split(',').map(trimmed).collect(),
         }
     }
 
     /// Finds the quantities in a log.
-    ///
-    /// # Errors
-    /// A column that is not there, or of another type or width than expected.
     pub fn layout(&self, schema: &Schema) -> Result<Layout, Error> {
-        let time = schema
-            .field_with_name(&self.time)
-            .map_err(|_| missing(&self.time, "time", schema))?;
+        let time = schema.field_with_name(&self.time);
+        let time = time.map_err(|_| missing(&self.time, "time", schema))?;
         let kind = time.data_type();
         if !kind.is_numeric() && !matches!(kind, DataType::Timestamp(..)) {
-            let name = &self.time;
-            return Err(Error::new(format!(
-                "column `{name}` is {kind}: a number or a timestamp was expected"
-            )));
+            return Err(unexpected(time, "a number or a timestamp"));
         }
         let mut layout = [const { None }; 4];
         for (quantity, source) in layout.iter_mut().enumerate() {
@@ -289,10 +277,7 @@ impl Columns {
         for name in &names {
             let field = found(name).ok_or_else(|| missing(name, QUANTITIES[quantity], schema))?;
             if !field.data_type().is_numeric() {
-                let kind = field.data_type();
-                return Err(Error::new(format!(
-                    "column `{name}` is {kind}: a number was expected"
-                )));
+                return Err(unexpected(field, "a number"));
             }
         }
         Ok(Some(Source::Columns(names)))
@@ -306,6 +291,13 @@ fn item(kind: &DataType) -> Option<&DataType> {
         }
         _ => None,
     }
+}
+
+fn unexpected(field: &Field, expected: &str) -> Error {
+    let (name, kind) = (field.name(), field.data_type());
+    Error::new(format!(
+        "column `{name}` is {kind}: {expected} was expected"
+    ))
 }
 
 fn missing(name: &str, quantity: &str, schema: &Schema) -> Error {

@@ -23,9 +23,6 @@ pub struct Messages<'a> {
 
 impl<'a> Messages<'a> {
     /// Opens a recording.
-    ///
-    /// # Errors
-    /// A file that cannot be opened.
     pub fn open(path: &Path, columns: &'a Columns) -> Result<Messages<'a>, Error> {
         Ok(Messages {
             messages: MessageReader::new(BufReader::new(File::open(path)?)),
@@ -61,11 +58,10 @@ impl<'a> Messages<'a> {
                     channel.topic
                 )));
             }
-            if channel.message_encoding != "cdr" {
-                let encoding = &channel.message_encoding;
-                return Err(Error::new(format!(
-                    "messages are encoded as `{encoding}`, not as cdr"
-                )));
+            let encoding = &channel.message_encoding;
+            if encoding != "cdr" {
+                let why = format!("messages are encoded as `{encoding}`, not as cdr");
+                return Err(Error::new(why));
             }
             self.row += 1;
             let place = || format!("message {}", self.row);
@@ -141,7 +137,6 @@ impl Iterator for Messages<'_> {
     }
 }
 
-#[derive(Clone, Debug, Default, PartialEq)]
 struct JointState {
     time: f64,
     names: Vec<String>,
@@ -191,29 +186,23 @@ impl JointState {
 
 /// Decodes a message: XCDR1, little or big endian.
 fn decode(bytes: &[u8]) -> Result<JointState, Error> {
-    let kind = bytes.get(1).copied();
-    let body = bytes.get(4..).ok_or_else(short)?;
-    let is_little = match kind {
-        Some(0) => false,
-        Some(1) => true,
-        _ => return Err(Error::new("it is not plain CDR")),
-    };
     let mut reader = Cdr {
-        body,
+        body: bytes.get(4..).ok_or_else(short)?,
         place: 0,
-        is_little,
+        is_little: match bytes.get(1) {
+            Some(0) => false,
+            Some(1) => true,
+            _ => return Err(Error::new("it is not plain CDR")),
+        },
     };
     let seconds = reader.word()? as i32;
     let nanoseconds = reader.word()?;
     reader.text()?;
-    let count = reader.word()? as usize;
-    let mut names = Vec::new();
-    for _ in 0..count {
-        names.push(reader.text()?);
-    }
+    let count = reader.word()?;
+    let names = (0..count).map(|_| reader.text());
     Ok(JointState {
         time: f64::from(seconds) + f64::from(nanoseconds) * 1e-9,
-        names,
+        names: names.collect::<Result<_, _>>()?,
         position: reader.floats()?,
         velocity: reader.floats()?,
         effort: reader.floats()?,
@@ -256,11 +245,8 @@ impl Cdr<'_> {
     }
 
     fn floats(&mut self) -> Result<Vec<f64>, Error> {
-        let count = self.word()? as usize;
-        let mut values = Vec::new();
-        for _ in 0..count {
-            values.push(f64::from_le_bytes(self.take()?));
-        }
-        Ok(values)
+        let count = self.word()?;
+        let values = (0..count).map(|_| Ok(f64::from_le_bytes(self.take()?)));
+        values.collect()
     }
 }

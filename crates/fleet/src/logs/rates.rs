@@ -76,8 +76,7 @@ impl Rates {
             }
         }
         if self.filter.is_none() && self.time.len() > 1 {
-            let steps = self.time.windows(2).map(|pair| pair[1] - pair[0]);
-            let mut steps: Vec<f64> = steps.collect();
+            let mut steps: Vec<f64> = self.time.windows(2).map(|pair| pair[1] - pair[0]).collect();
             steps.sort_by(f64::total_cmp);
             let period = steps[steps.len() / 2];
             self.filter = Some((self.differentiator(period)?, period));

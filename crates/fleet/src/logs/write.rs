@@ -31,17 +31,11 @@ pub fn canonical_names(joints: usize) -> Vec<String> {
 
 impl Table {
     /// Creates a table of columns of numbers; with `file`, the first is one of names.
-    ///
-    /// # Errors
-    /// A file that cannot be written.
     pub fn create(path: &Path, names: &[String], file: bool) -> Result<Table, Error> {
         Table::compressed(path, names, file, Compression::SNAPPY)
     }
 
     /// Creates a table as [`Table::create`] does, compressed in this way.
-    ///
-    /// # Errors
-    /// A file that cannot be written.
     pub fn compressed(
         path: &Path,
         names: &[String],
@@ -70,9 +64,6 @@ impl Table {
     }
 
     /// Writes rows: their times, and quantities, each column by column.
-    ///
-    /// # Errors
-    /// No room, or columns of other lengths.
     pub fn write<'a>(
         &mut self,
         file: &str,
@@ -96,9 +87,6 @@ impl Table {
     }
 
     /// Writes what stands at the end of the file.
-    ///
-    /// # Errors
-    /// No room.
     pub fn close(self) -> Result<(), Error> {
         let mut file = self.writer.into_inner()?;
         std::io::Write::flush(&mut file)?;

@@ -3,7 +3,7 @@
 
 use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Stdio};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU16, Ordering};
 use std::time::{Duration, Instant};
@@ -15,18 +15,16 @@ use dalembert_fleet::progress::Going;
 use dalembert_fleet::{Dynamics, Residuals};
 
 use crate::support::{
-    Folder, Sample, fails, fitted, fleet, over, robot, robot_file, succeeds, text, wait_until,
+    Folder, Sample, command, fails, fitted, fleet, over, robot, robot_file, says, succeeds, text,
+    wait_until,
 };
 
 struct Process(Child);
 
 impl Process {
     fn start(arguments: &[&str]) -> Process {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_dalembert-fleet"));
-        let command = command
-            .args(arguments)
-            .stdout(Stdio::null())
-            .stderr(Stdio::null());
+        let mut command = command(arguments);
+        let command = command.stdout(Stdio::null()).stderr(Stdio::null());
         Process(command.spawn().unwrap())
     }
 
@@ -80,19 +78,10 @@ impl Cluster {
             let work = folder.file(name);
             std::fs::create_dir(&work).unwrap();
             let own = format!("127.0.0.1:{port}");
-            let executor = Process::start(&[
-                "executor",
-                "--robot",
-                text(&arm),
-                "--scheduler",
-                &address,
-                "--listen",
-                &own,
-                "--threads",
-                "1",
-                "--work",
-                text(&work),
-            ]);
+            let at = ["--scheduler", address.as_str(), "--listen", own.as_str()];
+            let base = ["executor", "--robot", text(&arm), "--threads", "1"];
+            let work_in = ["--work", text(&work)];
+            let executor = Process::start(&[&base[..], &at, &work_in].concat());
             wait_for(port);
             (executor, work)
         });
@@ -145,10 +134,8 @@ fn a_cluster_returns_what_one_process_returns() {
     }
     .function_name(&loaded);
     let own: Arc<dyn Dynamics> = loaded.clone();
-    let limits = Limits {
-        memory: 1 << 30,
-        partitions: 4,
-    };
+    let (memory, partitions) = (1 << 30, 4);
+    let limits = Limits { memory, partitions };
     let columns = Columns::canonical(2);
     let (_end, going) = Going::new();
     let logs: Vec<Log> = (0..3)
@@ -198,14 +185,15 @@ fn a_cluster_returns_what_one_process_returns() {
     let out = folder.file("out.parquet");
     let more = ["--scheduler", cluster.address.as_str(), "-o", text(&out)];
     let local = fleet(&over("residual", &all, &arm, &more));
-    assert!(String::from_utf8_lossy(&local.stderr).contains("computed by this machine"));
+    let said = String::from_utf8_lossy(&local.stderr);
+    says(&said, &["computed by this machine"]);
     assert!(out.exists());
     // Another robot has other functions: there is an error, and no table of this one.
     let other = robot_file("planar3r");
     let three = folder.file("three.parquet");
     Sample::new(robot("planar3r", false).as_ref(), 100, 1).write(&three);
     let said = fails(&over("residual", &three, &other, &more[..2]));
-    assert!(said.contains("planar3r_"), "{said}");
+    says(&said, &["planar3r_"]);
 }
 
 #[test]
@@ -218,11 +206,8 @@ fn executors_that_are_killed_change_no_table() {
     let here = succeeds(&base);
     let there = [&base[..], &["--scheduler", &cluster.address]].concat();
     let run = || {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_dalembert-fleet"));
-        let command = command
-            .args(&there)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped());
+        let mut command = command(&there);
+        let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
         command.spawn().unwrap()
     };
     let mut client = run();
@@ -244,7 +229,7 @@ fn executors_that_are_killed_change_no_table() {
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(!output.status.success(), "{said}");
     assert!(output.stdout.is_empty(), "{said}");
-    assert!(said.contains("error: "), "{said}");
+    says(&said, &["error: "]);
     assert!(!said.contains("panicked"), "{said}");
     let after = killed.elapsed();
     println!("{after:.1?} after the last executor: {said}");

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use dalembert_fleet::progress::Progress;
 
-use crate::support::{Folder, fleet, over, robot_file, simulated};
+use crate::support::{Folder, fleet, over, robot_file, says, simulated};
 
 #[test]
 fn progress_is_told_where_it_is_asked_for() {
@@ -17,18 +17,15 @@ fn progress_is_told_where_it_is_asked_for() {
         String::from_utf8(output.stderr).unwrap()
     };
     assert!(!said(&[]).contains("states"));
-    let told = said(&["--progress"]);
-    assert!(told.contains("0.04 of 0.04 M states, "), "{told}");
+    says(&said(&["--progress"]), &["0.04 of 0.04 M states, "]);
     let progress = Progress::default();
     progress.expect(4_000_000);
     std::thread::sleep(Duration::from_millis(20));
     progress.add(1_000_000);
     let told = progress.to_string();
     assert!(told.starts_with("1.00 of 4.00 M states, "), "{told}");
-    assert!(
-        told.contains(" M/s, ") && told.ends_with(" s left"),
-        "{told}"
-    );
+    says(&told, &[" M/s, "]);
+    assert!(told.ends_with(" s left"), "{told}");
 }
 
 #[cfg(target_os = "linux")]
@@ -40,11 +37,15 @@ fn memory_does_not_grow_with_the_states() {
     for k in 1..8 {
         std::fs::hard_link(&log, folder.file(&format!("logs/log000{k}.parquet"))).unwrap();
     }
-    let arm = robot_file("planar2r");
     for command in ["residual", "identify"] {
         let [one, all] = ["logs/log0000.parquet", "logs/*.parquet"].map(|logs| {
             let logs = folder.file(logs);
-            peak(&over(command, &logs, &arm, &["--memory", "64M"]))
+            peak(&over(
+                command,
+                &logs,
+                &robot_file("planar2r"),
+                &["--memory", "64M"],
+            ))
         });
         println!("{command}: {one} KiB, of eight times as many states {all} KiB");
         assert!(all < one + (24 << 10), "{command}: {one} {all}");
@@ -54,8 +55,8 @@ fn memory_does_not_grow_with_the_states() {
 /// KiB, as often as one can look.
 #[cfg(target_os = "linux")]
 fn peak(arguments: &[&str]) -> u64 {
-    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_dalembert-fleet"));
-    let command = command.args(arguments).stdout(std::process::Stdio::null());
+    let mut command = crate::support::command(arguments);
+    let command = command.stdout(std::process::Stdio::null());
     let mut child = command.stderr(std::process::Stdio::null()).spawn().unwrap();
     let mut peak = 0;
     loop {

@@ -67,35 +67,33 @@ impl Sample {
             each.collect()
         };
         let [q, qd, qdd, mut noise] = [3.0, 2.0, 5.0, 1.0].map(&mut draw);
-        let mut tau = vec![0.0; n * count];
-        let states = States {
-            count,
-            q: &q,
-            qd: &qd,
-            qdd: &qdd,
-        };
-        robot.inverse_dynamics(states, &mut tau).unwrap();
-        for (noise, tau) in noise.iter_mut().zip(&tau) {
-            *noise += tau;
-        }
-        Sample {
+        let mut sample = Sample {
             count,
             time: (0..count).map(|k| k as f64 * 1e-3).collect(),
-            quantities: [q, qd, qdd, noise],
+            quantities: [q, qd, qdd, Vec::new()],
+        };
+        for (noise, tau) in noise.iter_mut().zip(sample.torques(robot)) {
+            *noise += tau;
         }
+        sample.quantities[3] = noise;
+        sample
     }
 
     pub fn column(&self, quantity: usize, joint: usize) -> &[f64] {
         &self.quantities[quantity][joint * self.count..(joint + 1) * self.count]
     }
 
-    pub fn residuals(&self, robot: &dyn Dynamics, joint: usize) -> Vec<f64> {
-        let [q, qd, qdd, _] = &self.quantities;
-        let count = self.count;
+    fn torques(&self, robot: &dyn Dynamics) -> Vec<f64> {
+        let (count, [q, qd, qdd, _]) = (self.count, &self.quantities);
         let mut tau = vec![0.0; q.len()];
         let states = States { count, q, qd, qdd };
         robot.inverse_dynamics(states, &mut tau).unwrap();
-        let own = tau[joint * count..].iter();
+        tau
+    }
+
+    pub fn residuals(&self, robot: &dyn Dynamics, joint: usize) -> Vec<f64> {
+        let tau = self.torques(robot);
+        let own = tau[joint * self.count..].iter();
         let measured = self.column(3, joint).iter();
         measured.zip(own).map(|(x, y)| x - y).collect()
     }
@@ -110,8 +108,7 @@ impl Sample {
 }
 
 pub fn fitted(model: &Model, bytes: &[u8]) -> Fit {
-    let kept = Accumulator::from_bytes(model, bytes).unwrap();
-    fit(model, &kept).unwrap()
+    fit(model, &Accumulator::from_bytes(model, bytes).unwrap()).unwrap()
 }
 
 pub fn wait_until(what: &str, mut has_happened: impl FnMut() -> bool) {
@@ -123,11 +120,14 @@ pub fn wait_until(what: &str, mut has_happened: impl FnMut() -> bool) {
     }
 }
 
+pub fn command(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_dalembert-fleet"));
+    command.args(arguments);
+    command
+}
+
 pub fn fleet(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_dalembert-fleet"))
-        .args(arguments)
-        .output()
-        .unwrap()
+    command(arguments).output().unwrap()
 }
 
 pub fn succeeds(arguments: &[&str]) -> String {
@@ -135,6 +135,14 @@ pub fn succeeds(arguments: &[&str]) -> String {
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{arguments:?}: {said}");
     String::from_utf8(output.stdout).unwrap()
+}
+
+/// Asserts that a text has all of these parts.
+#[track_caller]
+pub fn says(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "{part}: {text}");
+    }
 }
 
 /// `flags` are separated by spaces.

@@ -18,12 +18,13 @@ use std::fmt;
 
 use dalembert_model::number::{Rational, Rounded, Wide};
 use dalembert_model::placed::frame::pose;
+use dalembert_model::robot::Position;
 use num_traits::Signed;
 
 use crate::Options;
 use crate::merge::{Arm, Link};
 use crate::tree::Chain;
-use crate::urdf::{Kind, Urdf};
+use crate::urdf::{Kind, Number, Urdf, positive};
 use pair::{Pair, next_up_unless_zero, root_of_squares, upward, vectors};
 
 /// Bounds of how far torques and pose of the snapped arm are from those of the URDF's digits.
@@ -174,16 +175,16 @@ impl Change {
 /// `≤ 3.1e-9 of the effort limits`
 impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.of_efforts() {
-            Some(0.0) => f.write_str("nothing"),
-            Some(part) => write!(f, "≤ {} of the effort limits", upward(part)),
+        let (worst, of) = match self.of_efforts() {
+            Some(part) => (part, "of the effort limits"),
             None => {
-                let worst = self.torques(&self.limits).into_iter().fold(0.0, f64::max);
-                match worst == 0.0 {
-                    true => f.write_str("nothing"),
-                    false => write!(f, "≤ {} N·m or N", upward(worst)),
-                }
+                let torques = self.torques(&self.limits).into_iter();
+                (torques.fold(0.0, f64::max), "N·m or N")
             }
+        };
+        match worst == 0.0 {
+            true => f.write_str("nothing"),
+            false => write!(f, "≤ {} {of}", upward(worst)),
         }
     }
 }
@@ -217,33 +218,23 @@ pub(crate) fn bound(
     let joints = || chain.moving.iter().map(|moving| &urdf.joints[moving.joint]);
     let links = written.links.iter().zip(&snapped.links).zip(joints());
     let upper = |value: &Rational| f64::nearest_rational(&value.abs()).next_up();
-    let given = |value: &Option<crate::urdf::Number>| {
-        let value = value.as_ref().filter(|value| value.value.is_positive());
-        value.map(|value| upper(&value.value))
-    };
+    let velocity = joints().map(|joint| positive(&joint.velocity));
+    let velocity = velocity.map(|limit| limit.map_or(3.0, |limit| upper(&limit.value)));
     let position = joints().map(|joint| {
         let ends = joint.position.iter().flatten();
         let ends = ends.map(|end| match &end.value {
-            dalembert_model::robot::Position::Length(length) => upper(length),
-            dalembert_model::robot::Position::Angle(_) => 0.0,
+            Position::Length(length) => upper(length),
+            Position::Angle(_) => 0.0,
         });
         ends.reduce(f64::max).unwrap_or(1.0)
     });
     let limits = Motion {
         position: position.collect(),
-        velocity: joints()
-            .map(|joint| given(&joint.velocity).unwrap_or(3.0))
-            .collect(),
+        velocity: velocity.collect(),
         acceleration: vec![options.acceleration.as_ref().map_or(10.0, upper); written.links.len()],
     };
-    let least = |value: &crate::urdf::Number| f64::nearest_rational(&value.value).next_down();
-    let efforts = joints().map(|joint| {
-        let effort = joint
-            .effort
-            .as_ref()
-            .filter(|effort| effort.value.is_positive());
-        effort.map(least)
-    });
+    let least = |value: &Number| f64::nearest_rational(&value.value).next_down();
+    let efforts = joints().map(|joint| positive(&joint.effort).map(least));
     let tools = [written, snapped].map(|arm| pose(&arm.tool));
     let turned = [0, 1, 2].map(|k| vectors(&tools[0].axes[k], &tools[1].axes[k]).off);
     let turned = Pair::new(1.0, root_of_squares(&turned));
@@ -268,17 +259,13 @@ fn parts(one: &Link, other: &Link, slides: bool) -> Parts {
     let axis = Pair::new(1f64.next_up(), vectors(&one.axis, &other.axis).off);
     // Turns about two unit vectors: s [u]× + (1 − c) u uᵀ differ by no more than
     // |δu| + 2 · 2 |δu|.
-    let turned = if slides {
-        0.0
-    } else {
-        next_up_unless_zero(5.0 * axis.off)
+    let turned = match slides {
+        true => 0.0,
+        false => next_up_unless_zero(5.0 * axis.off),
     };
     let wide = |values: &[Rational; 3]| values.each_ref().map(Wide::from_rational);
-    let [tensor, other_tensor] = [one, other].map(|link| {
-        let rows = link.body.inertia.rows();
-        rows.each_ref().map(wide)
-    });
-    let rows = [0, 1, 2].map(|i| vectors(&tensor[i], &other_tensor[i]));
+    let [tensor, other_tensor] = [one, other].map(|link| link.body.inertia.rows());
+    let rows = [0, 1, 2].map(|i| vectors(&wide(&tensor[i]), &wide(&other_tensor[i])));
     let mass = f64::nearest_rational(&one.body.mass.abs()).next_up();
     Parts {
         slides,

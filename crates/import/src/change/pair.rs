@@ -50,10 +50,8 @@ impl std::ops::Add for Pair {
     type Output = Pair;
 
     fn add(self, other: Pair) -> Pair {
-        Pair::new(
-            upward_sum(self.size, other.size),
-            upward_sum(self.off, other.off),
-        )
+        let size = upward_sum(self.size, other.size);
+        Pair::new(size, upward_sum(self.off, other.off))
     }
 }
 

@@ -35,10 +35,8 @@ impl<'a> Mjcf<'a, '_, '_> {
             i64::try_from(group.value.to_integer()).unwrap_or(0)
         });
         let [low, high] = self.settings.groups;
-        let key = match self.text(item.node, class, "mass").is_some() {
-            true => "mass",
-            false => "density",
-        };
+        let has_mass = self.text(item.node, class, "mass").is_some();
+        let key = if has_mass { "mass" } else { "density" };
         let given = self.number(item.node, class, key);
         let is_nothing = given.as_ref().is_some_and(|given| given.value.is_zero());
         if is_nothing || !(low..=high).contains(&group) {
@@ -57,11 +55,9 @@ impl<'a> Mjcf<'a, '_, '_> {
         key: &str,
         given: Option<Number>,
     ) -> Option<Inertial> {
-        let Item { node, frame, .. } = item;
-        let node = *node;
-        let word = self
-            .text(node, class, "type")
-            .map_or("sphere", |(word, _)| word);
+        let (node, frame) = (item.node, &item.frame);
+        let word = self.text(node, class, "type");
+        let word = word.map_or("sphere", |(word, _)| word);
         let (_, count) = SHAPES.iter().find(|(shape, _)| *shape == word)?;
         let is_shell = self.text(node, class, "shellinertia");
         if is_shell.is_some_and(|(word, _)| word == "true") {

@@ -1,18 +1,20 @@
-//! A joint: where it is, what it turns about, and its limits.
+//! A joint: where it is, what it turns about, and its limits; actuators limit its torque.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use dalembert_model::number::{Rational, Wide};
 use dalembert_model::placed::frame::direction;
 use dalembert_model::robot::Position;
 use dalembert_model::scalar::Scalar;
-use num_traits::{Signed, Zero};
+use num_traits::{One, Signed, Zero};
+use roxmltree::Node;
 
-use super::Mjcf;
 use super::pose::Pose;
 use super::world::Item;
+use super::{Mjcf, within};
 use crate::problems::instead;
-use crate::urdf::{Joint, Kind, Number, Value, constant, start_tag};
+use crate::urdf::{Joint, Kind, Number, Urdf, Value, constant, start_tag};
 
 const KINDS: [(&str, Kind); 4] = [
     ("hinge", Kind::Revolute),
@@ -29,8 +31,7 @@ impl<'a> Mjcf<'a, '_, '_> {
         name: String,
         at: &Pose,
     ) -> Option<(Joint, [Rational; 3])> {
-        let Item { node, frame, .. } = item;
-        let node = *node;
+        let (node, frame) = (item.node, &item.frame);
         let class = self.class_of(node, "class", item.class);
         let span = start_tag(node);
         let still = Joint {
@@ -71,36 +72,26 @@ impl<'a> Mjcf<'a, '_, '_> {
         let any = [(); 3].map(|()| Wide::zero());
         let Some(along) = along.or((!kind.has_one_axis()).then_some(any)) else {
             let message = format!("the axis of joint `{}` has no direction", still.name);
-            self.problems
-                .error(&axis[0].span, message, "axis=\"0 0 1\"");
-            return None;
+            let span = &axis[0].span;
+            return self.problems.refuse(span, message, "axis=\"0 0 1\"");
         };
-        let mut place = at.shift(&anchor);
-        let zero = self
-            .number(node, class, "ref")
-            .filter(|zero| !zero.value.is_zero());
-        match (&zero, kind) {
-            (Some(zero), Kind::Revolute) => place = place.turn(&along, &self.angle(zero).negate()),
+        let place = at.shift(&anchor);
+        let zero = self.number(node, class, "ref");
+        let (place, start) = match (zero.filter(|zero| !zero.value.is_zero()), kind) {
+            (Some(zero), Kind::Revolute) => {
+                let angle = self.angle(&zero);
+                (place.turn(&along, &angle.negate()), angle.radians())
+            }
             (Some(zero), Kind::Prismatic) => {
                 let back = along.map(|x| x.to_rational() * -&zero.value);
-                place = place.shift(&back);
+                (place.shift(&back), zero.value)
             }
-            _ => {}
-        }
-        let start = match (zero, kind) {
-            (Some(zero), Kind::Revolute) => self.angle(&zero).radians(),
-            (Some(zero), _) => zero.value,
-            (None, _) => Rational::zero(),
+            (zero, _) => (place, zero.map_or_else(Rational::zero, |zero| zero.value)),
         };
         let mut number = |key| self.number(node, class, key);
-        let [armature, damping, friction, spring] =
-            ["armature", "damping", "frictionloss", "stiffness"].map(&mut number);
-        let loads = [
-            ("armature", &armature),
-            ("damping", &damping),
-            ("frictionloss", &friction),
-        ];
-        for (key, load) in loads {
+        let keys = ["armature", "damping", "frictionloss", "stiffness"];
+        let [armature, damping, friction, spring] = keys.map(&mut number);
+        for (key, load) in keys.into_iter().zip([&armature, &damping, &friction]) {
             if let Some(load) = load.as_ref().filter(|load| load.value.is_negative()) {
                 let message = format!("the {key} of joint `{}` is negative", still.name);
                 let help = "it adds inertia or takes energy out: zero or more";
@@ -129,9 +120,59 @@ impl<'a> Mjcf<'a, '_, '_> {
         Some((joint, anchor))
     }
 
-    pub(super) fn force_range(
+    /// The limit is the sum of the forces that drive a joint, or its own where that is less.
+    pub(super) fn forces(&mut self, root: Node<'a, '_>, urdf: &mut Urdf) {
+        let mut limits: BTreeMap<&str, Option<Number>> = BTreeMap::new();
+        for node in within(root, "actuator") {
+            let joint = node.attribute("joint").or(node.attribute("jointinparent"));
+            let Some(joint) = joint else {
+                continue;
+            };
+            let own = self.force(node);
+            let limit = match limits.remove(joint) {
+                None => own,
+                // One without a limit leaves none.
+                Some(before) => before.zip(own).map(|(before, own)| Number {
+                    value: before.value + &own.value,
+                    ..own
+                }),
+            };
+            limits.insert(joint, limit);
+        }
+        for joint in &mut urdf.joints {
+            let Some(limit) = limits.remove(joint.name.as_str()).flatten() else {
+                continue;
+            };
+            let own = joint.effort.take();
+            let is_less = |own: &Number| own.value < limit.value;
+            joint.effort = own.filter(is_less).or(Some(limit));
+        }
+    }
+
+    fn force(&mut self, node: Node<'a, '_>) -> Option<Number> {
+        let class = self.class_of(node, "class", 0);
+        let force = self.force_range(node, class, "forcerange", "forcelimited");
+        let force = match force {
+            // What a motor is told is its force.
+            None if node.has_tag_name("motor") => {
+                self.force_range(node, class, "ctrlrange", "ctrllimited")
+            }
+            force => force,
+        };
+        let gear = match self.text(node, class, "gear") {
+            None => Rational::one(),
+            Some((text, span)) => {
+                let first = text.split_ascii_whitespace().next().unwrap_or_default();
+                self.problems.parse(first, span)?.value.abs()
+            }
+        };
+        let force = force?.map(|value| value * gear);
+        force.value.is_positive().then_some(force)
+    }
+
+    fn force_range(
         &mut self,
-        node: roxmltree::Node<'a, '_>,
+        node: Node<'a, '_>,
         class: usize,
         key: &str,
         limited: &str,

@@ -72,6 +72,7 @@ impl<'a> Mjcf<'a, '_, '_> {
         let Some(Inertial { mass, inertia, .. }) = &link.inertial else {
             return;
         };
+        let name = &link.name;
         let [least_mass, least_moment] = &self.settings.least;
         let is_less = |own: &Number, least: &Option<Number>| {
             least.as_ref().is_some_and(|least| own.value < least.value)
@@ -82,10 +83,7 @@ impl<'a> Mjcf<'a, '_, '_> {
         for (own, key) in [(light, "boundmass"), (small, "boundinertia")] {
             link.unread.extend(own.map(|own| Unread {
                 span: own.span.clone(),
-                message: format!(
-                    "`{key}` of the compiler is more than body `{}` has",
-                    link.name
-                ),
+                message: format!("`{key}` of the compiler is more than body `{name}` has"),
                 help: "write the number that shall count, and leave the bound out",
             }));
         }
@@ -120,16 +118,13 @@ impl<'a> Mjcf<'a, '_, '_> {
         if mass.value.is_negative() {
             let message = format!("the mass of body `{body}` is negative");
             let help = "a mass is zero or more, in kg";
-            self.problems.error(&mass.span, message, help);
-            return None;
+            return self.problems.refuse(&mass.span, message, help);
         }
-        let nothing = Rational::zero();
-        let negative = [&inertia.xx, &inertia.yy, &inertia.zz];
-        if let Some(moment) = negative.into_iter().find(|own| own.value < nothing) {
+        let moments = [&inertia.xx, &inertia.yy, &inertia.zz];
+        if let Some(moment) = moments.into_iter().find(|own| own.value.is_negative()) {
             let message = format!("a moment of inertia of body `{body}` is negative");
             let help = "the inertia is about the centre of mass, in kg·m²";
-            self.problems.error(&moment.span, message, help);
-            return None;
+            return self.problems.refuse(&moment.span, message, help);
         }
         Some(Inertial {
             origin: frame.then(&at).origin(),

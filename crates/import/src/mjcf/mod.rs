@@ -5,16 +5,14 @@
 //! - `classes`: defaults and who inherits them
 //! - `pose`: positions and orientations
 //! - `world`: the tree of bodies
-//! - `joint`: a joint and its limits
+//! - `joint`: a joint and its limits; actuators, as limits of torque
 //! - `mass`: a body's mass, and what of it cannot be read
 //! - `geom`: the mass of simple shapes
-//! - `force`: actuators, as limits of torque
 //! - `tie`: equalities and tendons
 //!
 //! Meshes, materials, sensors and contacts are not looked at.
 
 mod classes;
-mod force;
 mod geom;
 mod joint;
 mod mass;
@@ -123,19 +121,13 @@ impl<'a> Mjcf<'a, '_, '_> {
         for node in root.descendants() {
             *counts.entry(node.tag_name().name()).or_default() += 1;
         }
-        let counted = MANY
-            .iter()
-            .flat_map(|(tags, few)| tags.iter().map(move |tag| (*tag, *few)));
-        for (tag, few) in counted {
-            let count = counts.get(tag).copied().unwrap_or(0);
-            if !self
-                .problems
-                .are_few(&span, &format!("<{tag}>"), count, few)
-            {
-                return false;
-            }
-        }
-        true
+        MANY.iter().all(|(tags, few)| {
+            tags.iter().all(|tag| {
+                let count = counts.get(*tag).copied().unwrap_or(0);
+                let what = format!("<{tag}>");
+                self.problems.are_few(&span, &what, count, *few)
+            })
+        })
     }
 
     fn error(&mut self, node: Node, message: String, help: &str) {

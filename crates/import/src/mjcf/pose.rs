@@ -15,6 +15,7 @@ use roxmltree::Node;
 
 use super::Mjcf;
 use crate::meant::{self, NOTHING, power};
+use crate::merge::size_of;
 use crate::urdf::{Number, Origin, Value, constant, start_tag};
 
 /// Angles are computed to more digits than this, in radians.
@@ -97,27 +98,22 @@ impl Pose {
 
     /// Returns a direction in the axes of the frame that this one is in.
     pub(super) fn rotate(&self, direction: &[Number; 3]) -> [Number; 3] {
-        let one = Rational::one();
         let wide = direction.each_ref().map(|x| Wide::from_rational(&x.value));
         let along = Columns {
             origin: self.both[1].rotate(&wide),
             ..Columns::identity()
         };
-        let xyz = placement(&along, &one).xyz;
-        let mut turned = direction.clone();
-        for (number, value) in turned.iter_mut().zip(xyz) {
-            number.value = value;
-        }
-        turned
+        let xyz = placement(&along, &Rational::one()).xyz;
+        std::array::from_fn(|i| direction[i].clone().map(|_| xyz[i].clone()))
     }
 
     pub(super) fn apply(&self, point: &[Rational; 3]) -> [Rational; 3] {
         let size = &self.size + point.iter().map(Signed::abs).sum::<Rational>();
-        placement(&self.both[1].then(&shifted(point)), &size_of(&size)).xyz
+        placement(&self.both[1].then(&shifted(point)), &size_of(size)).xyz
     }
 
     pub(super) fn origin(&self) -> Origin {
-        let size = size_of(&self.size);
+        let size = size_of(self.size.clone());
         let [exact, meant] = self.both.each_ref().map(|pose| placement(pose, &size));
         let xyz = exact.xyz.each_ref();
         let xyz = xyz.map(|x| {
@@ -136,14 +132,6 @@ impl Pose {
             rpy,
             meant: (!same).then_some(meant),
         }
-    }
-}
-
-/// Returns what lengths are small against.
-fn size_of(size: &Rational) -> Rational {
-    match size.is_zero() {
-        true => Rational::one(),
-        false => size.clone(),
     }
 }
 
@@ -186,10 +174,8 @@ impl<'a> Mjcf<'a, '_, '_> {
         node: Node<'a, '_>,
         class: usize,
     ) -> Option<(Both, Option<Range<usize>>)> {
-        let own: Vec<&str> = ORIENTATIONS
-            .into_iter()
-            .filter(|key| node.has_attribute(*key))
-            .collect();
+        let all = ORIENTATIONS.into_iter();
+        let own: Vec<&str> = all.filter(|key| node.has_attribute(*key)).collect();
         if own.len() > 1 {
             let message = format!("an orientation by `{}`", own.join("` and by `"));
             self.error(node, message, "one of them says it");
@@ -334,22 +320,16 @@ fn by_digits(axes: [Vector<Wide>; 3], numbers: &[Number]) -> Both {
         true => power(meant::MAX),
         false => power(NOTHING),
     };
-    let one = Rational::one();
     let [x, y, _] = &exact.axes;
     let level = length(&[x[0], x[1], Wide::zero()]);
-    let is_upright = level.to_rational() <= unit;
-    let angles = match is_upright {
+    let angles = match level.to_rational() <= unit {
         // Roll and yaw are about one axis.
         true => {
-            let up = if x[2].to_rational().is_negative() {
-                1
-            } else {
-                -1
-            };
+            let up = if x[2].is_negative() { 1 } else { -1 };
             let yaw = Angle::recovered(&y[0].neg(), &y[1]);
             [Angle::default(), Angle::right_angles(up), yaw]
         }
-        false => placement(&exact, &one).rpy,
+        false => placement(&exact, &Rational::one()).rpy,
     };
     let rpy = angles.map(|angle| match &angle {
         Angle::Radians(value) => meant::within(value, unit.clone(), count).unwrap_or(angle),

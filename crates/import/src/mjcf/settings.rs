@@ -54,11 +54,10 @@ impl Settings {
 
     /// Returns gravity in the axes of the world.
     pub(super) fn gravity(&self, root: Node) -> [Number; 3] {
-        let still = constant(root, ["0", "0", "0"]);
-        let usual = || constant(root, ["0", "0", "-9.81"]);
-        match self.has_gravity {
-            true => self.gravity.clone().unwrap_or_else(usual),
-            false => still,
+        match &self.gravity {
+            _ if !self.has_gravity => constant(root, ["0", "0", "0"]),
+            Some(gravity) => gravity.clone(),
+            None => constant(root, ["0", "0", "-9.81"]),
         }
     }
 }

@@ -1,11 +1,13 @@
 //! Equalities and tendons: what ties joints or bodies to each other beside the tree.
 
+use std::ops::Range;
+
 use dalembert_model::number::Rational;
 use dalembert_model::robot::values::number;
 use num_traits::{One, Signed, Zero};
 use roxmltree::Node;
 
-use super::{Mjcf, within};
+use super::{Mjcf, children, within};
 use crate::lock::compare;
 use crate::problems::instead;
 use crate::urdf::{Mimic, Tie, Tied, Urdf, Value, start_tag};
@@ -28,8 +30,7 @@ impl<'a> Mjcf<'a, '_, '_> {
                 "spatial" => "site",
                 _ => continue,
             };
-            let parts = node.children().filter(|child| child.has_tag_name(part));
-            let parts: Vec<Node> = parts.collect();
+            let parts: Vec<Node> = children(node, part).collect();
             if let ("joint", [joint]) = (part, parts.as_slice()) {
                 self.limiting(node, *joint, urdf);
                 continue;
@@ -52,12 +53,10 @@ impl<'a> Mjcf<'a, '_, '_> {
             return;
         };
         let coefficient = self.problems.required(joint, "coef");
-        let Some(own) = urdf.joints.iter_mut().find(|own| own.name == name) else {
-            let message = format!("there is no joint `{name}`");
-            self.problems
-                .error(&span, message, &instead(name, &urdf.names[1]));
+        let Some(own) = self.joint_named(name, &span, urdf) else {
             return;
         };
+        let own = &mut urdf.joints[own];
         for key in ["stiffness", "damping", "frictionloss", "armature"] {
             let left_out = self.number(node, class, key);
             if left_out.is_some_and(|value| !value.value.is_zero()) {
@@ -74,14 +73,10 @@ impl<'a> Mjcf<'a, '_, '_> {
         if by.value.is_negative() {
             range.reverse();
         }
-        let kind = own.kind;
+        let (kind, is_one) = (own.kind, by.value.is_one());
         let [low, high] = range.map(|end| {
             let value = end.value / &by.value;
-            let text = if by.value.is_one() {
-                end.text
-            } else {
-                number(&value)
-            };
+            let text = if is_one { end.text } else { number(&value) };
             Value::new(kind.position(value), text, &end.span)
         });
         let mut position = own.position.take().unwrap_or([low.clone(), high.clone()]);
@@ -93,33 +88,31 @@ impl<'a> Mjcf<'a, '_, '_> {
         }
         if compare(&position[0].value, &position[1].value).is_gt() {
             let message = format!("the tendon leaves joint `{name}` no position within its limits");
-            self.error(
-                node,
-                message,
-                "range=\"lowest highest\" of coef times the position",
-            );
+            let help = "range=\"lowest highest\" of coef times the position";
+            self.error(node, message, help);
         }
         own.position = Some(position);
+    }
+
+    fn joint_named(&mut self, name: &str, span: &Range<usize>, urdf: &Urdf) -> Option<usize> {
+        let found = urdf.joints.iter().position(|joint| joint.name == name);
+        found.or_else(|| {
+            let message = format!("there is no joint `{name}`");
+            let help = instead(name, &urdf.names[1]);
+            self.problems.refuse(span, message, &help)
+        })
     }
 
     fn follower(&mut self, node: Node<'a, '_>, urdf: &mut Urdf) {
         let place = |this: &mut Self, key: &str| {
             let (name, span) = this.problems.attribute(node, key)?;
-            let found = urdf.joints.iter().position(|joint| joint.name == name);
-            if found.is_none() {
-                let message = format!("there is no joint `{name}`");
-                this.problems
-                    .error(&span, message, &instead(name, &urdf.names[1]));
-            }
-            found
+            this.joint_named(name, &span, urdf)
         };
         let Some(own) = place(self, "joint1") else {
             return;
         };
-        let other = match node.has_attribute("joint2") {
-            true => place(self, "joint2"),
-            false => None,
-        };
+        let has_other = node.has_attribute("joint2");
+        let other = has_other.then(|| place(self, "joint2")).flatten();
         let name = urdf.joints[own].name.clone();
         let Some(other) = other else {
             // It stays where it is.
@@ -152,10 +145,9 @@ impl<'a> Mjcf<'a, '_, '_> {
         };
         let words = own.value().split_ascii_whitespace();
         if words.clone().count() > terms.len() {
-            let message = "`polycoef` has more than 5 numbers".to_owned();
+            let message = "`polycoef` has more than 5 numbers";
             let help = "polycoef=\"0 1 0 0 0\" is the same as the other joint";
-            self.problems.error(&own.range_value(), message, help);
-            return None;
+            return self.problems.refuse(&own.range_value(), message, help);
         }
         for (term, word) in terms.iter_mut().zip(words) {
             *term = self.problems.parse(word, own.range_value())?.value;

@@ -18,23 +18,19 @@ pub(super) struct Item<'a, 'd> {
     pub(super) frame: Pose,
 }
 
-struct Open<'a, 'd> {
-    item: Item<'a, 'd>,
-    on: String,
-}
+/// A body, and the link that it hangs on.
+type Open<'a, 'd> = (Item<'a, 'd>, String);
 
-struct Names(BTreeSet<String>);
+type Names = BTreeSet<String>;
 
-impl Names {
-    fn fresh(&mut self, wish: String) -> String {
-        let mut name = wish.clone();
-        let mut count = self.0.len();
-        while !self.0.insert(name.clone()) {
-            count += 1;
-            name = format!("{wish}_{count}");
-        }
-        name
+fn fresh(names: &mut Names, wish: String) -> String {
+    let mut name = wish.clone();
+    let mut count = names.len();
+    while !names.insert(name.clone()) {
+        count += 1;
+        name = format!("{wish}_{count}");
     }
+    name
 }
 
 impl<'a> Mjcf<'a, '_, '_> {
@@ -54,8 +50,8 @@ impl<'a> Mjcf<'a, '_, '_> {
             nodes.filter_map(|node| node.attribute("name").map(str::to_owned))
         };
         // Names that the file gives are not given to what has none.
-        let mut links = Names(given("body").chain(["world".to_owned()]).collect());
-        let mut joints = Names(given("joint").chain(given("freejoint")).collect());
+        let mut links: Names = given("body").chain(["world".to_owned()]).collect();
+        let mut joints: Names = given("joint").chain(given("freejoint")).collect();
         while let Some(next) = open.pop() {
             let own = self.body(next, urdf, &mut links, &mut joints);
             open.extend(own.into_iter().rev());
@@ -96,19 +92,16 @@ impl<'a> Mjcf<'a, '_, '_> {
     fn items<'d>(&mut self, body: Node<'a, 'd>, class: usize, at: &Pose) -> Vec<Item<'a, 'd>> {
         let mut items = Vec::new();
         let mut open: Vec<(Node, usize, Pose)> = vec![(body, class, at.clone())];
-        while let Some((node, class, frame)) = open.pop() {
+        while let Some((node, mut class, mut frame)) = open.pop() {
             if node != body && !node.has_tag_name("frame") {
                 items.push(Item { node, class, frame });
                 continue;
             }
-            let (class, frame) = match node == body {
-                true => (class, frame),
-                false => {
-                    let class = self.class_of(node, "childclass", class);
-                    let own = self.pose(node, class);
-                    (class, own.map_or(frame.clone(), |own| frame.then(&own)))
-                }
-            };
+            if node != body {
+                class = self.class_of(node, "childclass", class);
+                let own = self.pose(node, class);
+                frame = own.map_or(frame.clone(), |own| frame.then(&own));
+            }
             let children: Vec<Node> = node.children().filter(Node::is_element).collect();
             let inside = children.into_iter().rev();
             open.extend(inside.map(|child| (child, class, frame.clone())));
@@ -123,13 +116,12 @@ impl<'a> Mjcf<'a, '_, '_> {
         links: &mut Names,
         joints: &mut Names,
     ) -> Vec<Open<'a, 'd>> {
-        let Open { item, on } = open;
-        let Item { node, class, frame } = item;
+        let (Item { node, class, frame }, on) = open;
         let class = self.class_of(node, "childclass", class);
         let span = start_tag(node);
         let name = match node.attribute("name") {
             Some(name) => name.to_owned(),
-            None => links.fresh("body".to_owned()),
+            None => fresh(links, "body".to_owned()),
         };
         let identity = Pose::identity(span.clone());
         let own = self.pose(node, class).unwrap_or(identity.clone());
@@ -149,7 +141,7 @@ impl<'a> Mjcf<'a, '_, '_> {
         urdf.links.push(link);
         self.joints_of(&name, on, &frame.then(&own), &items, urdf, [links, joints]);
         for (index, solid) in solids.into_iter().enumerate() {
-            let part = links.fresh(format!("{name}, geom {}", index + 1));
+            let part = fresh(links, format!("{name}, geom {}", index + 1));
             urdf.joints.push(fixed([&name, &part], &span, &identity));
             urdf.links.push(Link {
                 inertial: Some(solid),
@@ -177,7 +169,7 @@ impl<'a> Mjcf<'a, '_, '_> {
         let own: Vec<&Item> = items.iter().filter(is_joint).collect();
         for (index, item) in own.iter().enumerate() {
             let name = item.node.attribute("name").map(str::to_owned);
-            let name = name.unwrap_or_else(|| joints.fresh(format!("{body}_joint")));
+            let name = name.unwrap_or_else(|| fresh(joints, format!("{body}_joint")));
             let Some((joint, anchor)) = self.joint(item, name, &at) else {
                 continue;
             };
@@ -187,7 +179,7 @@ impl<'a> Mjcf<'a, '_, '_> {
             let child = match is_last {
                 true => body.to_owned(),
                 false => {
-                    let name = links.fresh(format!("{body}, {}", joint.name));
+                    let name = fresh(links, format!("{body}, {}", joint.name));
                     urdf.links.push(Link {
                         role: Role::Between,
                         ..link(name.clone(), joint.span.clone())
@@ -218,7 +210,7 @@ impl<'a> Mjcf<'a, '_, '_> {
         let Some(own) = self.pose(item.node, class) else {
             return;
         };
-        if !links.0.insert(name.to_owned()) {
+        if !links.insert(name.to_owned()) {
             return;
         }
         let span = start_tag(item.node);
@@ -234,11 +226,7 @@ impl<'a> Mjcf<'a, '_, '_> {
 fn bodies<'a, 'd>(items: Vec<Item<'a, 'd>>, on: &str) -> Vec<Open<'a, 'd>> {
     let bodies = items.into_iter();
     let bodies = bodies.filter(|item| item.node.has_tag_name("body"));
-    let open = bodies.map(|item| Open {
-        item,
-        on: on.to_owned(),
-    });
-    open.collect()
+    bodies.map(|item| (item, on.to_owned())).collect()
 }
 
 fn link(name: String, span: std::ops::Range<usize>) -> Link {

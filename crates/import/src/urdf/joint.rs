@@ -94,9 +94,7 @@ impl Problems<'_> {
             let Some(element) = child(node, end) else {
                 let message = format!("joint `{name}` has no <{end}>");
                 let help = format!("<{end} link=\"…\"/>");
-                let span = start_tag(node);
-                self.error(&span, message, &help);
-                return None;
+                return self.refuse(&start_tag(node), message, &help);
             };
             let (link, span) = self.attribute(element, "link")?;
             Some((link.to_owned(), span))
@@ -111,8 +109,7 @@ impl Problems<'_> {
         let moves = !matches!(kind, Kind::Fixed | Kind::Floating);
         if moves && axis.iter().all(|x| x.value.is_zero()) {
             let message = format!("the axis of joint `{name}` has no direction");
-            self.error(&axis[0].span, message, "<axis xyz=\"0 0 1\"/>");
-            return None;
+            return self.refuse(&axis[0].span, message, "<axis xyz=\"0 0 1\"/>");
         }
         let limit = child(node, "limit");
         let mut of_limit = |key| limit.and_then(|limit| self.number(limit, key));
@@ -145,11 +142,8 @@ impl Problems<'_> {
         for load in [&effort, &velocity, &damping].into_iter().flatten() {
             if load.value.is_negative() {
                 let message = format!("`{}` of joint `{name}` is negative", load.text);
-                self.error(
-                    &load.span,
-                    message,
-                    "a limit bounds the size, and damping takes energy out: zero or more",
-                );
+                let help = "a limit bounds the size, and damping takes energy out: zero or more";
+                self.error(&load.span, message, help);
             }
         }
         Some(Joint {
@@ -193,8 +187,7 @@ impl Problems<'_> {
         if lower.value > upper.value {
             let message = format!("the limits of joint `{name}` are reversed");
             let help = "`lower` is the lowest position, `upper` the highest";
-            self.error(&lower.span, message, help);
-            return None;
+            return self.refuse(&lower.span, message, help);
         }
         if lower.value == upper.value {
             let message = format!("both limits of joint `{name}` are {}", lower.text);
@@ -208,14 +201,12 @@ impl Problems<'_> {
     /// The armature is the inertia times the square of the reduction, for every driven joint.
     pub(super) fn transmission(&mut self, node: Node, joints: &mut [Joint]) {
         let children = |name: &'static str| node.children().filter(move |c| c.has_tag_name(name));
-        let driven: Vec<&str> = children("joint")
-            .filter_map(|joint| joint.attribute("name"))
-            .collect();
+        let driven = children("joint").filter_map(|joint| joint.attribute("name"));
+        let driven: Vec<&str> = driven.collect();
+        let is_driven = |joint: &&mut Joint| driven.contains(&joint.name.as_str());
         // Names in tags of other spaces, as `drake:gear_ratio`, are theirs.
-        for actuator in node
-            .children()
-            .filter(|c| c.tag_name().name() == "actuator")
-        {
+        let actuators = node.children();
+        for actuator in actuators.filter(|c| c.tag_name().name() == "actuator") {
             // Files that were written for several tools have several reductions: the rotor's is in
             // the spelling of its own.
             let rotor = ROTORS.iter().find_map(|(rotors, ratios)| {
@@ -231,10 +222,7 @@ impl Problems<'_> {
             let Some((inertia, ratio)) = self.of_actuator(inertia).zip(ratio) else {
                 continue;
             };
-            for joint in joints
-                .iter_mut()
-                .filter(|own| driven.contains(&own.name.as_str()))
-            {
+            for joint in joints.iter_mut().filter(is_driven) {
                 joint.armature += &inertia.value * &ratio.value * &ratio.value;
                 if !inertia.value.is_zero() {
                     joint.rotors.push([inertia.clone(), ratio.clone()]);

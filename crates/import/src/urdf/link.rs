@@ -81,8 +81,7 @@ impl Problems<'_> {
         let (origin, mass, inertia) = (origin?, mass?, tensor?);
         if mass.value.is_negative() {
             let message = format!("the mass of link `{link}` is negative");
-            self.error(&mass.span, message, "a mass is zero or more, in kg");
-            return None;
+            return self.refuse(&mass.span, message, "a mass is zero or more, in kg");
         }
         Some(Inertial {
             origin,

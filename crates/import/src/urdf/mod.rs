@@ -1,9 +1,5 @@
 //! What a URDF says: links, joints, and the rotors of transmissions.
 //!
-//! - `number`: numbers and words of attributes
-//! - `link`: a link and its inertial
-//! - `joint`: a joint and what drives it
-//!
 //! Shapes, materials and sensors are not looked at, nor is what simulators add.
 
 mod joint;
@@ -19,7 +15,7 @@ use crate::problems::Problems;
 
 pub(crate) use joint::{Joint, Kind, Mimic};
 pub(crate) use link::{Inertial, Link, Role, Unread};
-pub(crate) use number::{Number, Origin, Value, constant};
+pub(crate) use number::{Number, Origin, Value, constant, positive};
 
 pub(crate) const MAX_LINKS: usize = 1024;
 
@@ -83,20 +79,16 @@ impl Urdf {
         ties.extend(self.ties.drain(..).map(|tie| (tie.span, tie.name)));
         for joint in &mut self.joints {
             if let Some(mimic) = joint.mimic.take_if(|mimic| mimic.line.is_none()) {
-                ties.push((
-                    mimic.span,
-                    format!("the equality of joint `{}`", joint.name),
-                ));
+                let name = format!("the equality of joint `{}`", joint.name);
+                ties.push((mimic.span, name));
             }
         }
         let Some((first, _)) = ties.first() else {
             return;
         };
         let names: Vec<&str> = ties.iter().map(|(_, name)| name.as_str()).collect();
-        let message = format!(
-            "what ties joints and links is ignored: {}",
-            names.join(", ")
-        );
+        let names = names.join(", ");
+        let message = format!("what ties joints and links is ignored: {names}");
         let help = "the torques are those of the chain without it";
         problems.difference(first, message, help);
     }
@@ -107,24 +99,19 @@ pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf>
     let span = start_tag(root);
     if let Some(help) = other_format(root) {
         let message = format!("<{}> is no URDF", root.tag_name().name());
-        problems.error(&span, message, help);
-        return None;
+        return problems.refuse(&span, message, help);
     }
     let elements = |name: &'static str| root.children().filter(move |node| node.has_tag_name(name));
-    let links: Vec<Link> = elements("link")
-        .filter_map(|node| problems.link(node))
-        .collect();
-    let mut joints: Vec<Joint> = elements("joint")
-        .filter_map(|node| problems.joint(node))
-        .collect();
+    let links = elements("link").filter_map(|node| problems.link(node));
+    let links: Vec<Link> = links.collect();
+    let joints = elements("joint").filter_map(|node| problems.joint(node));
+    let mut joints: Vec<Joint> = joints.collect();
     for node in elements("transmission") {
         problems.transmission(node, &mut joints);
     }
     problems.unique("link", links.iter().map(|link| (&link.name, &link.span)));
-    problems.unique(
-        "joint",
-        joints.iter().map(|joint| (&joint.name, &joint.span)),
-    );
+    let names = joints.iter().map(|joint| (&joint.name, &joint.span));
+    problems.unique("joint", names);
     for (what, count) in [("links", links.len()), ("joints", joints.len())] {
         if !problems.are_few(&span, what, count, MAX_LINKS) {
             return None;
@@ -132,8 +119,7 @@ pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf>
     }
     if links.is_empty() {
         let help = "a URDF has a <link> for every body";
-        problems.error(&span, "there are no links".to_owned(), help);
-        return None;
+        return problems.refuse(&span, "there are no links", help);
     }
     let names = ["link", "joint"].map(|kind| {
         let names = elements(kind).filter_map(|node| node.attribute("name"));

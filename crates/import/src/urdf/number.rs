@@ -5,6 +5,7 @@ use std::ops::Range;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::Placement;
+use num_traits::Signed;
 use roxmltree::Node;
 
 use super::start_tag;
@@ -19,6 +20,11 @@ pub(crate) struct Value<T> {
 }
 
 pub(crate) type Number = Value<Rational>;
+
+/// Returns a limit that is one.
+pub(crate) fn positive(limit: &Option<Number>) -> Option<&Number> {
+    limit.as_ref().filter(|limit| limit.value.is_positive())
+}
 
 impl<T> Value<T> {
     pub(crate) fn new(value: T, text: impl Into<String>, span: &Range<usize>) -> Value<T> {
@@ -90,18 +96,13 @@ impl Problems<'_> {
             let message = format!("`{key}` has {} numbers, not {N}", words.len());
             let names = &["x", "y", "z", "u", "v", "w"][..N.min(6)];
             let help = format!("{key}=\"{}\", with spaces between", names.join(" "));
-            self.error(&span, message, &help);
-            return None;
+            return self.refuse(&span, message, &help);
         }
-        let numbers: Vec<_> = words
-            .into_iter()
-            .map(|(word, span)| self.parse(word, span))
-            .collect();
-        numbers
-            .into_iter()
-            .collect::<Option<Vec<_>>>()?
-            .try_into()
-            .ok()
+        // All of them are read, so that each mistake is named.
+        let words = words.into_iter();
+        let numbers: Vec<_> = words.map(|(word, span)| self.parse(word, span)).collect();
+        let numbers: Option<Vec<Number>> = numbers.into_iter().collect();
+        numbers?.try_into().ok()
     }
 
     pub(crate) fn number(&mut self, node: Node, key: &str) -> Option<Number> {
@@ -132,11 +133,7 @@ impl Problems<'_> {
     pub(crate) fn parse(&mut self, text: &str, span: Range<usize>) -> Option<Number> {
         match parse_decimal(&spelled_out(text)) {
             Ok(value) => Some(Value::new(value, text, &span)),
-            Err(error) => {
-                let message = format!("`{text}` is {error}");
-                self.error(&span, message, error.help());
-                None
-            }
+            Err(error) => self.refuse(&span, format!("`{text}` is {error}"), error.help()),
         }
     }
 }

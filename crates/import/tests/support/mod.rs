@@ -27,17 +27,34 @@ pub struct State {
     pub pose: Vec<f64>,
 }
 
-pub fn source(name: &str) -> String {
-    let path = format!("{}/tests/data/{name}.urdf", env!("CARGO_MANIFEST_DIR"));
+/// Reads a file by its path from `tests/data`.
+pub fn data(file: &str) -> String {
+    let path = format!("{}/tests/data/{file}", env!("CARGO_MANIFEST_DIR"));
     std::fs::read_to_string(path).unwrap()
 }
 
+pub fn source(name: &str) -> String {
+    data(&format!("{name}.urdf"))
+}
+
 pub fn json(name: &str) -> Value {
-    let path = format!(
-        "{}/tests/data/{name}.golden.json",
-        env!("CARGO_MANIFEST_DIR")
-    );
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+    serde_json::from_str(&data(&format!("{name}.golden.json"))).unwrap()
+}
+
+pub fn locks(joints: &[(&str, &str)]) -> Vec<(String, String)> {
+    let joints = joints.iter();
+    joints
+        .map(|&(joint, at)| (joint.into(), at.into()))
+        .collect()
+}
+
+/// Returns the chain to a tip with these joints held.
+pub fn to(tip: &str, lock: &[(&str, &str)]) -> Options {
+    Options {
+        tip: Some(tip.into()),
+        lock: locks(lock),
+        ..Options::default()
+    }
 }
 
 /// Checks that a text has all of these in it.
@@ -53,21 +70,16 @@ pub fn snapped(name: &str) -> Options {
     let json = json(name);
     let text = |key: &str| json[key].as_str().unwrap().to_owned();
     let lock = match name {
-        "panda" => &["panda_finger_joint1", "panda_finger_joint2"][..],
-        "so101" => &["gripper"],
-        "z1" => &["jointGripper"],
+        "panda" => &[("panda_finger_joint1", "0"), ("panda_finger_joint2", "0")][..],
+        "so101" => &[("gripper", "0")],
+        "z1" => &[("jointGripper", "0")],
         _ => &[],
     };
     Options {
         base: Some(text("base")),
-        tip: Some(text("tip")),
-        lock: lock
-            .iter()
-            .map(|joint| ((*joint).to_owned(), "0".to_owned()))
-            .collect(),
         file: format!("{name}.urdf"),
         snap: true,
-        ..Options::default()
+        ..to(&text("tip"), lock)
     }
 }
 
@@ -79,11 +91,13 @@ pub fn exact(name: &str) -> Options {
 }
 
 pub fn imported(name: &str, options: &Options) -> Imported {
-    let source = source(name);
-    import(&source, options).unwrap_or_else(|errors| panic!("{}", errors.render(name, &source)))
+    taken(&source(name), options)
 }
 
-/// Returns the errors of an import, as they are printed.
+pub fn taken(source: &str, options: &Options) -> Imported {
+    import(source, options).unwrap_or_else(|errors| panic!("{}", errors.render("arm.urdf", source)))
+}
+
 pub fn refused(source: &str, options: &Options) -> String {
     match import(source, options) {
         Ok(imported) => panic!("it was imported:\n{}", imported.text),
@@ -95,9 +109,9 @@ pub fn golden(name: &str) -> Golden {
     flat_states(&json(name))
 }
 
-/// Returns the joints and the states of golden values.
 pub fn flat_states(json: &Value) -> Golden {
-    let joints = json["joints"].as_array().unwrap();
+    let joints = json["joints"].as_array().unwrap().iter();
+    let name = |name: &Value| name.as_str().unwrap().to_owned();
     let states = json["states"].as_array().unwrap();
     let state = |state: &Value| State {
         q: flat(&state["q"]),
@@ -109,15 +123,11 @@ pub fn flat_states(json: &Value) -> Golden {
         pose: flat(&state["tip_pose"]),
     };
     Golden {
-        joints: joints
-            .iter()
-            .map(|name| name.as_str().unwrap().to_owned())
-            .collect(),
+        joints: joints.map(name).collect(),
         states: states.iter().map(state).collect(),
     }
 }
 
-/// Returns the numbers of nested lists.
 pub fn flat(json: &Value) -> Vec<f64> {
     match json {
         Value::Array(items) => items.iter().flat_map(flat).collect(),
@@ -134,7 +144,6 @@ pub fn relative(found: &[f64], expected: &[f64]) -> f64 {
     if size == 0.0 { off } else { off / size }
 }
 
-/// Returns the largest size of these.
 pub fn largest(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0f64, |most, x| most.max(x.abs()))
 }
@@ -199,10 +208,8 @@ pub fn bounded(
         let found = torques(&imported.robot, &runtime, state);
         for ((own, known), bound) in found.iter().zip(&state.tau).zip(&bounds) {
             let off = (own - known).abs();
-            assert!(
-                off <= bound + rounding(state),
-                "{name}: {off:e} > {bound:e}"
-            );
+            let is_within = off <= bound + rounding(state);
+            assert!(is_within, "{name}: {off:e} > {bound:e}");
             worst = worst.max(off);
         }
     }

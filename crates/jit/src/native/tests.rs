@@ -24,17 +24,14 @@ fn refused<T: Real>(native: &mut Native, fault: &str, plant: impl FnOnce(&mut Co
 }
 
 fn torques(scalar: ScalarType) -> Native {
+    let asked = format!("outputs: inverse_dynamics; scalar: {scalar}");
     let load = Load {
-        asked: format!("outputs: inverse_dynamics; scalar: {scalar}")
-            .parse()
-            .unwrap(),
+        asked: asked.parse().unwrap(),
         cache: Cache::Off,
         ..Load::default()
     };
-    let robot = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../../generated/robots/planar3r.toml"
-    );
+    let folder = env!("CARGO_MANIFEST_DIR");
+    let robot = format!("{folder}/../../generated/robots/planar3r.toml");
     let arm = Arm::load(robot, &load).unwrap();
     let native = arm.functions()[0].native();
     let native = Native::compile(native.program.clone(), native.signature.clone());
@@ -108,12 +105,8 @@ fn code_is_never_writable_and_is_unmapped_when_dropped() {
     });
     let compiled: Vec<Native> = compiled.collect();
     let entries = |own: &Native| {
-        let many = |states| own.many(states).unwrap().entry as usize;
-        [
-            own.one.entry as usize,
-            many(States::Apart),
-            many(States::Adjacent),
-        ]
+        let [apart, adjacent] = LAYOUTS.map(|states| own.many(states).unwrap().entry as usize);
+        [own.one.entry as usize, apart, adjacent]
     };
     let addresses: Vec<usize> = compiled.iter().flat_map(entries).collect();
     let executable = Some("r-xp".to_owned());

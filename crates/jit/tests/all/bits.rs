@@ -4,7 +4,8 @@ use dalembert_codegen::workspace::Operation;
 use dalembert_jit::{Arm, Output, Scalar};
 
 use crate::support::{
-    OTHERS, STATES, all_outputs_in_both, asking, compare, compare_all, drawn, is_same, path, robot,
+    OTHERS, STATES, all_outputs_in_both, asking, called, compare, compare_all, drawn, is_same,
+    path, robot,
 };
 
 fn all_outputs(name: &str, states: usize) {
@@ -36,10 +37,9 @@ fn outputs_by_default() {
 
 #[test]
 fn parameters_are_arguments() {
-    let load = asking(
-        "outputs: inverse_dynamics, gravity; scalar: f64, f32; parameters: payload, gravity",
-    );
-    let arm = robot("planar3r", &load);
+    let asked =
+        "outputs: inverse_dynamics, gravity; scalar: f64, f32; parameters: payload, gravity";
+    let arm = robot("planar3r", &asking(asked));
     assert!(arm.function("load", Scalar::F64).is_some());
     compare_all("planar3r with parameters", &arm, STATES);
 }
@@ -51,10 +51,8 @@ fn other_sines_and_fused_products() {
         ("sincos: libm", false),
         ("fma: on", true),
     ] {
-        let load = asking(&format!(
-            "outputs: inverse_dynamics, jacobian; scalar: f64, f32; {sines}"
-        ));
-        let arm = robot("planar3r", &load);
+        let asked = format!("outputs: inverse_dynamics, jacobian; scalar: f64, f32; {sines}");
+        let arm = robot("planar3r", &asking(&asked));
         let fuses = arm.functions().iter().any(|function| {
             let mut operations = function.native().program().dag.operations();
             operations.any(|(_, operation, _)| operation == Operation::Fused)
@@ -86,10 +84,11 @@ fn threads_change_no_bit() {
     let arm = robot("planar2r", &load);
     let native = arm.functions()[0].native();
     let states = drawn::<f64>(native, 20_001, 3);
-    let one = crate::support::called(native, &states, true, 1);
-    let three = crate::support::called(native, &states, true, 3);
-    for (one, three) in one.iter().flatten().zip(three.iter().flatten()) {
-        assert!(is_same(*one, *three));
-    }
+    let [one, three] = [1, 3].map(|threads| called(native, &states, true, threads).concat());
+    assert!(
+        one.iter()
+            .zip(three)
+            .all(|(one, three)| is_same(*one, three))
+    );
     compare::<f64>("planar2r", native, 100);
 }

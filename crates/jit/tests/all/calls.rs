@@ -15,30 +15,20 @@ fn other_lengths_and_scalars_are_refused() {
     let (q, mut c) = ([0.1, 0.2], [0.0; 2]);
     assert_eq!(native.call(&[&q], &mut c), Ok(()));
     assert_ne!(c, [0.0; 2]);
+    let wrong = native.call(&[&[0.1f32, 0.2]], &mut [0.0; 2]);
     let expected = Scalar::F64;
-    assert_eq!(
-        native.call(&[&[0.1f32, 0.2]], &mut [0.0; 2]),
-        Err(CallError::Scalar { expected })
-    );
+    assert_eq!(wrong, Err(CallError::Scalar { expected }));
     let wrong = native.call(&[&q, &q], &mut c);
-    assert_eq!(
-        wrong,
-        Err(CallError::Count {
-            expected: 1,
-            found: 2
-        })
-    );
+    let (expected, found) = (1, 2);
+    assert_eq!(wrong, Err(CallError::Count { expected, found }));
     for (q, length, place, found) in [(&q[..1], 2, 0, 1), (&q[..], 3, 1, 3)] {
         let wrong = native.call(&[q], &mut vec![0.0; length]);
-        let expected = 2;
-        assert_eq!(
-            wrong,
-            Err(CallError::Length {
-                place,
-                expected,
-                found
-            })
-        );
+        let error = CallError::Length {
+            place,
+            expected: 2,
+            found,
+        };
+        assert_eq!(wrong, Err(error));
     }
 }
 
@@ -61,17 +51,11 @@ fn places_outside_and_on_each_other_are_refused() {
     let outside = |place| Err(CallError::Outside { place });
     assert_eq!(call(Place::rows(2), Place::rows(2), 11), outside(0));
     assert_eq!(call(place(0, [0, 1]), Place::rows(2), 11), outside(1));
-    assert_eq!(
-        call(place(usize::MAX, [0, 1]), Place::rows(2), 10),
-        outside(0)
-    );
+    let far = place(usize::MAX, [0, 1]);
+    assert_eq!(call(far, Place::rows(2), 10), outside(0));
     let overlap = Err(CallError::Overlap { place: 1 });
-    for written in [
-        place(0, [0, 1]),
-        place(1, [0, 1]),
-        place(2, [1, 1]),
-        place(1, [0, 9]),
-    ] {
+    for (state, offsets) in [(0, [0, 1]), (1, [0, 1]), (2, [1, 1]), (1, [0, 9])] {
+        let written = place(state, offsets);
         assert_eq!(call(Place::rows(2), written, 10), overlap);
     }
     assert_eq!(call(Place::rows(2), place(1, [0, 10]), 10), Ok(()));
@@ -91,13 +75,9 @@ fn a_signature_of_another_function_is_refused() {
         results: vec![3],
         ..native.signature().clone()
     };
-    assert_eq!(
-        compile(three),
-        Some(CompileError::Results {
-            expected: 3,
-            found: 2
-        })
-    );
+    let (expected, found) = (3, 2);
+    let error = CompileError::Results { expected, found };
+    assert_eq!(compile(three), Some(error));
 }
 
 #[test]

@@ -50,10 +50,8 @@ fn program(arm: &Arm) -> String {
         let scalar = function.scalar().name();
         let module = format!("in_{scalar}");
         let arguments = &function.native().signature().arguments;
-        let names: Vec<String> = arguments
-            .iter()
-            .map(|(a, _)| format!("&{}", a.name()))
-            .collect();
+        let names = arguments.iter().map(|(a, _)| format!("&{}", a.name()));
+        let names: Vec<String> = names.collect();
         writeln!(main, "for _ in 0..{STATES} {{").unwrap();
         for (argument, length) in arguments {
             let name = argument.name();
@@ -105,16 +103,11 @@ fn compiled(text: &str, folder: &Folder) -> PathBuf {
     rustc.arg("-L").arg(dependencies);
     for name in ["dalembert_sines", "libm"] {
         let library = library(dependencies, name);
-        rustc
-            .arg("--extern")
-            .arg(format!("{name}={}", library.display()));
+        rustc.args(["--extern", &format!("{name}={}", library.display())]);
     }
     let done = rustc.arg(&source).arg("-o").arg(&program).output().unwrap();
-    assert!(
-        done.status.success(),
-        "{}",
-        String::from_utf8_lossy(&done.stderr)
-    );
+    let said = String::from_utf8_lossy(&done.stderr);
+    assert!(done.status.success(), "{said}");
     program
 }
 

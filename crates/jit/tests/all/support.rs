@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::{Argument, Random, State};
-use dalembert_jit::{Arm, Cache, Load, Native, Output, Place, Real};
+use dalembert_jit::{Arm, Cache, Load, Native, Output, Place, Real, Scalar};
 
 /// The robots of `generated/` but the arm in the plane, of which all outputs are compared daily.
 pub const OTHERS: [&str; 5] = ["puma560", "stanford", "ur10", "panda", "planar3r"];
@@ -131,17 +131,14 @@ pub fn called<T: Real>(
     let rows = data.iter().zip(&signature.arguments);
     let rows = rows.map(|(data, &(_, entries))| (data.as_slice(), place(entries)));
     let rows: Vec<(&[T], Place)> = rows.collect();
-    let mut found: Vec<Vec<T>> = signature
-        .results
-        .iter()
-        .map(|entries| vec![T::default(); entries * states])
-        .collect();
+    let found = signature.results.iter();
+    let found = found.map(|entries| vec![T::default(); entries * states]);
+    let mut found: Vec<Vec<T>> = found.collect();
     let results = found.iter_mut().zip(&signature.results);
     let results = results.map(|(data, &entries)| (data.as_mut_slice(), place(entries)));
     let mut results: Vec<(&mut [T], Place)> = results.collect();
-    native
-        .call_rows(&rows, &mut results, states, threads)
-        .unwrap();
+    let done = native.call_rows(&rows, &mut results, states, threads);
+    done.unwrap();
     let mut all = Vec::new();
     for (found, &entries) in found.iter().zip(&signature.results) {
         for entry in 0..entries {
@@ -157,9 +154,8 @@ pub fn called<T: Real>(
 
 pub fn compare<T: Real>(name: &str, native: &Native, states: usize) {
     const CHUNK: usize = 999;
-    let mut done = 0;
     let mut results = vec![T::default(); native.program().dag.outputs.len()];
-    while done < states {
+    for done in (0..states).step_by(CHUNK) {
         let len = CHUNK.min(states - done);
         let drawn = drawn::<T>(native, len, done as u64 + 1);
         let expected = native.program().run_many(&drawn).unwrap();
@@ -178,20 +174,16 @@ pub fn compare<T: Real>(name: &str, native: &Native, states: usize) {
                 }
             }
         }
-        done += len;
     }
 }
 
 pub fn compare_all(name: &str, arm: &Arm, states: usize) {
     for function in arm.functions() {
-        let name = format!(
-            "{name}: {} in {}",
-            function.name(),
-            function.scalar().name()
-        );
-        match function.scalar() {
-            dalembert_jit::Scalar::F64 => compare::<f64>(&name, function.native(), states),
-            dalembert_jit::Scalar::F32 => compare::<f32>(&name, function.native(), states),
+        let (own, scalar) = (function.name(), function.scalar());
+        let name = format!("{name}: {own} in {}", scalar.name());
+        match scalar {
+            Scalar::F64 => compare::<f64>(&name, function.native(), states),
+            Scalar::F32 => compare::<f32>(&name, function.native(), states),
         }
     }
 }

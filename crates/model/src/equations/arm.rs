@@ -72,10 +72,8 @@ impl<S: Scalar> JointPosition<S> {
         match self {
             JointPosition::Prismatic(q) => JointPosition::Prismatic(follower.motion(q)),
             JointPosition::Revolute(pair) => {
-                let mut turned = pair.clone();
-                for _ in 1..follower.turns.unsigned_abs() {
-                    turned = turned.compose(pair);
-                }
+                let more = 1..follower.turns.unsigned_abs();
+                let turned = more.fold(pair.clone(), |turned, _| turned.compose(pair));
                 JointPosition::Revolute(match follower.turns < 0 {
                     true => turned.reversed(),
                     false => turned,
@@ -94,11 +92,25 @@ pub struct DhVariables<S> {
     pub d: S,
 }
 
+/// Those of every row, at a position.
+pub type At<S> = [DhVariables<S>];
+
+/// An arm at a position.
+pub(super) type Posed<S> = (Arm<S>, Vec<DhVariables<S>>);
+
 impl<S: Scalar> Arm<S> {
     /// Returns θ_i and d_i of every row at a position.
     pub fn at(&self, position: &[JointPosition<S>]) -> Vec<DhVariables<S>> {
         let links = self.links.iter().zip(position);
         links.map(|(link, q)| link.at(q)).collect()
+    }
+
+    pub(super) fn steps<'a>(
+        &'a self,
+        at: &'a At<S>,
+    ) -> impl DoubleEndedIterator<Item = Step<'a, S>> + ExactSizeIterator {
+        let links = self.links.iter().zip(at);
+        links.map(move |(link, at)| link.step(self.convention, at))
     }
 
     /// Returns the pose of frame 0 in base axes.
@@ -138,26 +150,26 @@ impl<S: Scalar> Arm<S> {
     }
 }
 
-impl<S: Clone> Arm<S> {
-    /// Returns the arm at velocities of these r_i, where joints have Coulomb friction.
-    #[must_use]
-    pub fn at_speeds(mut self, per_speed: &[Option<S>]) -> Arm<S> {
-        for (link, per_speed) in self.links.iter_mut().zip(per_speed) {
-            link.friction = link.friction.clone().at_speed(per_speed.as_ref());
-        }
-        self
-    }
-}
-
 impl<S: Scalar> Link<S> {
-    /// The offset enters as a product of pairs, never as a sum of angles: q + offset would lose
-    /// |q|·u, or |offset|·u, of the angle.
+    /// The offset enters as a product of pairs: a sum of angles would lose |q|·u, or |offset|·u.
     pub(super) fn at(&self, position: &JointPosition<S>) -> DhVariables<S> {
         let (theta, d) = match position {
             JointPosition::Revolute(pair) => (pair.compose(&self.theta), self.d.clone()),
             JointPosition::Prismatic(q) => (self.theta.clone(), plus(q, &self.d)),
         };
         DhVariables { theta, d }
+    }
+
+    pub(super) fn step<'a>(
+        &'a self,
+        convention: Convention,
+        at: &'a DhVariables<S>,
+    ) -> Step<'a, S> {
+        Step {
+            convention,
+            link: self,
+            at,
+        }
     }
 
     /// Returns a link without mass on a slide whose frame, at position zero, is the one before.
@@ -176,14 +188,19 @@ impl<S: Scalar> Link<S> {
             armature: S::zero(),
         }
     }
+
+    /// Returns Ry(−β) v: from the axes after the twist into those of frame i.
+    pub(super) fn tilt_back(&self, v: Vector<S>) -> Vector<S> {
+        match &self.beta {
+            None => v,
+            Some(beta) => beta.turn_back_in(ABOUT_Y, v),
+        }
+    }
 }
 
-/// Conversions of the parameters to another scalar, each taken over by `f`.
-///
-/// Pairs are converted entry by entry: a conversion that rounds leaves them on
-/// the circle only to its own accuracy.
 impl<S> Arm<S> {
-    /// Returns every parameter of the arm through `f`.
+    /// Returns every parameter of the arm through `f`. Pairs are converted entry by entry: a
+    /// conversion that rounds leaves them on the circle only to its own accuracy.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Arm<T> {
         self.with_each(&mut f)
     }
@@ -195,9 +212,7 @@ impl<S> Arm<S> {
             base: self.base.as_ref().map(|pose| pose.map(&mut *f)),
             tool: self.tool.as_ref().map(|pose| pose.map(&mut *f)),
             links: self.links.iter().map(|link| link.map(&mut *f)).collect(),
-            following: (self.following.iter())
-                .map(|own| own.map(&mut *f))
-                .collect(),
+            following: self.following.iter().map(|own| own.map(&mut *f)).collect(),
             frames: self.frames.map(f),
         }
     }
@@ -224,73 +239,78 @@ impl<S> Link<S> {
 
 /// The step from frame i−1 to frame i at a position: ⁱ⁻¹A_i, applied factor by
 /// factor, so that each is a plane rotation or a shift along one axis.
-impl<S: Scalar> Link<S> {
+pub(super) struct Step<'a, S> {
+    pub(super) convention: Convention,
+    pub(super) link: &'a Link<S>,
+    pub(super) at: &'a DhVariables<S>,
+}
+
+impl<S: Scalar> Step<'_, S> {
     /// Returns M ⁱ⁻¹A_i (eq. 2.1), with the turn about y where a link has one.
-    pub fn append(
-        &self,
-        convention: Convention,
-        at: &DhVariables<S>,
-        before: &Columns<S>,
-    ) -> Columns<S> {
-        let m = before.clone();
-        match convention {
+    pub(super) fn append(&self, before: &Columns<S>) -> Columns<S> {
+        let (link, at, m) = (self.link, self.at, before.clone());
+        match self.convention {
             Convention::Standard => {
-                let m = m
-                    .turn_z(&at.theta)
-                    .shift_z(&at.d)
-                    .shift_x(&self.a)
-                    .turn_x(&self.alpha);
-                match &self.beta {
+                let m = m.turn_z(&at.theta).shift_z(&at.d).shift_x(&link.a);
+                let m = m.turn_x(&link.alpha);
+                match &link.beta {
                     None => m,
                     Some(beta) => m.turn_y(beta),
                 }
             }
-            Convention::Modified => m
-                .turn_x(&self.alpha)
-                .shift_x(&self.a)
-                .turn_z(&at.theta)
-                .shift_z(&at.d),
+            Convention::Modified => {
+                let m = m.turn_x(&link.alpha).shift_x(&link.a);
+                m.turn_z(&at.theta).shift_z(&at.d)
+            }
         }
     }
 
+    /// Returns the origin of frame i in frame i−1.
+    pub(super) fn lever(&self) -> Vector<S> {
+        self.append(&Columns::identity()).origin
+    }
+
     /// Returns ⁱR_{i−1} v: components from frame i−1 into frame i.
-    pub fn to_link(&self, convention: Convention, at: &DhVariables<S>, v: &Vector<S>) -> Vector<S> {
-        let twist_back = |v| self.alpha.turn_back_in(ABOUT_X, v);
-        let turn_back = |v| at.theta.turn_back_in(ABOUT_Z, v);
-        match convention {
-            Convention::Standard => self.tilt_back(twist_back(turn_back(v.clone()))),
+    pub(super) fn to_link(&self, v: &Vector<S>) -> Vector<S> {
+        let twist_back = |v| self.link.alpha.turn_back_in(ABOUT_X, v);
+        let turn_back = |v| self.at.theta.turn_back_in(ABOUT_Z, v);
+        match self.convention {
+            Convention::Standard => self.link.tilt_back(twist_back(turn_back(v.clone()))),
             Convention::Modified => turn_back(twist_back(v.clone())),
         }
     }
 
     /// Returns ⁱ⁻¹R_i v: components from frame i into frame i−1.
-    pub fn to_previous(
-        &self,
-        convention: Convention,
-        at: &DhVariables<S>,
-        v: &Vector<S>,
-    ) -> Vector<S> {
-        let twist = |v| self.alpha.turn_in(ABOUT_X, v);
-        let turn = |v| at.theta.turn_in(ABOUT_Z, v);
-        match (convention, &self.beta) {
+    pub(super) fn to_previous(&self, v: &Vector<S>) -> Vector<S> {
+        let twist = |v| self.link.alpha.turn_in(ABOUT_X, v);
+        let turn = |v| self.at.theta.turn_in(ABOUT_Z, v);
+        match (self.convention, &self.link.beta) {
             (Convention::Standard, None) => turn(twist(v.clone())),
             (Convention::Standard, Some(beta)) => turn(twist(beta.turn_in(ABOUT_Y, v.clone()))),
             (Convention::Modified, _) => twist(turn(v.clone())),
         }
     }
 
-    /// Returns Ry(−β) v: from the axes after the twist into those of frame i.
-    pub(super) fn tilt_back(&self, v: Vector<S>) -> Vector<S> {
-        match &self.beta {
-            None => v,
-            Some(beta) => beta.turn_back_in(ABOUT_Y, v),
+    /// Returns which of two is of the joint's frame: i−1 in standard DH, i in modified.
+    pub(super) fn at_joint<T>(&self, before: T, after: T) -> T {
+        match self.convention {
+            Convention::Standard => before,
+            Convention::Modified => after,
         }
     }
 }
 
 impl<S: Clone> Arm<S> {
-    /// Returns the same arm whose hand is a frame of this name, in these axes and
-    /// components; `None` where there is no such frame.
+    /// Returns the arm at velocities of these r_i, where joints have Coulomb friction.
+    #[must_use]
+    pub fn at_speeds(mut self, per_speed: &[Option<S>]) -> Arm<S> {
+        for (link, per_speed) in self.links.iter_mut().zip(per_speed) {
+            link.friction.take_speed(per_speed.as_ref());
+        }
+        self
+    }
+
+    /// Returns the arm with the frame of this name for a hand, seen like this; `None` without it.
     pub fn seen(&self, view: &View) -> Option<Arm<S>> {
         let mut arm = self.clone();
         if view.frame != HAND {
@@ -303,10 +323,7 @@ impl<S: Clone> Arm<S> {
         Some(arm)
     }
 
-    pub(super) fn to_hand<'a>(
-        &'a self,
-        at: &'a [DhVariables<S>],
-    ) -> (Cow<'a, Arm<S>>, &'a [DhVariables<S>]) {
+    pub(super) fn to_hand<'a>(&'a self, at: &'a At<S>) -> (Cow<'a, Arm<S>>, &'a At<S>) {
         match self.frames.joint {
             Some(joint) if joint + 1 < self.links.len() => {
                 let mut arm = self.clone();

@@ -7,25 +7,18 @@
 use alloc::vec::Vec;
 
 use super::factor::Factor;
+use super::forward::hold;
 use super::frames::Axes;
-use super::matrix::{
-    Columns, Vector, columns_of, cross, difference, product, products, sum, symmetric, three,
-};
+use super::matrix::*;
 use super::operational::damped;
 use super::screws::Wrench;
-use super::{Arm, DhVariables, Formulation};
-use crate::robot::Convention;
+use super::{Arm, At, Formulation};
 use crate::scalar::{Divide, Scalar};
 
 impl Formulation {
     /// Returns Jᵀ w of a wrench of six components, a torque or force a joint: the recursions in
     /// link axes carry the wrench along the chain, the others multiply by J.
-    pub fn torques_of_wrench<S: Scalar>(
-        self,
-        arm: &Arm<S>,
-        at: &[DhVariables<S>],
-        wrench: &[S],
-    ) -> Vec<S> {
+    pub fn torques_of_wrench<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, wrench: &[S]) -> Vec<S> {
         match self {
             Self::NewtonEulerLink | Self::NewtonEulerLinkDifferences => {
                 let mut torques = along_links(arm, at, wrench);
@@ -44,7 +37,7 @@ impl Formulation {
     pub fn wrench_of_torques<S: Divide>(
         self,
         arm: &Arm<S>,
-        at: &[DhVariables<S>],
+        at: &At<S>,
         [tau, damping]: [&[S]; 2],
         moves: &[bool],
     ) -> Vec<S> {
@@ -57,15 +50,11 @@ impl Formulation {
     pub fn moving_jacobian<S: Scalar>(
         self,
         arm: &Arm<S>,
-        at: &[DhVariables<S>],
+        at: &At<S>,
         moves: &[bool],
     ) -> Vec<Vec<S>> {
         let mut j = self.gathered_jacobian(arm, at);
-        for row in &mut j {
-            for (entry, _) in row.iter_mut().zip(moves).filter(|(_, moves)| !**moves) {
-                *entry = S::zero();
-            }
-        }
+        hold(&mut j, moves);
         j
     }
 }
@@ -75,13 +64,10 @@ pub fn squared<S: Scalar>(j: &[Vec<S>]) -> Vec<Vec<S>> {
     symmetric(j.len(), |i, k| product(&j[i], &j[k]))
 }
 
-fn along_links<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: &[S]) -> Vec<S> {
+fn along_links<S: Scalar>(arm: &Arm<S>, at: &At<S>, wrench: &[S]) -> Vec<S> {
     let (arm, at) = arm.to_hand(at);
-    let part = |from: usize| -> Vector<S> { three(|i| wrench[from + i].clone()) };
-    let wrench = Wrench {
-        force: part(0),
-        moment: part(3),
-    };
+    let [force, moment] = [0, 3].map(|from| three(|i| wrench[from + i].clone()));
+    let wrench = Wrench { force, moment };
     match arm.frames.axes {
         Axes::Local => from_the_hand(&arm, at, wrench),
         Axes::World => from_the_base(&arm, at, wrench),
@@ -93,29 +79,22 @@ fn along_links<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: &[S]) -> 
     }
 }
 
-fn from_the_hand<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: Wrench<S>) -> Vec<S> {
+fn from_the_hand<S: Scalar>(arm: &Arm<S>, at: &At<S>, wrench: Wrench<S>) -> Vec<S> {
     let mut wrench = match &arm.tool {
         None => wrench,
         Some(tool) => wrench.carried(|v| tool.rotate(v), &tool.origin),
     };
-    let mut torques = Vec::with_capacity(at.len());
-    for (link, at) in arm.links.iter().zip(at).rev() {
-        let step = link.append(arm.convention, at, &Columns::identity());
-        let turn = |v: &Vector<S>| link.to_previous(arm.convention, at, v);
-        let inner = wrench.carried(turn, &step.origin);
-        let at_joint = match arm.convention {
-            Convention::Standard => &inner,
-            Convention::Modified => &wrench,
-        };
-        torques.push(at_joint.part(link.kind)[2].clone());
+    from_hand(arm.steps(at), |step| {
+        let inner = wrench.carried(|v| step.to_previous(v), &step.lever());
+        let at_joint = step.at_joint(&inner, &wrench);
+        let torque = at_joint.part(step.link.kind)[2].clone();
         wrench = inner;
-    }
-    torques.reverse();
-    torques
+        torque
+    })
 }
 
 /// From the base outward; the wrench is about the base's origin in base axes.
-fn from_the_base<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: Wrench<S>) -> Vec<S> {
+fn from_the_base<S: Scalar>(arm: &Arm<S>, at: &At<S>, wrench: Wrench<S>) -> Vec<S> {
     let outward = |wrench: &Wrench<S>, origin: &Vector<S>| Wrench {
         moment: difference(&wrench.moment, &cross(origin, &wrench.force)),
         force: wrench.force.clone(),
@@ -124,17 +103,12 @@ fn from_the_base<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: Wrench<
         None => wrench,
         Some(base) => outward(&wrench, &base.origin).in_axes(|v| base.rotate_back(v)),
     };
-    let mut torques = Vec::with_capacity(at.len());
-    for (link, at) in arm.links.iter().zip(at) {
-        let before = wrench;
-        let step = link.append(arm.convention, at, &Columns::identity());
-        let turn = |v: &Vector<S>| link.to_link(arm.convention, at, v);
-        wrench = outward(&before, &step.origin).in_axes(turn);
-        let at_joint = match arm.convention {
-            Convention::Standard => &before,
-            Convention::Modified => &wrench,
-        };
-        torques.push(at_joint.part(link.kind)[2].clone());
-    }
-    torques
+    let torques = arm.steps(at).map(|step| {
+        let outer = outward(&wrench, &step.lever()).in_axes(|v| step.to_link(v));
+        let at_joint = step.at_joint(&wrench, &outer);
+        let torque = at_joint.part(step.link.kind)[2].clone();
+        wrench = outer;
+        torque
+    });
+    torques.collect()
 }

@@ -7,16 +7,12 @@
 use alloc::vec::Vec;
 
 use super::lagrange_euler::{add_armature, assemble};
-use super::matrix::{
-    Columns, Vector, centripetal, cross, difference, dot, negative, scaled, sum, sums, symmetric,
-    tensor_times, times, total, twice, unit_z, zero_vector,
-};
-use super::{Arm, DhVariables};
+use super::matrix::*;
+use super::{Arm, At, DhVariables};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 
-/// A part of what moves with a link. As each is an arm, D and h of either
-/// may come from any formulation.
+/// A part of what moves with a link: an arm, whose D and h may come from any formulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Part {
     /// Its rotation, through I_s and its angular velocity: a link without mass.
@@ -54,8 +50,7 @@ pub struct Dalembert<'a, S> {
     levers: Vec<Vector<S>>,
     /// s̄_s in base axes.
     coms: Vec<Vector<S>>,
-    /// `local[s][i]` = ˢR_0 Jω_{s,i}, i ≤ s: the axis of a rotary joint i in
-    /// frame s, zero for a prismatic one.
+    /// `local[s][i]` = ˢR_0 Jω_{s,i}, i ≤ s: the axis of a rotary joint i in frame s, or zero.
     local: Vec<Vec<Vector<S>>>,
     /// `momentum[s][i]` = m_s Jv_{s,i}, i ≤ s.
     momentum: Vec<Vec<Vector<S>>>,
@@ -65,7 +60,7 @@ pub struct Dalembert<'a, S> {
 
 impl<'a, S: Scalar> Dalembert<'a, S> {
     /// Returns the shared quantities at a position.
-    pub fn new(arm: &'a Arm<S>, at: &'a [DhVariables<S>]) -> Self {
+    pub fn new(arm: &'a Arm<S>, at: &'a At<S>) -> Self {
         let n = arm.links.len();
         let mut this = Dalembert {
             arm,
@@ -87,33 +82,26 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
 
     fn append(&mut self, s: usize, at: &DhVariables<S>) {
         let (link, convention) = (&self.arm.links[s], self.arm.convention);
-        let before = &self.poses[s];
-        let from_before = Columns::turned(before.axes.clone());
-        let step = link.append(convention, at, &from_before);
+        let (step, before) = (link.step(convention, at), &self.poses[s]);
+        let moved = step.append(&Columns::turned(before.axes.clone()));
         let pose = Columns {
-            origin: sum(&before.origin, &step.origin),
-            axes: step.axes,
+            origin: sum(&before.origin, &moved.origin),
+            axes: moved.axes,
         };
-        let joint = match convention {
-            Convention::Standard => before,
-            Convention::Modified => &pose,
-        };
+        let joint = step.at_joint(before, &pose);
         self.axes.push(joint.axes[2].clone());
         self.points.push(joint.origin.clone());
-        self.levers.push(step.origin);
+        self.levers.push(moved.origin);
         let com = pose.rotate(&link.com);
 
         let z0 = unit_z();
         let mut local: Vec<_> = match s {
             0 => Vec::new(),
-            _ => self.local[s - 1]
-                .iter()
-                .map(|z| link.to_link(convention, at, z))
-                .collect(),
+            _ => self.local[s - 1].iter().map(|z| step.to_link(z)).collect(),
         };
         local.push(match (link.kind, convention) {
             (JointKind::Prismatic, _) => zero_vector(),
-            (JointKind::Revolute, Convention::Standard) => link.to_link(convention, at, &z0),
+            (JointKind::Revolute, Convention::Standard) => step.to_link(&z0),
             (JointKind::Revolute, Convention::Modified) => z0,
         });
         // r_s, then Jv_{s,i} = z × (r_s − p), or z for a prismatic joint.
@@ -132,20 +120,15 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         self.poses.push(pose);
     }
 
-    /// Returns D^rot_ij = Σ_s (ˢR_0 z_{i−1})ᵀ I_s (ˢR_0 z_{j−1}) and
-    /// D^tran_ij = Σ_s m_s Jv_{s,j} · Jv_{s,i}, s ≥ max(i,j), n×n (eq. 4.2),
-    /// without the armature, in the order of [`Part`].
+    /// Returns D^rot_ij = Σ_s (ˢR_0 z_{i−1})ᵀ I_s (ˢR_0 z_{j−1}) and D^tran_ij =
+    /// Σ_s m_s Jv_{s,j} · Jv_{s,i}, s ≥ max(i,j) (eq. 4.2), no armature, in the order of [`Part`].
     pub fn inertia_parts(&self) -> [Vec<Vec<S>>; 2] {
-        let spins: Vec<Vec<_>> = self
-            .local
-            .iter()
-            .zip(&self.arm.links)
-            .map(|(row, link)| row.iter().map(|z| tensor_times(&link.inertia, z)).collect())
-            .collect();
-        [
-            pair_sums(&self.local, &spins),
-            pair_sums(&self.jv, &self.momentum),
-        ]
+        let links = self.local.iter().zip(&self.arm.links);
+        let spins =
+            links.map(|(row, link)| row.iter().map(|z| tensor_times(&link.inertia, z)).collect());
+        let spins: Vec<Vec<_>> = spins.collect();
+        let rotation = pair_sums(&self.local, &spins);
+        [rotation, pair_sums(&self.jv, &self.momentum)]
     }
 
     /// Returns D = D^rot + D^tran, n×n, armature on the diagonal.
@@ -203,10 +186,8 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
             let spin = cross(&omega_here, &tensor_times(&link.inertia, &omega_here));
             moments.push(sum(&tensor_times(&link.inertia, &alpha_here), &spin));
         }
-        [
-            joint_sums(&self.local, &moments),
-            joint_sums(&self.momentum, &accelerations),
-        ]
+        let rotation = joint_sums(&self.local, &moments);
+        [rotation, joint_sums(&self.momentum, &accelerations)]
     }
 
     /// Returns h = h^rot + h^tran.
@@ -240,8 +221,7 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
     }
 }
 
-/// Returns [i][j] = Σ_{s ≥ max(i,j)} a[s][i] · b[s][j], symmetric by its meaning: the
-/// lower half is summed, the upper cloned.
+/// Returns [i][j] = Σ_{s ≥ max(i,j)} a[s][i] · b[s][j], symmetric by its meaning.
 fn pair_sums<S: Scalar>(a: &[Vec<Vector<S>>], b: &[Vec<Vector<S>>]) -> Vec<Vec<S>> {
     let n = a.len();
     symmetric(n, |i, j| total((i..n).map(|s| dot(&a[s][i], &b[s][j]))))

@@ -2,21 +2,18 @@
 
 use alloc::vec::Vec;
 
+use super::arm::Posed;
 use super::dalembert::{Dalembert, Part};
-use super::derivatives::constants;
-use super::matrix::{
-    Columns, Vector, columns_of, dot, halved, minus, negative, plus, product, products, scaled,
-    sum, zero_vector, zeros,
-};
-use super::{Arm, DhVariables, Formulation};
+use super::derivatives::{constants, still};
+use super::matrix::*;
+use super::{Arm, At, DhVariables, Formulation};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 use crate::scalar::dual::Dual;
 
 impl Formulation {
-    /// Returns p = D q̇, length n. A recursion gives it as the torques that would
-    /// accelerate the arm at rest, weightless, as fast as it moves.
-    pub fn momentum<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S]) -> Vec<S> {
+    /// Returns p = D q̇: of a recursion the torques that give the weightless arm at rest q̈ = q̇.
+    pub fn momentum<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> Vec<S> {
         match self {
             Self::LagrangeEuler | Self::Dalembert => products(&self.inertia(arm, at), qd),
             _ => self.inverse_dynamics(&arm.weightless(), at, &zeros(qd.len()), qd),
@@ -24,19 +21,13 @@ impl Formulation {
     }
 
     /// Returns T = ½ q̇ᵀ D q̇, the rotors' part included.
-    pub fn kinetic_energy<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S]) -> S {
+    pub fn kinetic_energy<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> S {
         halved(&product(&self.momentum(arm, at, qd), qd))
     }
 
-    /// Returns Cᵀ q̇ = ∂T/∂q, length n: Lagrange–Euler from the Christoffel symbols;
-    /// elsewhere Ḋ q̇ − h, where Ḋ q̇ is the rate of the momentum of a motion
-    /// that keeps its velocities.
-    pub fn momentum_slope<S: Scalar>(
-        self,
-        arm: &Arm<S>,
-        at: &[DhVariables<S>],
-        qd: &[S],
-    ) -> Vec<S> {
+    /// Returns Cᵀ q̇ = ∂T/∂q: Lagrange–Euler from the Christoffel symbols; elsewhere Ḋ q̇ − h, with
+    /// Ḋ q̇ the rate of the momentum of a motion that keeps its velocities.
+    pub fn momentum_slope<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> Vec<S> {
         if self == Self::LagrangeEuler {
             return products(&columns_of(&self.coriolis_matrix(arm, at, qd)), qd);
         }
@@ -47,12 +38,7 @@ impl Formulation {
     }
 
     /// Returns C, n×n: C_ik = Σ_m h_ikm q̇_m, so that C q̇ = h and Ḋ − 2C is skew.
-    pub fn coriolis_matrix<S: Scalar>(
-        self,
-        arm: &Arm<S>,
-        at: &[DhVariables<S>],
-        qd: &[S],
-    ) -> Vec<Vec<S>> {
+    pub fn coriolis_matrix<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> Vec<Vec<S>> {
         contracted(&self.christoffel(arm, at), qd)
     }
 
@@ -62,7 +48,7 @@ impl Formulation {
     pub fn passivity<S: Scalar>(
         self,
         arm: &Arm<S>,
-        at: &[DhVariables<S>],
+        at: &At<S>,
         qd: &[S],
         [v, a]: [&[S]; 2],
     ) -> Vec<S> {
@@ -81,9 +67,7 @@ impl Formulation {
                 };
                 let free = arm.clone().without_friction();
                 let with = self.inverse_dynamics(&free, at, &of(plus), a);
-                let without = self.velocity_terms(arm, at, &of(minus));
-                let pairs = with.iter().zip(&without);
-                pairs.map(|(with, without)| minus(with, without)).collect()
+                differences(&with, &self.velocity_terms(arm, at, &of(minus)))
             }
         };
         let links = load.iter().zip(&arm.links).zip(v);
@@ -92,12 +76,7 @@ impl Formulation {
     }
 
     /// Returns D^rot or D^tran, n×n, the armature in neither.
-    pub fn inertia_part<S: Scalar>(
-        self,
-        part: Part,
-        arm: &Arm<S>,
-        at: &[DhVariables<S>],
-    ) -> Vec<Vec<S>> {
+    pub fn inertia_part<S: Scalar>(self, part: Part, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
         if self != Self::Dalembert {
             return self.inertia(&part.of(arm), at);
         }
@@ -110,7 +89,7 @@ impl Formulation {
         self,
         part: Part,
         arm: &Arm<S>,
-        at: &[DhVariables<S>],
+        at: &At<S>,
         qd: &[S],
     ) -> Vec<S> {
         if self != Self::Dalembert {
@@ -122,7 +101,7 @@ impl Formulation {
 
     /// Returns U = −Σ_j m_j g·r_j, r_j from the origin of the base, not of frame 0: Lagrange–Euler
     /// from the pose of each link; elsewhere from first moments, gathered from the hand inward.
-    pub fn potential_energy<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> S {
+    pub fn potential_energy<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> S {
         let moment = match self {
             Self::LagrangeEuler => first_moment_by_poses(arm, at),
             _ => first_moment(arm, at),
@@ -136,26 +115,19 @@ pub fn contracted<S: Scalar>(h: &[Vec<Vec<S>>], qd: &[S]) -> Vec<Vec<S>> {
     h.iter().map(|h| products(h, qd)).collect()
 }
 
-pub(super) fn moving<S: Scalar>(
-    arm: &Arm<S>,
-    at: &[DhVariables<S>],
-    qd: &[S],
-) -> (Arm<Dual<S>>, Vec<DhVariables<Dual<S>>>) {
+pub(super) fn moving<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S]) -> Posed<Dual<S>> {
     let links = arm.links.iter().zip(at).zip(qd);
-    let at = links.map(|((link, at), rate)| match link.kind {
-        JointKind::Revolute => DhVariables {
-            theta: at.theta.clone().turning(rate),
-            d: Dual::constant(at.d.clone()),
-        },
-        JointKind::Prismatic => DhVariables {
-            theta: at.theta.map(|x| Dual::constant(x.clone())),
-            d: Dual {
-                value: at.d.clone(),
-                rate: rate.clone(),
-            },
-        },
+    let at = links.map(|((link, at), rate)| {
+        let (theta, d) = match link.kind {
+            JointKind::Revolute => (at.theta.clone().turning(rate), still(&at.d)),
+            JointKind::Prismatic => {
+                let [value, rate] = [&at.d, rate].map(S::clone);
+                (at.theta.map(still), Dual { value, rate })
+            }
+        };
+        DhVariables { theta, d }
     });
-    (arm.map(|x| Dual::constant(x.clone())), at.collect())
+    (arm.map(still), at.collect())
 }
 
 /// Returns the lever from the base's origin to that of frame 0, in the axes of frame 0.
@@ -167,29 +139,29 @@ fn base_lever<S: Scalar>(arm: &Arm<S>) -> Vector<S> {
 }
 
 /// Returns Σ_j m_j r_j from the base's origin in the axes of frame 0, link by link.
-fn first_moment_by_poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vector<S> {
+fn first_moment_by_poses<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vector<S> {
     let mut pose = Columns {
         origin: base_lever(arm),
         ..Columns::identity()
     };
     let mut moment = zero_vector();
-    for (link, at) in arm.links.iter().zip(at) {
-        pose = link.append(arm.convention, at, &pose);
-        let centre = pose.apply(&link.com, &S::one());
-        moment = sum(&moment, &scaled(&link.mass, &centre));
+    for step in arm.steps(at) {
+        pose = step.append(&pose);
+        let centre = pose.apply(&step.link.com, &S::one());
+        moment = sum(&moment, &scaled(&step.link.mass, &centre));
     }
     moment
 }
 
-fn first_moment<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vector<S> {
+fn first_moment<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vector<S> {
     let mut moment = zero_vector();
     let mut mass = S::zero();
-    for (link, at) in arm.links.iter().zip(at).rev() {
-        moment = sum(&moment, &scaled(&link.mass, &link.com));
-        mass = plus(&mass, &link.mass);
-        let step = link.append(arm.convention, at, &Columns::identity());
-        let turned = link.to_previous(arm.convention, at, &moment);
-        moment = sum(&turned, &scaled(&mass, &step.origin));
+    for step in arm.steps(at).rev() {
+        moment = sum(&moment, &scaled(&step.link.mass, &step.link.com));
+        mass = plus(&mass, &step.link.mass);
+        let lever = step.lever();
+        let turned = step.to_previous(&moment);
+        moment = sum(&turned, &scaled(&mass, &lever));
     }
     match &arm.base {
         None => moment,

@@ -8,7 +8,7 @@
 
 use alloc::vec::Vec;
 
-use super::matrix::{minus, negative, over, plus, symmetric, times, zeros};
+use super::matrix::{minus, negative, over, symmetric, times, total, zeros};
 use crate::scalar::{Divide, Scalar};
 
 /// The factors of a symmetric matrix, of which all unknowns but the first few are eliminated.
@@ -24,8 +24,7 @@ pub struct Factor<S> {
 }
 
 impl<S: Divide> Factor<S> {
-    /// Factors a symmetric matrix, whose upper half is not read. A division for
-    /// each pivot that an entry above it is divided by; n − 1 at most.
+    /// Factors a symmetric matrix, whose upper half is not read, by n − 1 divisions at most.
     pub fn new(matrix: &[Vec<S>]) -> Factor<S> {
         Factor::partial(matrix, 0)
     }
@@ -58,9 +57,8 @@ impl<S: Divide> Factor<S> {
 
     /// Returns d
     pub fn pivots(&self) -> Vec<S> {
-        (self.kept..self.rest.len())
-            .map(|k| self.rest[k][k].clone())
-            .collect()
+        let pivot = |k: usize| self.rest[k][k].clone();
+        (self.kept..self.rest.len()).map(pivot).collect()
     }
 
     /// Returns entry (i, k) of the matrix that is left of the first unknowns, k ≤ i.
@@ -81,8 +79,7 @@ impl<S: Divide> Factor<S> {
         self.eliminate(b, |_, x| x.clone())
     }
 
-    /// Returns the right side b of the first unknowns once the others are eliminated, then what
-    /// these are if the first vanish.
+    /// Returns b of the first unknowns, the others eliminated, then these if the first vanish.
     pub(super) fn halfway(&self, b: &[S]) -> Vec<S> {
         self.eliminate(b, |k, x| times(x, &self.inverses[k]))
     }
@@ -135,17 +132,19 @@ impl<S: Divide> Factor<S> {
         }
         let scaled: Vec<Vec<S>> = inverse.iter().map(|column| self.scaled(column)).collect();
         symmetric(n, |i, k| {
-            (0..=k).fold(S::zero(), |sum, l| {
-                plus(&sum, &times(&scaled[i][l], &inverse[k][l]))
-            })
+            total((0..=k).map(|l| times(&scaled[i][l], &inverse[k][l])))
         })
     }
 }
 
+/// Returns the values of these joints alone.
+pub(crate) fn picked<T: Clone>(values: &[T], joints: &[usize]) -> Vec<T> {
+    joints.iter().map(|&joint| values[joint].clone()).collect()
+}
+
 /// Returns a matrix over these joints alone.
 pub fn submatrix<S: Scalar>(matrix: &[Vec<S>], joints: &[usize]) -> Vec<Vec<S>> {
-    let row = |&i: &usize| joints.iter().map(|&k| matrix[i][k].clone()).collect();
-    joints.iter().map(row).collect()
+    joints.iter().map(|&i| picked(&matrix[i], joints)).collect()
 }
 
 /// Returns a vector of n entries that has these at these joints, and zeros elsewhere.

@@ -11,7 +11,7 @@
 
 use alloc::vec::Vec;
 
-use super::matrix::{plus, times};
+use super::matrix::{plus, sums, times};
 use crate::number::Exact;
 use crate::robot::Robot;
 use crate::scalar::Scalar;
@@ -72,8 +72,7 @@ impl<S: Scalar> Following<S> {
     }
 }
 
-/// Adds the loads of followers to those of their leaders, along an axis of an array whose
-/// neighbours are `stride` apart, over these rows.
+/// Adds loads of followers to their leaders', along an axis over these rows, of this stride.
 pub fn gather<S: Scalar>(
     following: &[Following<S>],
     rows: &[usize],
@@ -86,8 +85,8 @@ pub fn gather<S: Scalar>(
         for own in &following {
             for i in 0..stride {
                 let part = own.motion(&block[own.row * stride + i]);
-                let sum = plus(&block[own.leader * stride + i], &part);
-                block[own.leader * stride + i] = sum;
+                let sum = &mut block[own.leader * stride + i];
+                *sum = plus(sum, &part);
             }
         }
     }
@@ -109,18 +108,12 @@ pub fn gathered_rows<S: Scalar>(following: &[Following<S>], rows: Vec<Vec<S>>) -
 }
 
 /// Returns Sᵀ M
-pub fn gathered_columns<S: Scalar>(
-    following: &[Following<S>],
-    mut rows: Vec<Vec<S>>,
-) -> Vec<Vec<S>> {
+pub fn gathered_columns<S: Scalar>(following: &[Following<S>], mut m: Vec<Vec<S>>) -> Vec<Vec<S>> {
     for own in following {
-        let part = rows[own.row].iter().map(|x| own.motion(x));
-        let part: Vec<S> = part.collect();
-        for (entry, part) in rows[own.leader].iter_mut().zip(&part) {
-            *entry = plus(entry, part);
-        }
+        let part: Vec<S> = m[own.row].iter().map(|x| own.motion(x)).collect();
+        m[own.leader] = sums(&m[own.leader], &part);
     }
-    rows
+    m
 }
 
 /// Returns Sᵀ D S, symmetric.

@@ -8,10 +8,10 @@ use alloc::vec::Vec;
 
 use super::dalembert::Dalembert;
 use super::lagrange_euler::{self, LagrangeEuler};
-use super::matrix::{halved, minus, symmetric, unit, zeros};
+use super::matrix::{halved, minus, symmetric, symmetric_each, unit, zeros};
 use super::newton_euler::table1;
 use super::newton_euler::table2::{self, Moment};
-use super::{Arm, DhVariables};
+use super::{Arm, At};
 use crate::scalar::Scalar;
 
 /// A way to write the dynamics. All give the same functions of the state.
@@ -51,11 +51,11 @@ impl Formulation {
     pub fn inverse_dynamics<S: Scalar>(
         self,
         arm: &Arm<S>,
-        at: &[DhVariables<S>],
+        at: &At<S>,
         qd: &[S],
         qdd: &[S],
     ) -> Vec<S> {
-        let in_link_axes = |moment| table2::inverse_dynamics(arm, at, qd, qdd, moment);
+        let in_link_axes = |moment| table2::inverse_dynamics(arm, at, [qd, qdd], moment);
         match self {
             Self::LagrangeEuler => LagrangeEuler::new(arm, at).inverse_dynamics(qd, qdd),
             Self::Dalembert => Dalembert::new(arm, at).inverse_dynamics(qd, qdd),
@@ -67,12 +67,11 @@ impl Formulation {
     }
 
     /// Returns D, n×n, symmetric, armature on the diagonal.
-    pub fn inertia<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
+    pub fn inertia<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
         match self {
             Self::LagrangeEuler => LagrangeEuler::new(arm, at).inertia(),
             Self::Dalembert => Dalembert::new(arm, at).inertia(),
-            // Column k is τ of q̈ = e_k at rest, without gravity. Only its rows i ≥ k are taken, the
-            // others by symmetry.
+            // Column k is τ of q̈ = e_k at rest, without gravity: of its rows those of i ≥ k.
             _ => {
                 let (arm, n) = (arm.weightless(), at.len());
                 let column = |k: usize| self.inverse_dynamics(&arm, at, &zeros(n), &unit(n, k));
@@ -83,12 +82,7 @@ impl Formulation {
     }
 
     /// Returns h_i = Σ_k Σ_m h_ikm q̇_k q̇_m, length n, without damping.
-    pub fn velocity_terms<S: Scalar>(
-        self,
-        arm: &Arm<S>,
-        at: &[DhVariables<S>],
-        qd: &[S],
-    ) -> Vec<S> {
+    pub fn velocity_terms<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> Vec<S> {
         match self {
             Self::LagrangeEuler => lagrange_euler::velocity_terms(&self.christoffel(arm, at), qd),
             Self::Dalembert => Dalembert::new(arm, at).velocity_terms(qd),
@@ -100,7 +94,7 @@ impl Formulation {
     }
 
     /// Returns c, length n.
-    pub fn gravity<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<S> {
+    pub fn gravity<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<S> {
         match self {
             Self::LagrangeEuler => LagrangeEuler::new(arm, at).gravity(),
             Self::Dalembert => Dalembert::new(arm, at).gravity(),
@@ -112,7 +106,7 @@ impl Formulation {
     }
 
     /// Returns `h[i][k][m]` = h_ikm, n×n×n, symmetric in k and m.
-    pub fn christoffel<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<Vec<S>>> {
+    pub fn christoffel<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<Vec<S>>> {
         match self {
             Self::LagrangeEuler => LagrangeEuler::new(arm, at).christoffel(),
             Self::Dalembert => {
@@ -133,17 +127,13 @@ fn polarised<S: Scalar>(n: usize, velocity_terms: &dyn Fn(&[S]) -> Vec<S>) -> Ve
         both[m] = S::one();
         velocity_terms(&both)
     };
-    let pairs: Vec<Vec<Vec<S>>> = (0..n)
-        .map(|m| (0..m).map(|k| pair(k, m)).collect())
-        .collect();
-    let entry = |i: usize, m: usize, k: usize| {
-        if m == k {
-            return squares[k][i].clone();
+    let row = |m: usize| (0..m).map(|k| pair(k, m)).collect();
+    let pairs: Vec<Vec<Vec<S>>> = (0..n).map(row).collect();
+    symmetric_each(n, |i, m, k| match m == k {
+        true => squares[k][i].clone(),
+        false => {
+            let mixed = minus(&minus(&pairs[m][k][i], &squares[k][i]), &squares[m][i]);
+            halved(&mixed)
         }
-        let mixed = minus(&minus(&pairs[m][k][i], &squares[k][i]), &squares[m][i]);
-        halved(&mixed)
-    };
-    (0..n)
-        .map(|i| symmetric(n, |m, k| entry(i, m, k)))
-        .collect()
+    })
 }

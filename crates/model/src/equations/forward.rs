@@ -8,8 +8,8 @@ use super::derivatives::{columns, with_rates};
 use super::energy::moving;
 use super::factor::{Factor, placed, scatter, submatrix};
 use super::following::{gathered, gathered_columns, gathered_square, spread};
-use super::matrix::{columns_of, minus, negative, product, times, unit, zeros};
-use super::{Arm, DhVariables, Formulation};
+use super::matrix::*;
+use super::{Arm, At, Formulation, Link};
 use crate::scalar::dual::Dual;
 use crate::scalar::{Divide, Scalar};
 
@@ -22,8 +22,7 @@ pub fn free(moves: &[bool]) -> Vec<usize> {
 /// Returns D q̈ = τ − (h + c + b∘q̇) over the joints that move, solved for q̈.
 pub fn solved<S: Divide>(d: &[Vec<S>], bias: &[S], tau: &[S], moves: &[bool]) -> Vec<S> {
     let free = free(moves);
-    let load = free.iter().map(|&i| minus(&tau[i], &bias[i]));
-    let load: Vec<S> = load.collect();
+    let load: Vec<S> = free.iter().map(|&i| minus(&tau[i], &bias[i])).collect();
     let accelerations = Factor::new(&submatrix(d, &free)).solve(&load);
     scatter(&accelerations, &free, moves.len())
 }
@@ -33,46 +32,51 @@ pub fn inverted<S: Divide>(d: &[Vec<S>], moves: &[bool]) -> Vec<Vec<S>> {
     let (free, n) = (free(moves), moves.len());
     let inverse = Factor::new(&submatrix(d, &free)).inverse();
     let rows = inverse.iter().map(|row| scatter(row, &free, n));
-    placed(alloc::vec![zeros(n); n], &free, rows)
+    placed(zero_matrix(n), &free, rows)
+}
+
+/// Makes the columns of joints that do not move zero.
+pub(crate) fn hold<S: Scalar>(matrix: &mut [Vec<S>], moves: &[bool]) {
+    for row in matrix {
+        for (entry, _) in row.iter_mut().zip(moves).filter(|(_, moves)| !**moves) {
+            *entry = S::zero();
+        }
+    }
 }
 
 /// Returns −D⁻¹ times the slopes of the torques: those of q̈.
 pub fn against<S: Scalar>(inverse: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> {
     let columns = columns_of(slopes);
-    let entry = |row: &[S], column: &[S]| negative(&product(row, column));
-    let row = |row: &Vec<S>| columns.iter().map(|column| entry(row, column)).collect();
-    inverse.iter().map(row).collect()
+    let entry = |i: usize, k: usize| negative(&product(&inverse[i], &columns[k]));
+    matrix(inverse.len(), columns.len(), entry)
 }
 
 /// For each joint the torque of Coulomb friction and its slope by the velocity.
 fn rubbed<S: Scalar>(arm: &Arm<S>, qd: &[S]) -> Vec<[S; 2]> {
-    let links = arm.links.iter().zip(qd);
-    links
-        .map(|(link, qd)| match &link.friction.coulomb {
-            None => [S::zero(), S::zero()],
-            Some(coulomb) => [coulomb.torque(qd), coulomb.slope()],
-        })
-        .collect()
+    let rub = |(link, qd): (&Link<S>, &S)| match &link.friction.coulomb {
+        None => [S::zero(), S::zero()],
+        Some(coulomb) => [coulomb.torque(qd), coulomb.slope()],
+    };
+    arm.links.iter().zip(qd).map(rub).collect()
 }
 
 impl Formulation {
     /// Returns Sᵀ D S, n×n: D gathered at the leaders of joints that follow.
-    pub fn gathered_inertia<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
+    pub fn gathered_inertia<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
         gathered_square(&arm.following, self.inertia(arm, at))
     }
 
-    /// Returns q̈ of the joints that move under τ, zero of the others, which are held
-    /// where they are, or follow.
+    /// Returns q̈ of the joints that move under τ, zero of the others, which are held or follow.
     pub fn forward_dynamics<S: Divide>(
         self,
         arm: &Arm<S>,
-        at: &[DhVariables<S>],
+        at: &At<S>,
         qd: &[S],
         tau: &[S],
         moves: &[bool],
     ) -> Vec<S> {
         if !self.has_closed_form() && arm.following.is_empty() {
-            return articulated::forward_dynamics(arm, at, qd, tau, moves);
+            return articulated::forward_dynamics(arm, at, [qd, tau], moves);
         }
         let d = self.gathered_inertia(arm, at);
         let bias = self.inverse_dynamics(arm, at, qd, &zeros(qd.len()));
@@ -80,13 +84,12 @@ impl Formulation {
         solved(&d, &bias, &tau, moves)
     }
 
-    /// Returns D⁻¹ over the joints that move; zero in the rows and columns of the
-    /// others. A recursion gives its columns as the accelerations under unit
-    /// torques, at rest and without weight.
+    /// Returns D⁻¹ over the joints that move, zero of the others. A recursion gives its columns as
+    /// the accelerations under unit torques, at rest and without weight.
     pub fn inertia_inverse<S: Divide>(
         self,
         arm: &Arm<S>,
-        at: &[DhVariables<S>],
+        at: &At<S>,
         moves: &[bool],
     ) -> Vec<Vec<S>> {
         if self.has_closed_form() || !arm.following.is_empty() {
@@ -96,28 +99,25 @@ impl Formulation {
         let arm = arm.weightless().without_friction();
         let row = |k: usize| {
             let tau = if moves[k] { unit(n, k) } else { zeros(n) };
-            articulated::forward_dynamics(&arm, at, &zeros(n), &tau, moves)
+            articulated::forward_dynamics(&arm, at, [&zeros(n), &tau], moves)
         };
         // Symmetric: its columns are its rows.
         (0..n).map(row).collect()
     }
 
-    /// Returns ∂q̈/∂q and ∂q̈/∂q̇, n×n each: closed forms from the slopes of τ at the
-    /// motion that τ brings about, recursions by duals.
+    /// Returns ∂q̈/∂q and ∂q̈/∂q̇: closed forms from slopes of τ at that q̈, recursions by duals.
     pub fn acceleration_slopes<S: Divide>(
         self,
         arm: &Arm<S>,
-        at: &[DhVariables<S>],
+        at: &At<S>,
         qd: &[S],
         tau: &[S],
         moves: &[bool],
     ) -> [Vec<Vec<S>>; 2] {
         if self.has_closed_form() || !arm.following.is_empty() {
             let inverse = self.inertia_inverse(arm, at, moves);
-            let qdd = spread(
-                &arm.following,
-                self.forward_dynamics(arm, at, qd, tau, moves),
-            );
+            let qdd = self.forward_dynamics(arm, at, qd, tau, moves);
+            let qdd = spread(&arm.following, qdd);
             let by_position = self.torque_by_position(arm, at, qd, &qdd);
             let by_velocity = self.torque_by_velocity(arm, at, qd);
             return [by_position, by_velocity]
@@ -138,7 +138,7 @@ impl Formulation {
                 rate: negative(&times(slope, growth)),
             });
             let left: Vec<Dual<S>> = left.collect();
-            articulated::forward_dynamics(&arm, &at, &grown, &left, moves)
+            articulated::forward_dynamics(&arm, &at, [&grown, &left], moves)
         };
         let rest: Vec<S> = zeros(n);
         [

@@ -54,8 +54,7 @@ impl Rows {
     const GROUPS: [(&'static str, Rows); 2] =
         [("linear", Rows(0b00_0111)), ("angular", Rows(0b11_1000))];
 
-    /// Returns the components of a word: `linear`, `angular`, or names with `_` between, in their
-    /// order, such as `x_y_rz`.
+    /// Returns the components of a word: `linear`, `angular`, or names in their order, as `x_y_rz`.
     pub fn of(word: &str) -> Option<Rows> {
         if let Some((_, rows)) = Rows::GROUPS.into_iter().find(|(name, _)| *name == word) {
             return Some(rows);
@@ -126,8 +125,7 @@ pub struct NamedFrame<S> {
 /// The frames of an arm that no torque depends on.
 #[derive(Clone, Debug)]
 pub struct Frames<S> {
-    /// Each link's own frame in that of its row; `None` where it is that, as are those
-    /// that are missing.
+    /// Each link's own frame in that of its row; `None`, or missing, where it is that.
     pub links: Vec<Option<Columns<S>>>,
     /// Those with a name.
     pub named: Vec<NamedFrame<S>>,

@@ -75,8 +75,7 @@ impl<S: Scalar> Friction<S> {
         }
     }
 
-    /// Returns what the slope grows by with the velocity: −3 q̇ r² times that of Coulomb
-    /// friction, as r grows by −q̇ r³.
+    /// Returns what the slope grows by: −3 q̇ r² times that of Coulomb friction, as r by −q̇ r³.
     pub fn curvature(&self, qd: &S) -> S {
         let Some(coulomb) = &self.coulomb else {
             return S::zero();
@@ -88,14 +87,11 @@ impl<S: Scalar> Friction<S> {
 }
 
 impl<S: Clone> Friction<S> {
-    /// Returns the same at a velocity of which r is this, where there is Coulomb
-    /// friction that reads it and the velocity is known.
-    #[must_use]
-    pub fn at_speed(mut self, per_speed: Option<&S>) -> Friction<S> {
+    /// Takes this r of a velocity, if it is known, where there is Coulomb friction.
+    pub fn take_speed(&mut self, per_speed: Option<&S>) {
         if let (Some(coulomb), Some(given)) = (&mut self.coulomb, per_speed) {
             coulomb.per_speed = given.clone();
         }
-        self
     }
 }
 

@@ -10,58 +10,59 @@
 
 use alloc::vec::Vec;
 
+use super::arm::Step;
 use super::kinematics::{at_lever, hand_of};
-use super::matrix::{Columns, Vector, cross, difference, scaled, sum, three, zero_vector};
-use super::{Arm, DhVariables, SinCosPair};
+use super::matrix::*;
+use super::{Arm, At, DhVariables, SinCosPair};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 
-/// Returns the axes of frames 0 … n in base axes and, in the place of the origin, the step from
-/// the frame before.
-pub(super) fn frames<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
+/// Returns the axes of frames 0 … n in base axes and, for an origin, the step from the one before.
+pub(super) fn frames<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<Columns<S>> {
     let unmoved = |frame: &Columns<S>| Columns::turned(frame.axes.clone());
     let mut frames = alloc::vec![unmoved(&arm.frame_0())];
-    for (link, at) in arm.links.iter().zip(at) {
+    for step in arm.steps(at) {
         let before = frames.last().map_or_else(Columns::identity, unmoved);
-        frames.push(link.append(arm.convention, at, &before));
+        frames.push(step.append(&before));
     }
     frames
 }
 
 /// Returns the levers to the hand: from the origin of frame 0 in its axes, and from each joint's
 /// axis in the axes before the joint turns and after.
-fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> (Vector<S>, Vec<[Vector<S>; 2]>) {
+fn levers<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> (Vector<S>, Vec<[Vector<S>; 2]>) {
     let tool = arm.tool.as_ref();
     let mut lever = tool.map_or_else(zero_vector, |tool| tool.origin.clone());
-    let mut of_joints = Vec::with_capacity(at.len());
-    for (link, at) in arm.links.iter().zip(at).rev() {
-        let carried = |at: &DhVariables<S>| {
-            let step = link.append(arm.convention, at, &Columns::identity());
-            let turned = link.to_previous(arm.convention, at, &lever);
-            sum(&turned, &step.origin)
+    let of_joints = from_hand(arm.steps(at), |step| {
+        let carried = |step: &Step<S>| {
+            let own = step.lever();
+            sum(&step.to_previous(&lever), &own)
         };
-        let before = carried(at);
-        of_joints.push(match arm.convention {
-            Convention::Standard => [before.clone(), carried(&unturned(at))],
+        let before = carried(&step);
+        let of_joint = match arm.convention {
+            Convention::Standard => {
+                let at = &unturned(step.at);
+                [before.clone(), carried(&Step { at, ..step })]
+            }
             Convention::Modified => {
-                let [x, y] = at.theta.turn(&lever[0], &lever[1]);
+                let [x, y] = step.at.theta.turn(&lever[0], &lever[1]);
                 [[x, y, lever[2].clone()], lever.clone()]
             }
-        });
+        };
         lever = before;
-    }
-    of_joints.reverse();
+        of_joint
+    });
     (lever, of_joints)
 }
 
-pub(super) fn hand<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
+pub(super) fn hand<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Columns<S> {
     let frames = frames(arm, at);
     let hand = hand_of(arm, &frames);
     let lever = frames[0].rotate(&levers(arm, at).0);
     at_lever(arm, hand, lever)
 }
 
-pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<S>; 2]> {
+pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<[Vector<S>; 2]> {
     let (frames, levers) = (frames(arm, at), levers(arm, at).1);
     let column = |j: usize| {
         let (link, [own, turned]) = (&arm.links[j], &levers[j]);
@@ -85,14 +86,10 @@ pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Ve
 
 /// One axis of each frame is carried to the base, one is seen from the frame two joints before,
 /// which saves the axes of the frame between, and the third is the product of both.
-pub(super) fn columns_across<S: Scalar>(
-    arm: &Arm<S>,
-    at: &[DhVariables<S>],
-) -> Vec<[Vector<S>; 2]> {
-    let links = || arm.links.iter().zip(at);
+pub(super) fn columns_across<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<[Vector<S>; 2]> {
     let carried = |v: Vector<S>, i: usize, to: usize| {
-        let inner = links().take(i).skip(to).rev();
-        inner.fold(v, |v, (link, at)| link.to_previous(arm.convention, at, &v))
+        let inner = arm.steps(at).take(i).skip(to).rev();
+        inner.fold(v, |v, step| step.to_previous(&v))
     };
     let [_, y, z] = Columns::identity().axes;
     // With a twist of a right angle one of them is the joint's axis, which the frame before has.
@@ -125,7 +122,8 @@ pub(super) fn columns_across<S: Scalar>(
         }
         let mut own = across(&Columns::identity(), before);
         if arm.convention == Convention::Modified {
-            own = link.to_previous(arm.convention, &unturned(&at[j]), &own);
+            let unturned = unturned(&at[j]);
+            own = link.step(arm.convention, &unturned).to_previous(&own);
         }
         [frames[0].rotate(&carried(own, j, 0)), axis]
     };
@@ -143,8 +141,6 @@ fn zeros<S: Scalar>(frame: &Columns<S>, lever: &Vector<S>) -> usize {
 }
 
 fn unturned<S: Scalar>(at: &DhVariables<S>) -> DhVariables<S> {
-    DhVariables {
-        theta: SinCosPair::straight(),
-        d: at.d.clone(),
-    }
+    let (theta, d) = (SinCosPair::straight(), at.d.clone());
+    DhVariables { theta, d }
 }

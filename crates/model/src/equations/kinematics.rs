@@ -5,28 +5,26 @@
 
 use alloc::vec::Vec;
 
+use super::arm::{Posed, Step};
 use super::derivatives::with_rates;
 use super::energy::moving;
 use super::frames::Axes;
 use super::lagrange_euler::PseudoInertia;
-use super::matrix::{
-    Columns, Vector, cross, difference, minus, negative, plus, scaled, sum, times, total, unit,
-    zero_vector, zeros,
-};
+use super::matrix::*;
 use super::newton_euler::{Motion, table1};
 use super::screws::Wrench;
-use super::{Arm, DhVariables, Formulation, Link, joint_axes};
+use super::{Arm, At, Formulation, joint_axes};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 use crate::scalar::dual::Dual;
 
 /// Returns ⁰A_i of every frame i = 1 … n, in base axes.
-pub fn poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
+pub fn poses<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<Columns<S>> {
     poses_from(&arm.frame_0(), arm, at)
 }
 
 /// Returns the pose of every link's own frame, in base axes.
-pub fn link_poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
+pub fn link_poses<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<Columns<S>> {
     let poses = poses(arm, at).into_iter().enumerate();
     let poses = poses.map(|(link, pose)| match arm.frames.of_link(link) {
         None => pose,
@@ -35,17 +33,13 @@ pub fn link_poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns
     poses.collect()
 }
 
-fn poses_from<S: Scalar>(
-    start: &Columns<S>,
-    arm: &Arm<S>,
-    at: &[DhVariables<S>],
-) -> Vec<Columns<S>> {
-    let mut poses: Vec<Columns<S>> = Vec::with_capacity(at.len());
-    for (link, at) in arm.links.iter().zip(at) {
-        let before = poses.last().unwrap_or(start);
-        poses.push(link.append(arm.convention, at, before));
-    }
-    poses
+fn poses_from<S: Scalar>(start: &Columns<S>, arm: &Arm<S>, at: &At<S>) -> Vec<Columns<S>> {
+    let mut pose = start.clone();
+    let poses = arm.steps(at).map(|step| {
+        pose = step.append(&pose);
+        pose.clone()
+    });
+    poses.collect()
 }
 
 pub(super) fn hand_of<S: Scalar>(arm: &Arm<S>, poses: &[Columns<S>]) -> Columns<S> {
@@ -69,21 +63,20 @@ impl Formulation {
     /// axes go from the hand inward, which is less work alone, with three axes or with
     /// two; Lagrange–Euler multiplies from the base outward; the others add the levers
     /// of a Jacobian, in base axes or in the joints' own.
-    pub fn hand<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
+    pub fn hand<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Columns<S> {
         let (arm, at) = arm.to_hand(at);
         let arm = &*arm;
         match self {
             Self::LagrangeEuler => hand_of(arm, &poses(arm, at)),
-            Self::Dalembert => hand_by_levers(arm, at, &levers(arm, at)),
+            Self::Dalembert => hand_by_levers(arm, at),
             Self::NewtonEulerBase => joint_axes::hand(arm, at),
             Self::NewtonEulerLink | Self::NewtonEulerLinkDifferences => hand_inward(arm, at),
             Self::NewtonEulerLinkAsPrinted => hand_by_two_axes(arm, at),
         }
     }
 
-    /// Returns J, 6×n: row by row the linear and the angular velocity of the hand for
-    /// each unit rate, in the arm's [`Axes`].
-    pub fn jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
+    /// Returns J, 6×n, the linear over the angular velocity of the hand, in the arm's [`Axes`].
+    pub fn jacobian<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
         let n = at.len();
         let (arm, at) = arm.to_hand(at);
         let by_links = matches!(
@@ -93,50 +86,41 @@ impl Formulation {
         let mut columns = match arm.frames.axes {
             Axes::Local if by_links => local_columns(&arm, at),
             axes => {
-                let columns = self.mixed_columns(&arm, at);
+                let columns = self.mixed_columns(&arm, at).into_iter();
                 let hand = (axes != Axes::Mixed).then(|| self.hand(&arm, at));
-                let own = columns.into_iter();
-                own.map(|column| in_axes(axes, hand.as_ref(), column))
-                    .collect()
+                let turned = |column| in_axes(axes, hand.as_ref(), column);
+                columns.map(turned).collect()
             }
         };
         columns.resize(n, [zero_vector(), zero_vector()]);
-        let row = |r: usize| columns.iter().map(move |c| c[r / 3][r % 3].clone());
-        (0..6).map(|r| row(r).collect()).collect()
+        matrix(6, n, |r, j| columns[j][r / 3][r % 3].clone())
     }
 
-    fn mixed_columns<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<S>; 2]> {
+    fn mixed_columns<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<[Vector<S>; 2]> {
         match self {
             Self::LagrangeEuler => (0..at.len()).map(|j| by_rates(arm, at, j)).collect(),
             Self::NewtonEulerBase => joint_axes::columns(arm, at),
             Self::NewtonEulerLinkAsPrinted => joint_axes::columns_across(arm, at),
             _ => {
                 let levers = levers(arm, at);
-                (0..at.len()).map(|j| geometric(arm, &levers, j)).collect()
+                (0..at.len()).map(|j| by_lever(arm, &levers, j)).collect()
             }
         }
     }
 
     /// Returns J̇ q̇, linear over angular, in the arm's [`Axes`]: the rate of J q̇ in a motion that
     /// keeps its velocities. In base axes at the hand it is the hand's acceleration.
-    pub fn jacobian_rate<S: Scalar>(
-        self,
-        arm: &Arm<S>,
-        at: &[DhVariables<S>],
-        qd: &[S],
-    ) -> [Vector<S>; 2] {
+    pub fn jacobian_rate<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> [Vector<S>; 2] {
         let (arm, at) = arm.to_hand(at);
         let qd = &qd[..at.len()];
-        let rate = self.acceleration_without_qdd(&arm, at, qd);
+        let rate = self.bias_acceleration(&arm, at, qd);
         let axes = arm.frames.axes;
         if axes == Axes::Mixed {
             return rate;
         }
         // The frame's point moves on: v × ω, in base axes.
-        let columns = self.mixed_columns(&arm, at);
-        let columns = columns.iter().zip(qd);
         let mut twist = [zero_vector(), zero_vector()];
-        for (column, qd) in columns {
+        for (column, qd) in self.mixed_columns(&arm, at).iter().zip(qd) {
             twist = [0, 1].map(|part| sum(&twist[part], &scaled(qd, &column[part])));
         }
         let [v, omega] = &twist;
@@ -145,16 +129,11 @@ impl Formulation {
         in_axes(axes, Some(&self.hand(&arm, at)), [linear, angular])
     }
 
-    fn acceleration_without_qdd<S: Scalar>(
-        self,
-        arm: &Arm<S>,
-        at: &[DhVariables<S>],
-        qd: &[S],
-    ) -> [Vector<S>; 2] {
+    fn bias_acceleration<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> [Vector<S>; 2] {
         if self != Self::LagrangeEuler {
             let arm = arm.weightless();
             let base = Motion::of_base(&arm.gravity);
-            let rate = table1::tip_acceleration(&arm, at, qd, &zeros(qd.len()), &base);
+            let rate = table1::tip_acceleration(&arm, at, [qd, &zeros(qd.len())], &base);
             return match &arm.base {
                 None => rate,
                 Some(base) => rate.each_ref().map(|part| base.rotate(part)),
@@ -172,7 +151,7 @@ impl Formulation {
     pub fn wrenches<S: Scalar>(
         self,
         arm: &Arm<S>,
-        at: &[DhVariables<S>],
+        at: &At<S>,
         qd: &[S],
         qdd: &[S],
     ) -> Vec<Wrench<S>> {
@@ -180,56 +159,36 @@ impl Formulation {
             Self::LagrangeEuler => wrenches_by_poses(arm, at, qd, qdd),
             _ => table1::wrenches(arm, at, qd, qdd),
         };
-        match &arm.base {
-            None => wrenches,
-            Some(base) => {
-                let wrenches = wrenches.iter();
-                wrenches
-                    .map(|wrench| wrench.in_axes(|v| base.rotate(v)))
-                    .collect()
-            }
-        }
+        let Some(base) = &arm.base else {
+            return wrenches;
+        };
+        let turned = |wrench: &Wrench<S>| wrench.in_axes(|v| base.rotate(v));
+        wrenches.iter().map(turned).collect()
     }
 }
 
 /// Returns the wrenches in the axes of frame 0, as gravity is.
-fn wrenches_by_poses<S: Scalar>(
-    arm: &Arm<S>,
-    at: &[DhVariables<S>],
-    qd: &[S],
-    qdd: &[S],
-) -> Vec<Wrench<S>> {
+fn wrenches_by_poses<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], qdd: &[S]) -> Vec<Wrench<S>> {
     let (arm_moving, at_moving) = accelerated(arm, at, qd, qdd);
     let moving = poses_from(&Columns::identity(), &arm_moving, &at_moving);
     let still = poses_from(&Columns::identity(), arm, at);
-    let n = at.len();
-    let mut wrenches = Vec::with_capacity(n);
     let mut about_base = Wrench::zero();
-    for i in (0..n).rev() {
+    from_hand(0..at.len(), |i| {
         about_base = about_base.with(&inertial(arm, i, &still[i], &moving[i]));
-        let Wrench { force, moment } = &about_base;
+        let Wrench { force, moment } = about_base.clone();
         let point = match (arm.convention, i) {
             (Convention::Modified, _) => still[i].origin.clone(),
             (Convention::Standard, 0) => zero_vector(),
             (Convention::Standard, _) => still[i - 1].origin.clone(),
         };
-        wrenches.push(Wrench {
-            moment: difference(moment, &cross(&point, force)),
-            force: force.clone(),
-        });
-    }
-    wrenches.reverse();
-    wrenches
+        let moment = difference(&moment, &cross(&point, &force));
+        Wrench { force, moment }
+    })
 }
 
 type Twice<S> = Dual<Dual<S>>;
 
-fn accelerated<S: Scalar>(
-    arm: &Arm<S>,
-    at: &[DhVariables<S>],
-    qd: &[S],
-    qdd: &[S],
-) -> (Arm<Twice<S>>, Vec<DhVariables<Twice<S>>>) {
+fn accelerated<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], qdd: &[S]) -> Posed<Twice<S>> {
     let (arm, at) = moving(arm, at, qd);
     moving(&arm, &at, &with_rates(qd, qdd))
 }
@@ -243,18 +202,14 @@ fn angular<S: Scalar>(frame: &Columns<Dual<S>>) -> Vector<S> {
     [entry(2, 1), entry(0, 2), entry(1, 0)]
 }
 
-fn by_rates<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], j: usize) -> [Vector<S>; 2] {
+fn by_rates<S: Scalar>(arm: &Arm<S>, at: &At<S>, j: usize) -> [Vector<S>; 2] {
     let (arm, at) = moving(arm, at, &unit(at.len(), j));
     let hand = hand_of(&arm, &poses(&arm, &at));
     let linear = hand.origin.each_ref().map(|x| x.rate.clone());
     [linear, angular(&hand)]
 }
 
-pub(super) fn geometric<S: Scalar>(
-    arm: &Arm<S>,
-    levers: &[Columns<S>],
-    j: usize,
-) -> [Vector<S>; 2] {
+pub(super) fn by_lever<S: Scalar>(arm: &Arm<S>, levers: &[Columns<S>], j: usize) -> [Vector<S>; 2] {
     let frame = match arm.convention {
         Convention::Standard => &levers[j],
         Convention::Modified => &levers[j + 1],
@@ -281,47 +236,35 @@ fn in_axes<S: Scalar>(
 }
 
 /// The third row of the hand's axes in a joint's frame is the joint's axis in the hand's.
-fn local_columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<S>; 2]> {
+fn local_columns<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<[Vector<S>; 2]> {
     let mut pose = arm.in_last_frame();
-    let mut columns = Vec::with_capacity(at.len());
-    for (link, at) in arm.links.iter().zip(at).rev() {
-        let inner = inward(arm, link, at, &pose);
-        let joint = match arm.convention {
-            Convention::Standard => &inner,
-            Convention::Modified => &pose,
-        };
+    from_hand(arm.steps(at), |step| {
+        let inner = inward(&step, &pose);
+        let joint = step.at_joint(&inner, &pose);
         let axis = joint.axes.each_ref().map(|axis| axis[2].clone());
         let [x, y, _] = &joint.origin;
-        columns.push(match link.kind {
+        let column = match step.link.kind {
             JointKind::Prismatic => [axis, zero_vector()],
             JointKind::Revolute => {
                 let along = |axis: &Vector<S>| minus(&times(x, &axis[1]), &times(y, &axis[0]));
                 [joint.axes.each_ref().map(along), axis]
             }
-        });
+        };
         pose = inner;
-    }
-    columns.reverse();
-    columns
+        column
+    })
 }
 
-fn inward<S: Scalar>(
-    arm: &Arm<S>,
-    link: &Link<S>,
-    at: &DhVariables<S>,
-    pose: &Columns<S>,
-) -> Columns<S> {
-    let step = link.append(arm.convention, at, &Columns::identity());
-    let turn = |v: &Vector<S>| link.to_previous(arm.convention, at, v);
-    Columns {
-        axes: pose.axes.each_ref().map(turn),
-        origin: sum(&turn(&pose.origin), &step.origin),
-    }
+fn inward<S: Scalar>(step: &Step<S>, pose: &Columns<S>) -> Columns<S> {
+    let lever = step.lever();
+    let axes = pose.axes.each_ref().map(|axis| step.to_previous(axis));
+    let origin = sum(&step.to_previous(&pose.origin), &lever);
+    Columns { axes, origin }
 }
 
 /// Returns the axes of frames 0 … n and, in the place of the origin, the lever from there to
 /// the hand, in base axes. Added up from the hand on, no lever is a difference.
-pub(super) fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
+pub(super) fn levers<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<Columns<S>> {
     let mut frames = joint_axes::frames(arm, at);
     let mut lever = match (frames.last(), &arm.tool) {
         (Some(last), Some(tool)) => last.rotate(&tool.origin),
@@ -334,10 +277,10 @@ pub(super) fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Colu
     frames
 }
 
-fn hand_inward<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
+fn hand_inward<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Columns<S> {
     let mut pose = arm.in_last_frame();
-    for (link, at) in arm.links.iter().zip(at).rev() {
-        pose = inward(arm, link, at, &pose);
+    for step in arm.steps(at).rev() {
+        pose = inward(&step, &pose);
     }
     match &arm.base {
         None => pose,
@@ -346,16 +289,15 @@ fn hand_inward<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
 }
 
 /// Two axes travel, x and z; y is z × x.
-fn hand_by_two_axes<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
+fn hand_by_two_axes<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Columns<S> {
     let Columns {
         axes: [mut x, _, mut z],
         mut origin,
     } = arm.in_last_frame();
-    for (link, at) in arm.links.iter().zip(at).rev() {
-        let step = link.append(arm.convention, at, &Columns::identity());
-        let turn = |v: &Vector<S>| link.to_previous(arm.convention, at, v);
-        (x, z) = (turn(&x), turn(&z));
-        origin = sum(&turn(&origin), &step.origin);
+    for step in arm.steps(at).rev() {
+        let lever = step.lever();
+        [x, z] = [&x, &z].map(|axis| step.to_previous(axis));
+        origin = sum(&step.to_previous(&origin), &lever);
     }
     if let Some(base) = &arm.base {
         (x, z) = (base.rotate(&x), base.rotate(&z));
@@ -373,25 +315,19 @@ fn with_axes<S: Scalar>(x: Vector<S>, z: Vector<S>, origin: Vector<S>) -> Column
 
 /// Returns the pose of the hand by the levers to it. Of its axes z is that of the last frame's, and
 /// x is seen from the frame two joints before: the one between need not have all of its axes.
-fn hand_by_levers<S: Scalar>(
-    arm: &Arm<S>,
-    at: &[DhVariables<S>],
-    levers: &[Columns<S>],
-) -> Columns<S> {
-    let mut hand = hand_of(arm, levers);
+fn hand_by_levers<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Columns<S> {
+    let levers = levers(arm, at);
+    let mut hand = hand_of(arm, &levers);
     let outer = at.len().saturating_sub(2);
     if let Some(frame) = levers.get(outer) {
         let [mut x, ..] = arm.in_last_frame().axes;
-        for (link, at) in arm.links.iter().zip(at).skip(outer).rev() {
-            x = link.to_previous(arm.convention, at, &x);
+        for step in arm.steps(at).skip(outer).rev() {
+            x = step.to_previous(&x);
         }
         let [_, _, z] = hand.axes;
         hand = with_axes(frame.rotate(&x), z, hand.origin);
     }
-    let whole = levers
-        .first()
-        .map_or_else(zero_vector, |first| first.origin.clone());
-    at_lever(arm, hand, whole)
+    at_lever(arm, hand, levers[0].origin.clone())
 }
 
 /// From Ä J Aᵀ, whose last column is the force: ∫ (r̈ − g) dm and ∫ r × (r̈ − g) dm of link i.
@@ -399,10 +335,10 @@ fn inertial<S: Scalar>(
     arm: &Arm<S>,
     i: usize,
     pose: &Columns<S>,
-    moving: &Columns<Dual<Dual<S>>>,
+    moving: &Columns<Twice<S>>,
 ) -> Wrench<S> {
     let body = PseudoInertia::of(&arm.links[i]);
-    let second = |v: &Vector<Dual<Dual<S>>>| v.each_ref().map(|x| x.rate.rate.clone());
+    let second = |v: &Vector<Twice<S>>| v.each_ref().map(|x| x.rate.rate.clone());
     let accelerations = body.after(&Columns {
         axes: moving.axes.each_ref().map(second),
         origin: second(&moving.origin),
@@ -416,9 +352,7 @@ fn inertial<S: Scalar>(
         plus(&turned, &times(&accelerations.origin[a], &pose.origin[b]))
     };
     let moment = [(2, 1), (0, 2), (1, 0)].map(|(a, b)| minus(&product(a, b), &product(b, a)));
-    let weight = cross(&first, &arm.gravity).map(|x| negative(&x));
-    Wrench {
-        moment: sum(&moment, &weight),
-        force,
-    }
+    let weight = opposite(&cross(&first, &arm.gravity));
+    let moment = sum(&moment, &weight);
+    Wrench { force, moment }
 }

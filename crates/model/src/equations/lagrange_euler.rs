@@ -8,11 +8,8 @@
 
 use alloc::vec::Vec;
 
-use super::matrix::{
-    Columns, Vector, dot, halved, minus, negative, plus, product, scaled, sum, symmetric, times,
-    total, twice, zero_vector,
-};
-use super::{Arm, DhVariables, Link};
+use super::matrix::*;
+use super::{Arm, At, Link};
 use crate::robot::Convention;
 use crate::scalar::Scalar;
 
@@ -20,7 +17,7 @@ use crate::scalar::Scalar;
 #[derive(Clone, Debug)]
 pub struct LagrangeEuler<'a, S> {
     arm: &'a Arm<S>,
-    at: &'a [DhVariables<S>],
+    at: &'a At<S>,
     /// ⁰A_i for i = 0 … n.
     poses: Vec<Columns<S>>,
     /// `u[i][j]` = U_ij for j ≤ i.
@@ -31,21 +28,21 @@ pub struct LagrangeEuler<'a, S> {
 
 impl<'a, S: Scalar> LagrangeEuler<'a, S> {
     /// Returns the poses ⁰A_i, their derivatives U_ij and the products U_ij J_i.
-    pub fn new(arm: &'a Arm<S>, at: &'a [DhVariables<S>]) -> Self {
+    pub fn new(arm: &'a Arm<S>, at: &'a At<S>) -> Self {
         let n = arm.links.len();
         let mut poses = Vec::with_capacity(n + 1);
         poses.push(Columns::identity());
         let mut u: Vec<Vec<Columns<S>>> = Vec::with_capacity(n);
-        for (i, link) in arm.links.iter().enumerate() {
-            let append = |before: &Columns<S>| link.append(arm.convention, &at[i], before);
+        for (i, step) in arm.steps(at).enumerate() {
+            let append = |before: &Columns<S>| step.append(before);
             let pose = append(&poses[i]);
             let mut row: Vec<_> = match i {
                 0 => Vec::new(),
                 _ => u[i - 1].iter().map(append).collect(),
             };
-            row.push(match arm.convention {
-                Convention::Standard => append(&poses[i].derive(link.kind)),
-                Convention::Modified => pose.derive(link.kind),
+            row.push(match step.convention {
+                Convention::Standard => append(&poses[i].derive(step.link.kind)),
+                Convention::Modified => pose.derive(step.link.kind),
             });
             poses.push(pose);
             u.push(row);
@@ -74,30 +71,25 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
         d
     }
 
-    /// Returns `h[i][k][m]` = h_ikm = Σ_{j ≥ max(i,k,m)} Tr(U_jkm J_j U_jiᵀ), n×n×n,
-    /// each k ≤ m from its traces, m < k by symmetry.
+    /// Returns `h[i][k][m]` = h_ikm = Σ_{j ≥ max(i,k,m)} Tr(U_jkm J_j U_jiᵀ), n×n×n.
     pub fn christoffel(&self) -> Vec<Vec<Vec<S>>> {
         let n = self.arm.links.len();
         let second = self.second_derivatives();
-        let entry = |i: usize, m: usize, k: usize| {
+        symmetric_each(n, |i, m, k| {
             total((i.max(m)..n).map(|j| second[j][m][k].trace_with(&self.uj[j][i])))
-        };
-        (0..n)
-            .map(|i| symmetric(n, |m, k| entry(i, m, k)))
-            .collect()
+        })
     }
 
     /// Returns c_i = Σ_{j ≥ i} −m_j g U_ji s̃_j: what holds the arm against gravity.
     pub fn gravity(&self) -> Vec<S> {
         let n = self.arm.links.len();
-        (0..n)
-            .map(|i| {
-                // The column of U_ji J_j that belongs to m_j s̃_j is U_ji m_j s̃_j.
-                let moments = (i..n).map(|j| &self.uj[j][i].origin);
-                let total = moments.fold(zero_vector(), |total, term| sum(&total, term));
-                negative(&dot(&self.arm.gravity, &total))
-            })
-            .collect()
+        let load = |i: usize| {
+            // The column of U_ji J_j that belongs to m_j s̃_j is U_ji m_j s̃_j.
+            let moments = (i..n).map(|j| &self.uj[j][i].origin);
+            let total = moments.fold(zero_vector(), |total, term| sum(&total, term));
+            negative(&dot(&self.arm.gravity, &total))
+        };
+        (0..n).map(load).collect()
     }
 
     /// Returns λᵀ(D q̈ + h + c), with the sums over joints taken before those over links: of link j
@@ -132,25 +124,23 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
     /// Returns `[i][k][j]` = U_ijk = U_ikj for j ≤ k ≤ i.
     fn second_derivatives(&self) -> Vec<Vec<Vec<Columns<S>>>> {
         let mut all: Vec<Vec<Vec<Columns<S>>>> = Vec::with_capacity(self.u.len());
-        for (i, link) in self.arm.links.iter().enumerate() {
-            let append =
-                |before: &Columns<S>| link.append(self.arm.convention, &self.at[i], before);
+        for (i, step) in self.arm.steps(self.at).enumerate() {
+            let append = |before: &Columns<S>| step.append(before);
+            let appended = |row: &Vec<Columns<S>>| row.iter().map(append).collect();
             let mut of_link: Vec<Vec<Columns<S>>> = match i {
                 0 => Vec::new(),
-                _ => all[i - 1]
-                    .iter()
-                    .map(|row| row.iter().map(append).collect())
-                    .collect(),
+                _ => all[i - 1].iter().map(appended).collect(),
             };
             // k = i: Q_i enters at the joint itself.
-            of_link.push(match self.arm.convention {
+            let kind = step.link.kind;
+            of_link.push(match step.convention {
                 Convention::Standard => {
-                    let own = self.poses[i].derive(link.kind);
+                    let own = self.poses[i].derive(kind);
                     let earlier = if i == 0 { &[][..] } else { &self.u[i - 1][..] };
-                    let at_joint = earlier.iter().chain(core::iter::once(&own));
-                    at_joint.map(|u| append(&u.derive(link.kind))).collect()
+                    let at_joint = earlier.iter().chain([&own]);
+                    at_joint.map(|u| append(&u.derive(kind))).collect()
                 }
-                Convention::Modified => self.u[i].iter().map(|u| u.derive(link.kind)).collect(),
+                Convention::Modified => self.u[i].iter().map(|u| u.derive(kind)).collect(),
             });
             all.push(of_link);
         }
@@ -197,16 +187,9 @@ impl<S: Scalar> PseudoInertia<S> {
     }
 
     pub(super) fn after(&self, u: &Columns<S>) -> Columns<S> {
-        let [x, y, z] = &self.second;
-        let column = |column: &Vector<S>, last: &S| u.apply(column, last);
-        Columns {
-            axes: [
-                column(x, &self.first[0]),
-                column(y, &self.first[1]),
-                column(z, &self.first[2]),
-            ],
-            origin: column(&self.first, &self.mass),
-        }
+        let axes = three(|i| u.apply(&self.second[i], &self.first[i]));
+        let origin = u.apply(&self.first, &self.mass);
+        Columns { axes, origin }
     }
 }
 
@@ -214,13 +197,12 @@ impl<S: Scalar> PseudoInertia<S> {
 pub fn velocity_terms<S: Scalar>(h: &[Vec<Vec<S>>], qd: &[S]) -> Vec<S> {
     let n = qd.len();
     let doubled: Vec<S> = qd.iter().map(twice).collect();
-    let mut rates = Vec::with_capacity(n * (n + 1) / 2);
-    for k in 0..n {
-        for m in k..n {
-            let second = if m == k { &qd[m] } else { &doubled[m] };
-            rates.push((k, m, times(&qd[k], second)));
-        }
-    }
+    let pairs = (0..n).flat_map(|k| (k..n).map(move |m| (k, m)));
+    let rates = pairs.map(|(k, m)| {
+        let second = if m == k { &qd[m] } else { &doubled[m] };
+        (k, m, times(&qd[k], second))
+    });
+    let rates: Vec<(usize, usize, S)> = rates.collect();
     let of_joint =
         |h: &Vec<Vec<S>>| total(rates.iter().map(|(k, m, rate)| times(&h[*k][*m], rate)));
     h.iter().map(of_joint).collect()
@@ -235,14 +217,13 @@ pub(super) fn assemble<S: Scalar>(
     qd: &[S],
     qdd: &[S],
 ) -> Vec<S> {
-    (0..arm.links.len())
-        .map(|i| {
-            let inertial = product(&d[i], qdd);
-            let passive = plus(&h[i], &c[i]);
-            let damping = arm.links[i].friction.torque(&qd[i]);
-            plus(&plus(&inertial, &passive), &damping)
-        })
-        .collect()
+    let torque = |i: usize| {
+        let inertial = product(&d[i], qdd);
+        let passive = plus(&h[i], &c[i]);
+        let damping = arm.links[i].friction.torque(&qd[i]);
+        plus(&plus(&inertial, &passive), &damping)
+    };
+    (0..arm.links.len()).map(torque).collect()
 }
 
 pub(super) fn add_armature<S: Scalar>(arm: &Arm<S>, d: &mut [Vec<S>]) {

@@ -15,13 +15,10 @@
 use alloc::vec::Vec;
 
 use super::frames::Axes;
-use super::kinematics::{geometric, levers, poses};
-use super::matrix::{
-    Columns, Vector, columns_of, product, products, sum, symmetric, unit_z, z_across, zero_vector,
-    zeros,
-};
+use super::kinematics::{by_lever, levers, poses};
+use super::matrix::*;
 use super::newton_euler::{table1, table2};
-use super::{Arm, DhVariables, Formulation};
+use super::{Arm, At, Formulation};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 
@@ -31,8 +28,7 @@ pub enum HandAxes {
     /// Those that are asked for.
     #[default]
     Asked,
-    /// Linear components in the axes of the first link, angular ones in those of the link
-    /// before the hand's.
+    /// Linear components in the axes of the first link, angular ones in those before the hand's.
     FirstAndLast,
     /// All in the axes of the link before the hand's.
     Last,
@@ -43,7 +39,7 @@ pub enum HandAxes {
 pub struct SeenHand<'a, S> {
     formulation: Formulation,
     arm: &'a Arm<S>,
-    at: &'a [DhVariables<S>],
+    at: &'a At<S>,
     /// The links of linear and of angular components; `None` for the axes asked for.
     links: [Option<usize>; 2],
 }
@@ -53,7 +49,7 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
     /// axes asked for unless these are the base's and all three of its components are wanted.
     pub fn new(
         formulation: Formulation,
-        (arm, at): (&'a Arm<S>, &'a [DhVariables<S>]),
+        (arm, at): (&'a Arm<S>, &'a At<S>),
         axes: HandAxes,
     ) -> Self {
         let last = arm.to_hand(at).1.len().saturating_sub(1);
@@ -76,39 +72,32 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
 
     /// Returns J′, m×n.
     pub fn jacobian(&self) -> Vec<Vec<S>> {
-        let asked = |part: usize| {
-            let six = self.formulation.jacobian(self.arm, self.at);
-            six[3 * part..3 * part + 3].to_vec()
-        };
-        let of_link = |part: usize, link: usize| {
-            let columns = columns(self.arm, self.at, link);
-            let row = |r: usize| columns.iter().map(move |column| column[part][r].clone());
-            (0..3).map(|r| row(r).collect()).collect()
-        };
-        self.picked(asked, of_link)
+        self.picked(|part, link| match link {
+            None => {
+                let six = self.formulation.jacobian(self.arm, self.at);
+                six[3 * part..3 * part + 3].to_vec()
+            }
+            Some(link) => {
+                let columns = columns(self.arm, self.at, link);
+                matrix(3, columns.len(), |r, j| columns[j][part][r].clone())
+            }
+        })
     }
 
     /// Returns J̇ q̇ in the axes of J′.
     pub fn rate(&self, qd: &[S]) -> Vec<S> {
-        let asked = |part: usize| {
-            let rate = self.formulation.jacobian_rate(self.arm, self.at, qd);
+        self.picked(|part, link| {
+            let rate = match link {
+                None => self.formulation.jacobian_rate(self.arm, self.at, qd),
+                Some(link) => acceleration(self.arm, self.at, qd, link),
+            };
             rate[part].to_vec()
-        };
-        let of_link =
-            |part: usize, link: usize| acceleration(self.arm, self.at, qd, link)[part].to_vec();
-        self.picked(asked, of_link)
+        })
     }
 
-    fn picked<T: Clone>(
-        &self,
-        asked: impl Fn(usize) -> Vec<T>,
-        of_link: impl Fn(usize, usize) -> Vec<T>,
-    ) -> Vec<T> {
-        let part = |part: usize| match self.links[part] {
-            None => asked(part),
-            Some(link) => of_link(part, link),
-        };
-        self.arm.frames.rows.pick(&[part(0), part(1)].concat())
+    fn picked<T: Clone>(&self, part: impl Fn(usize, Option<usize>) -> Vec<T>) -> Vec<T> {
+        let parts = [0, 1].map(|index| part(index, self.links[index]));
+        self.arm.frames.rows.pick(&parts.concat())
     }
 
     fn turn(&self) -> Vec<Vec<S>> {
@@ -119,8 +108,7 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
             _ if r == c => S::one(),
             _ => S::zero(),
         };
-        let row = |&r: &usize| rows.iter().map(|&c| entry(r, c)).collect();
-        rows.iter().map(row).collect()
+        matrix(rows.len(), rows.len(), |i, k| entry(rows[i], rows[k]))
     }
 
     /// Returns G x of each x, a row each.
@@ -140,7 +128,7 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
 }
 
 /// In the axes of a link's frame before the hand's; linear, then angular.
-fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], link: usize) -> Vec<[Vector<S>; 2]> {
+fn columns<S: Scalar>(arm: &Arm<S>, at: &At<S>, link: usize) -> Vec<[Vector<S>; 2]> {
     let n = at.len();
     let (arm, at) = arm.to_hand(at);
     let mut outer = arm.clone().into_owned();
@@ -148,15 +136,15 @@ fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], link: usize) -> Vec<[
     outer.links.drain(..link);
     let levers = levers(&outer, &at[link..]);
     let mut hands = alloc::vec![levers[0].origin.clone()];
-    for (link, at) in arm.links[..link].iter().zip(&at[..link]).rev() {
-        let step = link.append(arm.convention, at, &Columns::identity());
-        let turned = link.to_previous(arm.convention, at, &hands[hands.len() - 1]);
-        hands.push(sum(&step.origin, &turned));
+    for step in arm.steps(at).take(link).rev() {
+        let lever = step.lever();
+        let turned = step.to_previous(&hands[hands.len() - 1]);
+        hands.push(sum(&lever, &turned));
     }
     hands.reverse();
     let mut columns: Vec<[Vector<S>; 2]> = Vec::with_capacity(n);
-    for (i, (link, at)) in arm.links[..link].iter().zip(at).enumerate() {
-        let own = |hand: &Vector<S>| match link.kind {
+    for (i, step) in arm.steps(at).take(link).enumerate() {
+        let own = |hand: &Vector<S>| match step.link.kind {
             JointKind::Revolute => [z_across(hand), unit_z()],
             JointKind::Prismatic => [unit_z(), zero_vector()],
         };
@@ -164,23 +152,18 @@ fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], link: usize) -> Vec<[
             columns.push(own(&hands[i]));
         }
         for part in columns.iter_mut().flatten() {
-            *part = link.to_link(arm.convention, at, part);
+            *part = step.to_link(part);
         }
         if arm.convention == Convention::Modified {
             columns.push(own(&hands[i + 1]));
         }
     }
-    columns.extend((0..outer.links.len()).map(|joint| geometric(&outer, &levers, joint)));
+    columns.extend((0..outer.links.len()).map(|joint| by_lever(&outer, &levers, joint)));
     columns.resize(n, [zero_vector(), zero_vector()]);
     columns
 }
 
-fn acceleration<S: Scalar>(
-    arm: &Arm<S>,
-    at: &[DhVariables<S>],
-    qd: &[S],
-    link: usize,
-) -> [Vector<S>; 2] {
+fn acceleration<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], link: usize) -> [Vector<S>; 2] {
     let (arm, at) = arm.to_hand(at);
     let mut inner = arm.weightless();
     let mut outer = inner.clone();
@@ -188,5 +171,5 @@ fn acceleration<S: Scalar>(
     outer.links.drain(..link);
     let rest = zeros(at.len());
     let base = table2::last_motion(&inner, at, qd, &rest);
-    table1::tip_acceleration(&outer, &at[link..], &qd[link..], &rest[link..], &base)
+    table1::tip_acceleration(&outer, &at[link..], [&qd[link..], &rest[link..]], &base)
 }

@@ -60,13 +60,36 @@ pub fn products<S: Scalar>(rows: &[Vec<S>], x: &[S]) -> Vec<S> {
     rows.iter().map(|row| product(row, x)).collect()
 }
 
-pub(super) fn sums<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
+pub(crate) fn sums<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
     a.iter().zip(b).map(|(a, b)| plus(a, b)).collect()
 }
 
+pub(crate) fn differences<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
+    a.iter().zip(b).map(|(a, b)| minus(a, b)).collect()
+}
+
+pub(crate) fn matrix<S>(n: usize, m: usize, entry: impl Fn(usize, usize) -> S) -> Vec<Vec<S>> {
+    let row = |i: usize| (0..m).map(|k| entry(i, k)).collect();
+    (0..n).map(row).collect()
+}
+
+pub(super) fn zero_matrix<S: Scalar>(n: usize) -> Vec<Vec<S>> {
+    alloc::vec![zeros(n); n]
+}
+
+/// Makes an entry a joint from the hand inward, and returns them from the base on.
+pub(super) fn from_hand<J, T>(
+    joints: impl DoubleEndedIterator<Item = J>,
+    make: impl FnMut(J) -> T,
+) -> Vec<T> {
+    let mut entries: Vec<T> = joints.rev().map(make).collect();
+    entries.reverse();
+    entries
+}
+
 pub(super) fn columns_of<S: Clone>(rows: &[Vec<S>]) -> Vec<Vec<S>> {
-    let column = |k: usize| rows.iter().map(|row| row[k].clone()).collect();
-    (0..rows.first().map_or(0, Vec::len)).map(column).collect()
+    let length = rows.first().map_or(0, Vec::len);
+    matrix(length, rows.len(), |k, i| rows[i][k].clone())
 }
 
 /// Returns the sum of terms, the first two first.
@@ -74,8 +97,7 @@ pub fn total<S: Scalar>(terms: impl Iterator<Item = S>) -> S {
     terms.fold(S::zero(), |total, term| plus(&total, &term))
 }
 
-/// Returns a full n×n matrix from its lower half: each entry (i, k), k ≤ i, is made
-/// once and cloned to (k, i).
+/// Returns an n×n matrix from its lower half: each entry (i, k), k ≤ i, is made once.
 pub fn symmetric<S: Clone>(n: usize, entry: impl Fn(usize, usize) -> S) -> Vec<Vec<S>> {
     of_lower_half(n, &entry)
 }
@@ -84,8 +106,16 @@ pub fn symmetric<S: Clone>(n: usize, entry: impl Fn(usize, usize) -> S) -> Vec<V
 fn of_lower_half<S: Clone>(n: usize, entry: &dyn Fn(usize, usize) -> S) -> Vec<Vec<S>> {
     let row = |i: usize| (0..=i).map(|k| entry(i, k)).collect();
     let lower: Vec<Vec<S>> = (0..n).map(row).collect();
-    let row = |i: usize| (0..n).map(|k| lower[i.max(k)][i.min(k)].clone()).collect();
-    (0..n).map(row).collect()
+    matrix(n, n, |i, k| lower[i.max(k)][i.min(k)].clone())
+}
+
+/// Returns `[i][m][k]`, symmetric in m and k.
+pub(super) fn symmetric_each<S: Clone>(
+    n: usize,
+    entry: impl Fn(usize, usize, usize) -> S,
+) -> Vec<Vec<Vec<S>>> {
+    let slice = |i: usize| symmetric(n, |m, k| entry(i, m, k));
+    (0..n).map(slice).collect()
 }
 
 /// Returns a + b
@@ -152,18 +182,14 @@ pub(super) const ABOUT_Z: [usize; 2] = [0, 1];
 impl<S: Scalar> SinCosPair<S> {
     /// Returns the pair of no turn.
     pub fn straight() -> Self {
-        SinCosPair {
-            sin: S::zero(),
-            cos: S::one(),
-        }
+        let (sin, cos) = (S::zero(), S::one());
+        SinCosPair { sin, cos }
     }
 
     /// Returns the pair of the opposite angle.
     pub fn reversed(&self) -> Self {
-        SinCosPair {
-            sin: self.sin.neg(),
-            cos: self.cos.clone(),
-        }
+        let (sin, cos) = (self.sin.neg(), self.cos.clone());
+        SinCosPair { sin, cos }
     }
 
     pub(super) fn turn_in(&self, [i, j]: [usize; 2], mut v: Vector<S>) -> Vector<S> {
@@ -210,11 +236,9 @@ impl<S> Columns<S> {
     /// Returns every entry through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Columns<T> {
         let mut of = |[x, y, z]: &Vector<S>| [f(x), f(y), f(z)];
-        let [x, y, z] = &self.axes;
-        Columns {
-            axes: [of(x), of(y), of(z)],
-            origin: of(&self.origin),
-        }
+        let axes = self.axes.each_ref().map(&mut of);
+        let origin = of(&self.origin);
+        Columns { axes, origin }
     }
 }
 
@@ -225,10 +249,8 @@ impl<S: Scalar> Columns<S> {
     }
 
     pub(super) fn turned(axes: [Vector<S>; 3]) -> Self {
-        Columns {
-            axes,
-            origin: zero_vector(),
-        }
+        let origin = zero_vector();
+        Columns { axes, origin }
     }
 
     /// Returns · Rz(θ)
@@ -267,15 +289,13 @@ impl<S: Scalar> Columns<S> {
         Columns { origin, ..self }
     }
 
-    /// Returns · Q_i: the derivative with respect to the joint that acts here.
-    ///
-    /// Rotary: the columns become (y, −x, 0, 0). Prismatic: (0, 0, 0, z).
+    /// Returns · Q_i, the derivative by the joint here: (y, −x, 0, 0) if it turns, or (0, 0, 0, z).
     pub fn derive(&self, kind: JointKind) -> Self {
         let [x, y, z] = &self.axes;
         match kind {
             JointKind::Revolute => Columns::turned([y.clone(), opposite(x), zero_vector()]),
             JointKind::Prismatic => Columns {
-                axes: [zero_vector(), zero_vector(), zero_vector()],
+                axes: three(|_| zero_vector()),
                 origin: z.clone(),
             },
         }
@@ -283,10 +303,9 @@ impl<S: Scalar> Columns<S> {
 
     /// Returns · the pose of a frame that is fixed in the last one.
     pub fn then(&self, next: &Self) -> Self {
-        Columns {
-            axes: three(|i| self.rotate(&next.axes[i])),
-            origin: self.apply(&next.origin, &S::one()),
-        }
+        let axes = three(|i| self.rotate(&next.axes[i]));
+        let origin = self.apply(&next.origin, &S::one());
+        Columns { axes, origin }
     }
 
     /// Returns the entries row by row, 3×4.
@@ -327,7 +346,7 @@ impl<S: Scalar> Columns<S> {
     where
         S: 'a,
     {
-        let nothing = Columns::turned([zero_vector(), zero_vector(), zero_vector()]);
+        let nothing = Columns::turned(three(|_| zero_vector()));
         terms.fold(nothing, |all, (s, own)| Columns {
             axes: three(|i| sum(&all.axes[i], &scaled(&s, &own.axes[i]))),
             origin: sum(&all.origin, &scaled(&s, &own.origin)),

@@ -7,8 +7,7 @@
 //! | [`newton_euler`] | the recursions, Table 1 (base axes) and Table 2 (link axes) |
 //! | [`dalembert`] | generalized D'Alembert, D^rot, D^tran, h^rot, h^tran, eqs. 4.1–4.5 |
 //! | [`energy`] | T, U, D q̇, ∂T/∂q and C of every formulation |
-//! | [`derivatives`] | ∂τ/∂q and ∂τ/∂q̇ of every formulation, by duals |
-//! | [`second_derivatives`] | those of λᵀτ and λᵀq̈ of every formulation |
+//! | [`derivatives`] | ∂τ/∂q, ∂τ/∂q̇ and second ones of every formulation, by duals |
 //! | [`forward`] | q̈, D⁻¹ and slopes of q̈ of every formulation |
 //! | [`following`] | joints that follow others, by the chain rule |
 //! | [`friction`] | what joints take of torque while they move |
@@ -37,7 +36,6 @@
 
 mod arm;
 pub mod articulated;
-mod base;
 pub mod chain;
 pub mod contact;
 pub mod dalembert;
@@ -60,9 +58,8 @@ pub mod newton_euler;
 pub mod operational;
 pub mod regressor;
 pub mod screws;
-pub mod second_derivatives;
 
 pub use crate::scalar::SinCosPair;
-pub use arm::{Arm, DhVariables, JointPosition, Link};
+pub use arm::{Arm, At, DhVariables, JointPosition, Link};
 pub use formulation::Formulation;
 pub use from_robot::{exact_pose, pose_of};

@@ -21,13 +21,11 @@
 
 use alloc::vec::Vec;
 
-use super::factor::{Factor, placed, scatter, submatrix};
+use super::factor::{Factor, picked, placed, scatter, submatrix};
 use super::following::gathered_rows;
 use super::forward::free;
-use super::matrix::{
-    columns_of, minus, negative, plus, product, products, symmetric, times, zeros,
-};
-use super::{Arm, DhVariables, Formulation};
+use super::matrix::*;
+use super::{Arm, At, Formulation};
 use crate::scalar::{Divide, Scalar};
 
 /// What follows from J and D alone.
@@ -38,15 +36,14 @@ pub struct TaskSpace<S> {
     /// J D⁻¹, m×n; zero of joints that do not move.
     driven: Vec<Vec<S>>,
     /// Λ⁻¹, m×m.
-    mobility: Vec<Vec<S>>,
+    pub mobility: Vec<Vec<S>>,
 }
 
 impl<S: Divide> TaskSpace<S> {
     /// Makes it from J and D⁻¹.
     pub fn by_inverse(jacobian: Vec<Vec<S>>, inverse: &[Vec<S>]) -> TaskSpace<S> {
         // D⁻¹ is symmetric: its rows are its columns.
-        let driven = jacobian.iter().map(|row| products(inverse, row));
-        let driven: Vec<Vec<S>> = driven.collect();
+        let driven: Vec<Vec<S>> = jacobian.iter().map(|row| products(inverse, row)).collect();
         let mobility = symmetric(jacobian.len(), |i, k| product(&driven[i], &jacobian[k]));
         TaskSpace {
             jacobian,
@@ -62,20 +59,12 @@ impl<S: Divide> TaskSpace<S> {
         let scaled: Vec<Vec<S>> = halves.iter().map(|half| factor.scaled(half)).collect();
         let mobility = symmetric(jacobian.len(), |i, k| product(&scaled[i], &halves[k]));
         let joints = free(moves);
-        let driven = scaled.into_iter().map(|row| {
-            let row = factor.substituted(row);
-            scatter(&row, &joints, moves.len())
-        });
+        let drive = |row: Vec<S>| scatter(&factor.substituted(row), &joints, moves.len());
         TaskSpace {
-            driven: driven.collect(),
+            driven: scaled.into_iter().map(drive).collect(),
             jacobian,
             mobility,
         }
-    }
-
-    /// Returns Λ⁻¹
-    pub fn mobility(&self) -> &[Vec<S>] {
-        &self.mobility
     }
 
     /// Returns Λ⁻¹ + λ² 1
@@ -100,22 +89,19 @@ impl<S: Divide> TaskSpace<S> {
     pub fn null_space(&self, damping: &S, moves: &[bool]) -> Vec<Vec<S>> {
         let inverse = self.consistent_inverse(damping);
         let columns = columns_of(&self.jacobian);
-        let entry = |i: usize, k: usize| {
+        matrix(moves.len(), moves.len(), |i, k| {
             let product = product(&inverse[i], &columns[k]);
             match (moves[i] && moves[k], i == k) {
                 (false, _) => S::zero(),
                 (true, true) => minus(&S::one(), &product),
                 (true, false) => negative(&product),
             }
-        };
-        let row = |i: usize| (0..moves.len()).map(|k| entry(i, k)).collect();
-        (0..moves.len()).map(row).collect()
+        })
     }
 
     /// Returns μ, from J D⁻¹ (h + c) and J̇ q̇.
     pub fn bias(&self, driven: &[S], rate: &[S], damping: &S) -> Vec<S> {
-        let rest = driven.iter().zip(rate);
-        let rest: Vec<S> = rest.map(|(driven, rate)| minus(driven, rate)).collect();
+        let rest = differences(driven, rate);
         Factor::new(&self.damped(damping)).solve(&rest)
     }
 }
@@ -144,8 +130,7 @@ impl<S: Divide> NormalEquations<S> {
         if jacobian.len() < joints.len() {
             return None;
         }
-        let row = |row: &Vec<S>| joints.iter().map(|&joint| row[joint].clone()).collect();
-        let jacobian: Vec<Vec<S>> = jacobian.iter().map(row).collect();
+        let jacobian: Vec<Vec<S>> = jacobian.iter().map(|row| picked(row, &joints)).collect();
         let inertia = submatrix(inertia, &joints);
         let damping = symmetric(joints.len(), |i, k| times(damping, &inertia[i][k]));
         let columns = columns_of(&jacobian);
@@ -166,9 +151,8 @@ impl<S: Divide> NormalEquations<S> {
 
     /// Returns N, n×n, over the joints that move.
     pub fn null_space(&self) -> Vec<Vec<S>> {
-        let rows = self.solved(&self.damping).into_iter();
-        rows.map(|row| scatter(&row, &self.joints, self.n))
-            .collect()
+        let whole = |row: &Vec<S>| scatter(row, &self.joints, self.n);
+        self.solved(&self.damping).iter().map(whole).collect()
     }
 
     fn solved(&self, right: &[Vec<S>]) -> Vec<Vec<S>> {
@@ -189,10 +173,7 @@ pub fn damped<S: Scalar>(matrix: &[Vec<S>], damping: &S) -> Vec<Vec<S>> {
 /// Returns U⁻¹ Jᵀ over the joints that move, a row for each of J's.
 fn halves<S: Divide>(jacobian: &[Vec<S>], factor: &Factor<S>, moves: &[bool]) -> Vec<Vec<S>> {
     let joints = free(moves);
-    let half = |row: &Vec<S>| {
-        let row: Vec<S> = joints.iter().map(|&joint| row[joint].clone()).collect();
-        factor.eliminated(&row)
-    };
+    let half = |row: &Vec<S>| factor.eliminated(&picked(row, &joints));
     jacobian.iter().map(half).collect()
 }
 
@@ -203,30 +184,23 @@ pub fn driven_by<S: Divide>(
     b: &[S],
     moves: &[bool],
 ) -> Vec<S> {
-    let joints = free(moves);
-    let b: Vec<S> = joints.iter().map(|&joint| b[joint].clone()).collect();
-    let scaled = factor.scaled(&factor.eliminated(&b));
+    let scaled = factor.scaled(&factor.eliminated(&picked(b, &free(moves))));
     products(&halves(jacobian, factor, moves), &scaled)
 }
 
 impl Formulation {
     /// Returns J of the components that the arm is asked for, m×n.
-    pub fn task_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
+    pub fn task_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
         arm.frames.rows.pick(&self.jacobian(arm, at))
     }
 
     /// Returns the same gathered at the leaders of joints that follow.
-    pub fn gathered_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
+    pub fn gathered_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
         gathered_rows(&arm.following, self.task_jacobian(arm, at))
     }
 
     /// Returns what follows from J and D.
-    pub fn task_space<S: Divide>(
-        self,
-        arm: &Arm<S>,
-        at: &[DhVariables<S>],
-        moves: &[bool],
-    ) -> TaskSpace<S> {
+    pub fn task_space<S: Divide>(self, arm: &Arm<S>, at: &At<S>, moves: &[bool]) -> TaskSpace<S> {
         let inverse = self.inertia_inverse(arm, at, moves);
         TaskSpace::by_inverse(self.gathered_jacobian(arm, at), &inverse)
     }
@@ -235,7 +209,7 @@ impl Formulation {
     pub fn operational_bias<S: Divide>(
         self,
         arm: &Arm<S>,
-        at: &[DhVariables<S>],
+        at: &At<S>,
         qd: &[S],
         damping: &S,
         moves: &[bool],

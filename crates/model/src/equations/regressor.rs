@@ -11,8 +11,8 @@ use alloc::vec::Vec;
 use super::chain::body::{Body, entry};
 pub use super::chain::{Column, Probed};
 use super::factor::scatter;
-use super::matrix::{minus, opposite, times, transposed, zero_vector};
-use super::{Arm, DhVariables, Formulation, Link};
+use super::matrix::{differences, matrix, minus, opposite, times, transposed, zero_vector};
+use super::{Arm, At, Formulation, Link};
 use crate::robot::{Inertia, Robot};
 use crate::scalar::Scalar;
 
@@ -50,15 +50,12 @@ impl LinkParameter {
     pub fn name(self) -> &'static str {
         match self {
             LinkParameter::Mass => "m",
-            LinkParameter::First(0) => "mx",
-            LinkParameter::First(1) => "my",
-            LinkParameter::First(_) => "mz",
-            LinkParameter::Tensor(0, 0) => "Ixx",
-            LinkParameter::Tensor(1, 1) => "Iyy",
-            LinkParameter::Tensor(2, 2) => "Izz",
-            LinkParameter::Tensor(0, 1) => "Ixy",
-            LinkParameter::Tensor(1, 2) => "Iyz",
-            LinkParameter::Tensor(_, _) => "Ixz",
+            LinkParameter::First(axis) => ["mx", "my", "mz"][axis],
+            LinkParameter::Tensor(row, column) => [
+                ["Ixx", "Ixy", "Ixz"],
+                ["Ixy", "Iyy", "Iyz"],
+                ["Ixz", "Iyz", "Izz"],
+            ][row][column],
         }
     }
 
@@ -69,12 +66,12 @@ impl LinkParameter {
             LinkParameter::Mass => body.mass = S::one(),
             LinkParameter::First(axis) => body.first[axis] = S::one(),
             LinkParameter::Tensor(row, column) => {
-                let inertia = Inertia::symmetric(|i, k| match (i, k) == (row, column) {
+                let mut link = Link::still();
+                link.inertia = Inertia::symmetric(|i, k| match (i, k) == (row, column) {
                     true => S::one(),
                     false => S::zero(),
                 });
-                let link = Link::still();
-                body = Body::of(&Link { inertia, ..link });
+                body = Body::of(&link);
             }
         }
         body
@@ -85,10 +82,7 @@ impl LinkParameter {
         match self {
             LinkParameter::Mass => body.mass.clone(),
             LinkParameter::First(axis) => body.first[axis].clone(),
-            LinkParameter::Tensor(row, column) => {
-                let tensor = body.tensor();
-                entry(&tensor, row, column).clone()
-            }
+            LinkParameter::Tensor(row, column) => entry(&body.tensor(), row, column).clone(),
         }
     }
 }
@@ -101,8 +95,7 @@ pub fn of_links<S: Scalar>(arm: &Arm<S>) -> Vec<Column<S>> {
             None => unit,
             Some(own) => unit.carried(&transposed(&own.axes), &own.origin),
         };
-        let all = LinkParameter::ALL.into_iter();
-        all.map(move |parameter| Column {
+        LinkParameter::ALL.map(|parameter| Column {
             joint,
             of: Probed::Body(in_row(parameter.unit())),
         })
@@ -122,38 +115,36 @@ impl<S: Scalar> Arm<S> {
 
     /// Returns every parameter of every link, in the order of [`of_links`].
     pub fn parameters(&self) -> Vec<S> {
-        let bodies = (0..self.links.len()).map(|joint| self.body(joint));
-        bodies
-            .flat_map(|body| LinkParameter::ALL.map(|parameter| parameter.of_body(&body)))
-            .collect()
+        let of_link = |joint| {
+            let body = self.body(joint);
+            LinkParameter::ALL.map(|parameter| parameter.of_body(&body))
+        };
+        (0..self.links.len()).flat_map(of_link).collect()
     }
 }
 
-/// Returns the drives' columns of the parameters that a robot has: rotors' inertias,
-/// then viscous friction, where these are not zero.
+/// Returns the columns of the drives that a robot has: rotors' inertias, then viscous friction.
 pub fn of_drives<S>(robot: &Robot) -> Vec<Column<S>> {
     use num_traits::Zero;
     let joints = || robot.rows().into_iter().enumerate();
     let armatures = joints().filter(|(_, joint)| !joint.armature.is_zero());
     let viscous = joints().filter(|(_, joint)| !joint.viscous.is_zero());
-    let column = |of: Probed<S>, joint: usize| Column { joint, of };
-    let armatures = armatures.map(|(joint, _)| column(Probed::Armature, joint));
-    let viscous = viscous.map(|(joint, _)| column(Probed::Viscous, joint));
-    armatures.chain(viscous).collect()
+    let armatures = armatures.map(|(joint, _)| (joint, Probed::Armature));
+    let all = armatures.chain(viscous.map(|(joint, _)| (joint, Probed::Viscous)));
+    all.map(|(joint, of)| Column { joint, of }).collect()
 }
 
 impl Formulation {
-    /// Returns the columns of a regressor, n rows of an entry a column, each as the
-    /// difference of the torques of two arms.
+    /// Returns a regressor, n rows, each column as the difference of the torques of two arms.
     pub fn regressor<S: Scalar>(
         self,
         arm: &Arm<S>,
-        at: &[DhVariables<S>],
+        at: &At<S>,
         qd: &[S],
         qdd: &[S],
         columns: &[Column<S>],
     ) -> Vec<Vec<S>> {
-        differences(arm, columns, qd, qdd, |arm| {
+        by_differences(arm, columns, [qd, qdd], |arm| {
             self.inverse_dynamics(arm, at, qd, qdd)
         })
     }
@@ -162,12 +153,12 @@ impl Formulation {
     pub fn passivity_regressor<S: Scalar>(
         self,
         arm: &Arm<S>,
-        at: &[DhVariables<S>],
+        at: &At<S>,
         qd: &[S],
         [v, a]: [&[S]; 2],
         columns: &[Column<S>],
     ) -> Vec<Vec<S>> {
-        differences(arm, columns, v, a, |arm| {
+        by_differences(arm, columns, [v, a], |arm| {
             self.passivity(arm, at, qd, [v, a])
         })
     }
@@ -176,28 +167,24 @@ impl Formulation {
 /// An arm's link has a mass, a centre of mass and a tensor about that: a first moment without a
 /// mass is none. With (m, s, Σ) = (1, s, Σ) − (1 − m, 0, 0) a body is the difference of two that
 /// are, the first with its centre at s.
-fn differences<S: Scalar>(
+fn by_differences<S: Scalar>(
     arm: &Arm<S>,
     columns: &[Column<S>],
-    qd: &[S],
-    qdd: &[S],
+    [qd, qdd]: [&[S]; 2],
     torques: impl Fn(&Arm<S>) -> Vec<S>,
 ) -> Vec<Vec<S>> {
     let n = arm.links.len();
     let empty = without_bodies(arm);
-    let mut rows: Vec<Vec<S>> = (0..n).map(|_| Vec::with_capacity(columns.len())).collect();
-    for Column { joint, of } in columns {
+    let column = |Column { joint, of }: &Column<S>| {
         let drive = |rates: &[S]| scatter(&[rates[*joint].clone()], &[*joint], n);
-        let entries = match of {
+        match of {
             Probed::Body(body) => of_body(&empty, *joint, body, &torques),
             Probed::Armature => drive(qdd),
             Probed::Viscous => drive(qd),
-        };
-        for (row, entry) in rows.iter_mut().zip(entries) {
-            row.push(entry);
         }
-    }
-    rows
+    };
+    let columns: Vec<Vec<S>> = columns.iter().map(column).collect();
+    matrix(n, columns.len(), |i, k| columns[k][i].clone())
 }
 
 fn without_bodies<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
@@ -238,6 +225,5 @@ fn of_body<S: Scalar>(
         return whole;
     }
     let point = with(rest, zero_vector(), Inertia::symmetric(|_, _| S::zero()));
-    let pairs = whole.iter().zip(&point);
-    pairs.map(|(whole, point)| minus(whole, point)).collect()
+    differences(&whole, &point)
 }

@@ -23,21 +23,16 @@ pub struct Wrench<S> {
 
 impl<S: Scalar> Twist<S> {
     pub(super) fn rest() -> Self {
-        Twist {
-            turn: zero_vector(),
-            shift: zero_vector(),
-        }
+        let [turn, shift] = [zero_vector(), zero_vector()];
+        Twist { turn, shift }
     }
 
     pub(super) fn of_joint(kind: JointKind, axis: Vector<S>) -> Self {
-        let rest = Twist::rest();
-        match kind {
-            JointKind::Revolute => Twist { turn: axis, ..rest },
-            JointKind::Prismatic => Twist {
-                shift: axis,
-                ..rest
-            },
-        }
+        let (turn, shift) = match kind {
+            JointKind::Revolute => (axis, zero_vector()),
+            JointKind::Prismatic => (zero_vector(), axis),
+        };
+        Twist { turn, shift }
     }
 
     pub(super) fn with(&self, other: &Self) -> Self {
@@ -48,20 +43,15 @@ impl<S: Scalar> Twist<S> {
     }
 
     pub(super) fn doubled(&self) -> Self {
-        Twist {
-            turn: self.turn.each_ref().map(twice),
-            shift: self.shift.each_ref().map(twice),
-        }
+        let [turn, shift] = [&self.turn, &self.shift].map(|v| v.each_ref().map(twice));
+        Twist { turn, shift }
     }
 
     pub(super) fn cross(&self, other: &Self) -> Self {
-        Twist {
-            turn: cross(&self.turn, &other.turn),
-            shift: sum(
-                &cross(&self.turn, &other.shift),
-                &cross(&self.shift, &other.turn),
-            ),
-        }
+        let turn = cross(&self.turn, &other.turn);
+        let carried = cross(&self.turn, &other.shift);
+        let shift = sum(&carried, &cross(&self.shift, &other.turn));
+        Twist { turn, shift }
     }
 }
 
@@ -86,21 +76,16 @@ impl<S: Scalar> Wrench<S> {
 
     /// Returns its power on a twist about the same point.
     pub(super) fn along(&self, twist: &Twist<S>) -> S {
-        plus(
-            &dot(&twist.turn, &self.moment),
-            &dot(&twist.shift, &self.force),
-        )
+        let by_moment = dot(&twist.turn, &self.moment);
+        plus(&by_moment, &dot(&twist.shift, &self.force))
     }
 
     /// Returns its rate as it moves along with a twist about the same point.
     pub(super) fn turned(&self, twist: &Twist<S>) -> Self {
-        Wrench {
-            force: cross(&twist.turn, &self.force),
-            moment: sum(
-                &cross(&twist.turn, &self.moment),
-                &cross(&twist.shift, &self.force),
-            ),
-        }
+        let force = cross(&twist.turn, &self.force);
+        let turned = cross(&twist.turn, &self.moment);
+        let moment = sum(&turned, &cross(&twist.shift, &self.force));
+        Wrench { force, moment }
     }
 
     pub(super) fn with(&self, other: &Self) -> Self {
@@ -111,30 +96,18 @@ impl<S: Scalar> Wrench<S> {
     }
 
     pub(super) fn scaled(&self, factor: &S) -> Self {
-        Wrench {
-            force: scaled(factor, &self.force),
-            moment: scaled(factor, &self.moment),
-        }
+        self.in_axes(|part| scaled(factor, part))
     }
 
     pub(super) fn in_axes(&self, turn: impl Fn(&Vector<S>) -> Vector<S>) -> Self {
-        Wrench {
-            force: turn(&self.force),
-            moment: turn(&self.moment),
-        }
+        let [force, moment] = [&self.force, &self.moment].map(turn);
+        Wrench { force, moment }
     }
 
-    /// Returns it in the axes that vectors turn into like this, about an origin from which its
-    /// own is a lever away.
-    pub(super) fn carried(
-        &self,
-        turn: impl Fn(&Vector<S>) -> Vector<S>,
-        lever: &Vector<S>,
-    ) -> Self {
+    /// Returns it in the axes that `turn` gives, about an origin from which its own is p away.
+    pub(super) fn carried(&self, turn: impl Fn(&Vector<S>) -> Vector<S>, p: &Vector<S>) -> Self {
         let force = turn(&self.force);
-        Wrench {
-            moment: sum(&turn(&self.moment), &cross(lever, &force)),
-            force,
-        }
+        let moment = sum(&turn(&self.moment), &cross(p, &force));
+        Wrench { force, moment }
     }
 }

@@ -9,7 +9,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::parse::{self, NumberError};
 use super::small::compare;
-use super::{Rational, pi};
+use super::{Rational, ratio, trig};
 
 /// An angle as the robot file gives it.
 ///
@@ -50,7 +50,7 @@ impl Default for Angle {
 impl Angle {
     /// Returns `n`·π/2, exactly.
     pub fn right_angles(n: i64) -> Self {
-        Angle::PiTimes(Rational::new(n.into(), 2.into()))
+        Angle::PiTimes(ratio(n, 2))
     }
 
     /// Returns whether it is zero, in either form.
@@ -64,11 +64,8 @@ impl Angle {
     /// become zero times π. (No other rational number of radians is a rational multiple of π.)
     #[must_use]
     pub fn canonical(self) -> Self {
-        if self.is_zero() {
-            Angle::default()
-        } else {
-            self
-        }
+        let is_zero = self.is_zero();
+        if is_zero { Angle::default() } else { self }
     }
 
     /// Returns the opposite angle.
@@ -131,11 +128,8 @@ impl Angle {
         if !text.contains("pi") {
             return parse::parse_fraction(text).map(|value| Angle::Radians(value).canonical());
         }
-        let (negative, rest) = match text.strip_prefix(['-', '+']) {
-            Some(rest) => (text.starts_with('-'), rest.trim_start()),
-            None => (false, text),
-        };
-        let (factor, rest) = match rest.split_once('*') {
+        let (negative, rest) = parse::split_sign(text);
+        let (factor, rest) = match rest.trim_start().split_once('*') {
             Some((factor, rest)) => {
                 // A second sign, as in "--2*pi", is a slip of the pen.
                 if factor.starts_with(['-', '+']) {
@@ -143,7 +137,7 @@ impl Angle {
                 }
                 (parse::parse_decimal(factor.trim_end())?, rest.trim_start())
             }
-            None => (Rational::one(), rest),
+            None => (Rational::one(), rest.trim_start()),
         };
         let rest = rest.strip_prefix("pi").ok_or(NumberError::Malformed)?;
         let divisor = match rest.trim_start().strip_prefix('/') {
@@ -154,10 +148,7 @@ impl Angle {
         if divisor.is_zero() {
             return Err(NumberError::ZeroDenominator);
         }
-        let value = factor / Rational::from_integer(divisor);
-        if !parse::in_range(&value) {
-            return Err(NumberError::OutOfRange);
-        }
+        let value = parse::checked(factor / Rational::from_integer(divisor))?;
         Ok(Angle::PiTimes(if negative { -value } else { value }))
     }
 }
@@ -243,12 +234,11 @@ impl Snapped {
     /// Reads an angle that stays as written, and notes a right angle close to it.
     pub fn near(angle: Angle) -> Self {
         let radians = angle.radians();
-        let quarter = pi() / Rational::from_integer(2.into());
+        let quarter = pi() * ratio(1, 2);
         let n = (&radians / &quarter).round();
-        let multiple = Angle::PiTimes(&n / Rational::from_integer(2.into()));
+        let multiple = Angle::PiTimes(&n * ratio(1, 2));
         let distance = (radians - n * quarter).abs();
-        let close = distance < Rational::new(1.into(), 1000.into());
-        if angle.quarter_turns().is_some() || !close {
+        if angle.quarter_turns().is_some() || distance >= ratio(1, 1000) {
             return Snapped::Kept(angle.canonical());
         }
         let distance = distance.to_f64().unwrap_or(0.0);
@@ -263,5 +253,5 @@ impl Snapped {
 /// 400 bits round any angle of a robot file, and order any two that are not absurdly close.
 fn pi() -> Rational {
     const BITS: usize = 400;
-    Rational::new(pi::pi(BITS), BigInt::one() << BITS)
+    Rational::new(trig::pi(BITS), BigInt::one() << BITS)
 }

@@ -15,7 +15,7 @@ use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
 use super::small::{compare, product, sum};
-use super::{Angle, Rational};
+use super::{Angle, Rational, ratio};
 use crate::scalar::count::Count;
 use crate::scalar::{Scalar, SinCosPair};
 
@@ -27,8 +27,11 @@ pub struct Exact(pub(super) Form);
 #[derive(Clone, Debug, Eq)]
 pub(super) enum Form {
     Rational(Arc<Rational>),
-    Polynomial(Arc<BTreeMap<Monomial, Rational>>),
+    Polynomial(Arc<Terms>),
 }
+
+/// The coefficient of each monomial.
+pub(super) type Terms = BTreeMap<Monomial, Rational>;
 
 impl Ord for Form {
     fn cmp(&self, other: &Self) -> Ordering {
@@ -119,19 +122,6 @@ impl PartialOrd for Power {
     }
 }
 
-/// The size of a constant: what arithmetic with it may cost.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Extent {
-    /// Its monomials: 1 for a rational.
-    pub terms: u64,
-    /// The most angles of a monomial.
-    pub angles: u64,
-    /// The largest degree of a monomial in sines and cosines.
-    pub degree: u64,
-    /// The most bits of a coefficient or an angle, numerator and denominator together.
-    pub bits: u64,
-}
-
 impl Exact {
     /// Returns the kind of number that it is known to be where operations are counted.
     pub fn counted<'a>(&self) -> Count<'a> {
@@ -140,35 +130,6 @@ impl Exact {
             () if self.is_one() => Count::One,
             () if self.neg().is_one() => Count::MinusOne,
             () => Count::Number,
-        }
-    }
-
-    /// Returns how large it is.
-    pub fn extent(&self) -> Extent {
-        let bits = |value: &Rational| value.numer().bits() + value.denom().bits();
-        match &self.0 {
-            Form::Rational(value) => Extent {
-                terms: 1,
-                bits: bits(value),
-                ..Extent::default()
-            },
-            Form::Polynomial(terms) => {
-                let mut extent = Extent {
-                    terms: terms.len() as u64,
-                    ..Extent::default()
-                };
-                for (monomial, coefficient) in terms.iter() {
-                    let degrees = monomial.iter().map(|p| u64::from(p.sin) + u64::from(p.cos));
-                    extent.angles = extent.angles.max(monomial.len() as u64);
-                    extent.degree = extent.degree.max(degrees.sum());
-                    extent.bits = extent.bits.max(bits(coefficient));
-                    for power in monomial {
-                        let (Angle::PiTimes(angle) | Angle::Radians(angle)) = power.angle.as_ref();
-                        extent.bits = extent.bits.max(bits(angle));
-                    }
-                }
-                extent
-            }
         }
     }
 
@@ -221,29 +182,26 @@ impl Exact {
         rational: &mut impl FnMut(&Rational) -> Option<S>,
         pair: &mut impl FnMut(&Angle) -> SinCosPair<S>,
     ) -> Option<S> {
-        match &self.0 {
-            Form::Rational(value) => rational(value),
-            Form::Polynomial(terms) => {
-                let mut sum = S::zero();
-                let mut pairs = BTreeMap::new();
-                for (monomial, coefficient) in terms.iter() {
-                    let mut product = rational(coefficient)?;
-                    for power in monomial {
-                        let rotor = pairs
-                            .entry(&power.angle)
-                            .or_insert_with(|| pair(&power.angle));
-                        for _ in 0..power.sin {
-                            product = product.mul(&rotor.sin);
-                        }
-                        for _ in 0..power.cos {
-                            product = product.mul(&rotor.cos);
-                        }
-                    }
-                    sum = sum.add(&product);
+        let terms = match &self.0 {
+            Form::Rational(value) => return rational(value),
+            Form::Polynomial(terms) => terms,
+        };
+        let mut sum = S::zero();
+        let mut pairs = BTreeMap::new();
+        for (monomial, coefficient) in terms.iter() {
+            let mut product = rational(coefficient)?;
+            for Power { angle, sin, cos } in monomial {
+                let rotor = pairs.entry(angle).or_insert_with(|| pair(angle));
+                for _ in 0..*sin {
+                    product = product.mul(&rotor.sin);
                 }
-                Some(sum)
+                for _ in 0..*cos {
+                    product = product.mul(&rotor.cos);
+                }
             }
+            sum = sum.add(&product);
         }
+        Some(sum)
     }
 
     fn scale(&self, factor: &Rational) -> Exact {
@@ -263,25 +221,21 @@ impl Exact {
         }
     }
 
-    fn to_terms(&self) -> BTreeMap<Monomial, Rational> {
+    fn to_terms(&self) -> Terms {
         match &self.0 {
-            Form::Rational(value) if value.is_zero() => BTreeMap::new(),
-            Form::Rational(value) => BTreeMap::from([(Monomial::new(), value.as_ref().clone())]),
+            Form::Rational(value) if value.is_zero() => Terms::new(),
+            Form::Rational(value) => Terms::from([(Monomial::new(), value.as_ref().clone())]),
             Form::Polynomial(terms) => terms.as_ref().clone(),
         }
     }
 
-    pub(super) fn from_terms(mut terms: BTreeMap<Monomial, Rational>) -> Exact {
+    pub(super) fn from_terms(mut terms: Terms) -> Exact {
         terms.retain(|_, coefficient| !coefficient.is_zero());
-        if terms.is_empty() {
-            return Exact::zero();
+        match (terms.len(), terms.get(&Monomial::new())) {
+            (0, _) => Exact::zero(),
+            (1, Some(value)) => Exact::from(value.clone()),
+            _ => Exact(Form::Polynomial(Arc::new(terms))),
         }
-        if terms.len() == 1
-            && let Some(value) = terms.get(&Monomial::new())
-        {
-            return Exact::from(value.clone());
-        }
-        Exact(Form::Polynomial(Arc::new(terms)))
     }
 }
 
@@ -314,7 +268,7 @@ impl Scalar for Exact {
             (Form::Rational(a), _) => other.scale(a),
             (_, Form::Rational(b)) => self.scale(b),
             (Form::Polynomial(a), Form::Polynomial(b)) => {
-                let mut terms = BTreeMap::new();
+                let mut terms = Terms::new();
                 for (m, c) in a.iter() {
                     for (n, d) in b.iter() {
                         multiply_into(&mut terms, m, n, &product(c, d));
@@ -328,7 +282,7 @@ impl Scalar for Exact {
         self.each(|coefficient| -coefficient)
     }
     fn half(&self) -> Self {
-        self.scale(&Rational::new(1.into(), 2.into()))
+        self.scale(&ratio(1, 2))
     }
     fn is_zero(&self) -> bool {
         self.as_rational().is_some_and(Zero::is_zero)
@@ -339,50 +293,22 @@ impl Scalar for Exact {
 }
 
 fn generator(angle: &Arc<Angle>, sin: u32, cos: u32) -> Exact {
-    let monomial = Vec::from([Power {
-        angle: angle.clone(),
-        sin,
-        cos,
-    }]);
-    Exact(Form::Polynomial(Arc::new(BTreeMap::from([(
-        monomial,
-        Rational::one(),
-    )]))))
+    let angle = angle.clone();
+    let monomial = Vec::from([Power { angle, sin, cos }]);
+    let terms = Terms::from([(monomial, Rational::one())]);
+    Exact(Form::Polynomial(Arc::new(terms)))
 }
 
 /// Adds c · m · n to the terms, each s² replaced by 1 − c².
-fn multiply_into(
-    terms: &mut BTreeMap<Monomial, Rational>,
-    m: &Monomial,
-    n: &Monomial,
-    c: &Rational,
-) {
-    let mut product = Monomial::with_capacity(m.len() + n.len());
-    let (mut i, mut j) = (0, 0);
-    while i < m.len() || j < n.len() {
-        let order = match (m.get(i), n.get(j)) {
-            (Some(a), Some(b)) => a.angle.cmp(&b.angle),
-            (Some(_), None) => Ordering::Less,
-            _ => Ordering::Greater,
-        };
-        match order {
-            Ordering::Less => {
-                product.push(m[i].clone());
-                i += 1;
+fn multiply_into(terms: &mut Terms, m: &Monomial, n: &Monomial, c: &Rational) {
+    let mut product = m.clone();
+    for power in n {
+        match product.binary_search_by(|own| own.angle.cmp(&power.angle)) {
+            Ok(at) => {
+                product[at].sin += power.sin;
+                product[at].cos += power.cos;
             }
-            Ordering::Greater => {
-                product.push(n[j].clone());
-                j += 1;
-            }
-            Ordering::Equal => {
-                product.push(Power {
-                    angle: m[i].angle.clone(),
-                    sin: m[i].sin + n[j].sin,
-                    cos: m[i].cos + n[j].cos,
-                });
-                i += 1;
-                j += 1;
-            }
+            Err(at) => product.insert(at, power.clone()),
         }
     }
     let mut pending = Vec::from([(product, c.clone())]);
@@ -423,7 +349,7 @@ fn reduce(angle: &Angle) -> (u8, [Exact; 2]) {
             if rest.is_zero() {
                 return (turns, [Exact::zero(), Exact::one()]);
             }
-            let half = Rational::new(1.into(), 2.into());
+            let half = ratio(1, 2);
             // At the eighth turn itself either would do; this one makes the
             // opposite angle's pair (−s, c), so that the two cancel.
             if rest > half || (rest == half && turns % 2 == 1) {
@@ -447,7 +373,7 @@ mod tests {
     use super::*;
 
     fn pi_times(n: i64, d: i64) -> Angle {
-        Angle::PiTimes(Rational::new(n.into(), d.into()))
+        Angle::PiTimes(ratio(n, d))
     }
 
     #[test]
@@ -463,17 +389,14 @@ mod tests {
     fn right_angles_are_exact() {
         for (n, sin, cos) in [(0, 0, 1), (1, 1, 0), (2, 0, -1), (3, -1, 0), (-1, -1, 0)] {
             let rotor = Exact::sincos(&pi_times(n, 2));
-            assert_eq!(rotor.sin, Exact::from(Rational::from_integer(sin.into())));
-            assert_eq!(rotor.cos, Exact::from(Rational::from_integer(cos.into())));
+            assert_eq!(rotor.sin, Exact::from(ratio(sin, 1)));
+            assert_eq!(rotor.cos, Exact::from(ratio(cos, 1)));
         }
     }
 
     #[test]
     fn the_circle_relation_folds() {
-        for angle in [
-            pi_times(1, 5),
-            Angle::Radians(Rational::new(3.into(), 10.into())),
-        ] {
+        for angle in [pi_times(1, 5), Angle::Radians(ratio(3, 10))] {
             let r = Exact::sincos(&angle);
             assert!(r.sin.mul(&r.sin).add(&r.cos.mul(&r.cos)).is_one());
         }
@@ -481,9 +404,7 @@ mod tests {
 
     #[test]
     fn complementary_angles_share_their_generators() {
-        assert_eq!(
-            Exact::sincos(&pi_times(1, 3)).sin,
-            Exact::sincos(&pi_times(1, 6)).cos
-        );
+        let [third, sixth] = [3, 6].map(|d| Exact::sincos(&pi_times(1, d)));
+        assert_eq!(third.sin, sixth.cos);
     }
 }

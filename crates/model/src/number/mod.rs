@@ -3,14 +3,13 @@
 //! - [`Angle`]: a rational multiple of π or a rational number of radians
 //! - [`parse`]: decimal literals, read and written exactly
 //! - [`Exact`]: polynomials over ℚ in the sin and cos of constant angles
-//! - `pi`, `trig`, `round`: their correctly rounded floating-point values
+//! - `trig`, `round`: their correctly rounded floating-point values
 //! - [`Wide`]: a float of 256 bits, which errors are measured against
 //! - [`recover`]: the number that was meant, from one computed in wide floats
 
 mod angle;
 mod exact;
 pub mod parse;
-mod pi;
 pub mod recover;
 mod round;
 mod small;
@@ -19,10 +18,14 @@ mod trig;
 mod wide;
 
 pub use angle::{Angle, Snapped};
-pub use exact::{Exact, Extent};
+pub use exact::Exact;
 pub use round::Rounded;
 pub use text::NotExact;
 pub use wide::Wide;
 
 /// An exact rational number.
 pub type Rational = num_rational::BigRational;
+
+fn ratio(numerator: i64, denominator: i64) -> Rational {
+    Rational::new(numerator.into(), denominator.into())
+}

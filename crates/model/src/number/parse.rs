@@ -108,17 +108,12 @@ pub fn parse_decimal(text: &str) -> Result<Rational, NumberError> {
 pub fn parse_fraction(text: &str) -> Result<Rational, NumberError> {
     let (negative, rest) = split_sign(text.trim());
     let (numer, denom) = rest.split_once('/').ok_or(NumberError::Malformed)?;
-    let (numer, denom) = (
-        parse_integer(numer.trim_end())?,
-        parse_integer(denom.trim_start())?,
-    );
+    let numer = parse_integer(numer.trim_end())?;
+    let denom = parse_integer(denom.trim_start())?;
     if denom.is_zero() {
         return Err(NumberError::ZeroDenominator);
     }
-    let value = Rational::new(if negative { -numer } else { numer }, denom);
-    in_range(&value)
-        .then_some(value)
-        .ok_or(NumberError::OutOfRange)
+    checked(Rational::new(if negative { -numer } else { numer }, denom))
 }
 
 pub(super) fn parse_integer(text: &str) -> Result<BigInt, NumberError> {
@@ -145,6 +140,10 @@ pub fn in_range(value: &Rational) -> bool {
     size <= power && size.recip() <= power
 }
 
+pub(super) fn checked(value: Rational) -> Result<Rational, NumberError> {
+    Some(value).filter(in_range).ok_or(NumberError::OutOfRange)
+}
+
 /// Returns `size`·10^`scale`, refused before it is built if it would be out of range.
 fn scaled(size: BigInt, scale: i64) -> Result<Rational, NumberError> {
     if size.is_zero() {
@@ -154,18 +153,10 @@ fn scaled(size: BigInt, scale: i64) -> Result<Rational, NumberError> {
     if scale.abs() > 2 * MAX_LITERAL as i64 {
         return Err(NumberError::OutOfRange);
     }
-    let power = BigInt::from(10).pow(scale.unsigned_abs() as u32);
-    let value = if scale < 0 {
-        Rational::new(size, power)
-    } else {
-        Rational::from_integer(size * power)
-    };
-    in_range(&value)
-        .then_some(value)
-        .ok_or(NumberError::OutOfRange)
+    checked(Rational::from_integer(10.into()).pow(scale as i32) * size)
 }
 
-fn split_sign(text: &str) -> (bool, &str) {
+pub(super) fn split_sign(text: &str) -> (bool, &str) {
     match text.strip_prefix('-') {
         Some(rest) => (true, rest),
         None => (false, text.strip_prefix('+').unwrap_or(text)),

@@ -11,7 +11,7 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
-use super::{Angle, Rational, Rounded, Wide};
+use super::{Angle, Rational, Rounded, Wide, ratio};
 use crate::scalar::Scalar;
 
 /// The most bits of the denominator of a fraction that was meant.
@@ -80,11 +80,7 @@ pub fn rounded(value: &Rational) -> Rational {
     // 2^bits is within a factor of two of the size; 30103/100000 is log₁₀ 2.
     let bits = value.numer().bits() as i64 - value.denom().bits() as i64;
     let digits = DIGITS - Integer::div_floor(&(bits * 30103), &100_000);
-    let power = BigInt::from(10).pow(digits.unsigned_abs() as u32);
-    let power = match digits < 0 {
-        true => Rational::new(BigInt::one(), power),
-        false => Rational::from_integer(power),
-    };
+    let power = Rational::from_integer(10.into()).pow(digits as i32);
     (value * &power).round() / power
 }
 
@@ -95,17 +91,14 @@ fn arc(sin: &Wide, cos: &Wide) -> Rational {
         return Rational::zero();
     };
     // What is nothing beside the other has no sign: −π is π.
-    let sin = match sin.to_rational().abs() <= near() {
-        true => Wide::zero(),
-        false => sin,
-    };
+    let is_level = sin.to_rational().abs() <= near();
+    let sin = if is_level { Wide::zero() } else { sin };
     let [y, x] = [&sin, &cos].map(|part| f64::nearest_rational(&part.to_rational()));
     let start = Rational::from_float(libm::atan2(y, x)).unwrap_or_else(Rational::zero);
     let at = Wide::sincos(&Angle::Radians(start.clone()));
     // The sine of what is missing, 1e-16 or less: arcsin x = x + x³/6 + 3x⁵/40 …
     let x = sin.mul(&at.cos).sub(&cos.mul(&at.sin)).to_rational();
     let square = &x * &x;
-    let ratio = |n: i64, d: i64| Rational::new(n.into(), d.into());
     let series = ratio(1, 1) + &square * (ratio(1, 6) + &square * ratio(3, 40));
     start + x * series
 }
@@ -114,37 +107,31 @@ fn arc(sin: &Wide, cos: &Wide) -> Rational {
 mod tests {
     use super::*;
 
-    fn ratio(n: i64, d: i64) -> Rational {
-        Rational::new(n.into(), d.into())
+    fn comes_back(angle: Angle) {
+        let pair = Wide::sincos(&angle);
+        let size = Wide::from_rational(&ratio(7, 3));
+        let found = Angle::recovered(&pair.sin.mul(&size), &pair.cos.mul(&size));
+        assert_eq!(found, angle);
     }
 
-    fn of(angle: &Angle) -> Angle {
-        let pair = Wide::sincos(angle);
-        let size = Wide::from_rational(&ratio(7, 3));
-        Angle::recovered(&pair.sin.mul(&size), &pair.cos.mul(&size))
+    /// Checks that a number is this many times 10⁻²⁰, within one of them.
+    fn is_near(found: &Rational, digits: i128) {
+        let unit = Rational::new(1.into(), BigInt::from(10).pow(20));
+        let off = found - Rational::from_integer(digits.into()) * &unit;
+        assert!(off.abs() <= unit, "{found}");
     }
 
     #[test]
     fn angles_come_back() {
         for n in -11..=12 {
-            let angle = Angle::PiTimes(ratio(n, 12));
-            assert_eq!(of(&angle), angle);
+            comes_back(Angle::PiTimes(ratio(n, 12)));
         }
-        let degrees = Angle::PiTimes(ratio(-17_345, 180_000));
-        assert_eq!(of(&degrees), degrees);
-        for radians in [
-            ratio(3, 10),
-            ratio(-31_415, 10_000),
-            ratio(1, 3),
-            ratio(1, 1 << 40),
-        ] {
-            let angle = Angle::Radians(radians);
-            assert_eq!(of(&angle), angle);
+        comes_back(Angle::PiTimes(ratio(-17_345, 180_000)));
+        for (n, d) in [(3, 10), (-31_415, 10_000), (1, 3), (1, 1 << 40)] {
+            comes_back(Angle::Radians(ratio(n, d)));
         }
-        assert_eq!(
-            Angle::recovered(&Wide::zero(), &Wide::zero()),
-            Angle::default()
-        );
+        let zero = Wide::zero();
+        assert_eq!(Angle::recovered(&zero, &zero), Angle::default());
         let tiny = Wide::from_rational(&Rational::new(1.into(), BigInt::one() << 240));
         let back = Wide::one().neg();
         let half_turn = Angle::right_angles(2);
@@ -156,18 +143,10 @@ mod tests {
     #[test]
     fn other_angles_are_rounded_once() {
         let [one, two] = [ratio(1, 1), ratio(2, 1)].map(|x| Wide::from_rational(&x));
-        let expected = Rational::new(
-            46_364_760_900_080_611_621i128.into(),
-            BigInt::from(10).pow(20),
-        );
         let Angle::Radians(found) = Angle::recovered(&one, &two) else {
             panic!("a number of radians");
         };
-        let off = (found.clone() - expected).abs();
-        assert!(
-            off <= Rational::new(1.into(), BigInt::from(10).pow(20)),
-            "{found}"
-        );
+        is_near(&found, 46_364_760_900_080_611_621);
     }
 
     #[test]
@@ -175,23 +154,14 @@ mod tests {
         let size = ratio(1, 1);
         let third = Wide::from_rational(&ratio(1, 3));
         let noise = third.add(&third).add(&third).sub(&Wide::one());
-        for text in [
-            ratio(4318, 10_000),
-            ratio(-1, 12),
-            ratio(123_456_789_012_345_678, 1 << 40),
-        ] {
-            let noisy = Wide::from_rational(&text).add(&noise);
-            assert_eq!(recovered(&noisy, &size), text);
+        for (n, d) in [(4318, 10_000), (-1, 12), (123_456_789_012_345_678, 1 << 40)] {
+            let noisy = Wide::from_rational(&ratio(n, d)).add(&noise);
+            assert_eq!(recovered(&noisy, &size), ratio(n, d));
         }
         assert_eq!(recovered(&noise, &size), Rational::zero());
         let root = Wide::from_rational(&ratio(2, 1)).sqrt();
         // √2 = 1.41421356237309504880168872…
-        let expected = Rational::new(
-            141_421_356_237_309_504_880i128.into(),
-            BigInt::from(10).pow(20),
-        );
-        let off = recovered(&root, &size) - expected;
-        assert!(off.abs() <= Rational::new(1.into(), BigInt::from(10).pow(20)));
+        is_near(&recovered(&root, &size), 141_421_356_237_309_504_880);
         assert_eq!(rounded(&ratio(1, 1_000_000)), ratio(1, 1_000_000));
         assert_eq!(rounded(&ratio(25_000_000, 1)), ratio(25_000_000, 1));
     }

@@ -4,7 +4,7 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-use super::exact::{Form, Monomial};
+use super::exact::{Form, Terms};
 use super::small::nearest_double;
 use super::trig::{SLACK, sin_cos};
 use super::{Exact, Rational};
@@ -35,11 +35,8 @@ pub trait Rounded: Copy + PartialEq {
             return Self::from_exact_f64(value);
         }
         let magnitude = round_magnitude(value, Self::DIGITS, Self::LEAST, Self::MAX);
-        Self::from_exact_f64(if value.is_negative() {
-            -magnitude
-        } else {
-            magnitude
-        })
+        let sign = if value.is_negative() { -1.0 } else { 1.0 };
+        Self::from_exact_f64(sign * magnitude)
     }
 }
 
@@ -77,10 +74,8 @@ pub(super) fn round_magnitude(value: &Rational, digits: i64, least: i64, most: i
     }
     let (mut significand, rest) = quotient;
     // rest is twice the remainder against the divisor: round half to even.
-    match rest {
-        core::cmp::Ordering::Greater => significand += 1,
-        core::cmp::Ordering::Equal if significand.is_odd() => significand += 1,
-        _ => {}
+    if rest.is_gt() || rest.is_eq() && significand.is_odd() {
+        significand += 1;
     }
     if significand.bits() as i64 + unit > most {
         return f64::INFINITY;
@@ -114,27 +109,23 @@ fn scale(mut x: f64, mut e: i64) -> f64 {
 }
 
 /// Rounds a polynomial by Ziv's strategy: more bits until both ends of the enclosure round alike.
-fn round_polynomial<T: Rounded>(terms: &BTreeMap<Monomial, Rational>) -> T {
+fn round_polynomial<T: Rounded>(terms: &Terms) -> T {
     let mut bits = 128;
     loop {
         let (value, error) = enclose(terms, bits);
-        let near = |value: BigInt| {
-            // In no lowest terms: rounding divides, and asks for none.
-            T::nearest_rational(&Rational::new_raw(value, BigInt::one() << bits))
-        };
+        // In no lowest terms: rounding divides, and asks for none.
+        let near =
+            |value: BigInt| T::nearest_rational(&Rational::new_raw(value, BigInt::one() << bits));
         let low = near(&value - &error);
-        let high = near(&value + &error);
-        if low == high {
+        if low == near(&value + &error) {
             return low;
         }
         if bits > 6000 {
             // Only a relation that the representation does not know, such as
             // sin π/4 = cos π/4, brings a constant this close to a boundary:
             // the value is zero, or the boundary itself.
-            return near(match value.abs() <= error {
-                true => BigInt::zero(),
-                false => value,
-            });
+            let is_zero = value.abs() <= error;
+            return near(if is_zero { BigInt::zero() } else { value });
         }
         bits *= 2;
     }
@@ -142,16 +133,15 @@ fn round_polynomial<T: Rounded>(terms: &BTreeMap<Monomial, Rational>) -> T {
 
 /// Returns the value and a bound of its error, both times 2^bits, from sines and cosines
 /// to `bits` bits. Fixed point: rationals would be brought to lowest terms, sum by sum.
-fn enclose(terms: &BTreeMap<Monomial, Rational>, bits: usize) -> (BigInt, BigInt) {
+fn enclose(terms: &Terms, bits: usize) -> (BigInt, BigInt) {
     let mut pairs = BTreeMap::new();
     let (mut value, mut error) = (BigInt::zero(), BigInt::zero());
     for (monomial, coefficient) in terms {
         let mut product = BigInt::one() << bits;
         let mut degree = 0u32;
         for power in monomial {
-            let (sin, cos) = pairs
-                .entry(&power.angle)
-                .or_insert_with(|| sin_cos(&power.angle, bits));
+            let angle = &power.angle;
+            let (sin, cos) = pairs.entry(angle).or_insert_with(|| sin_cos(angle, bits));
             let sines = (0..power.sin).map(|_| &*sin);
             for factor in sines.chain((0..power.cos).map(|_| &*cos)) {
                 product = (product * factor) >> bits;
@@ -170,45 +160,31 @@ fn enclose(terms: &BTreeMap<Monomial, Rational>, bits: usize) -> (BigInt, BigInt
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::number::Angle;
+    use crate::number::{Angle, ratio};
     use crate::scalar::Scalar;
-
-    fn ratio(n: i64, d: i64) -> Rational {
-        Rational::new(n.into(), d.into())
-    }
 
     #[test]
     fn rationals_round_to_nearest_even() {
-        assert_eq!(
-            f64::nearest_rational(&ratio(9007199254740993, 1)),
-            9007199254740992.0
-        );
+        let double = f64::nearest_rational(&ratio(9007199254740993, 1));
+        assert_eq!(double, 9007199254740992.0);
         assert_eq!(f32::nearest_rational(&ratio(16777217, 1)), 16777216.0);
         assert_eq!(f32::nearest_rational(&ratio(1, 10)), 0.1f32);
     }
 
     #[test]
     fn every_double_rounds_to_itself() {
-        let edge = [
-            f64::MAX,
-            f64::MIN_POSITIVE,
-            5e-324,
-            2.225073858507201e-308,
-            1e300,
-            -1e-310,
-        ];
-        for x in edge {
-            let exact = Rational::from_float(x).unwrap();
-            assert_eq!(f64::nearest_rational(&exact), x);
+        let times = |x: f64, factor: Rational| {
+            f64::nearest_rational(&(Rational::from_float(x).unwrap() * factor))
+        };
+        let normal = [f64::MAX, f64::MIN_POSITIVE, 1e300];
+        for x in normal
+            .into_iter()
+            .chain([5e-324, 2.225073858507201e-308, -1e-310])
+        {
+            assert_eq!(times(x, ratio(1, 1)), x);
         }
-        assert_eq!(
-            f64::nearest_rational(&(Rational::from_float(f64::MAX).unwrap() * ratio(3, 2))),
-            f64::INFINITY
-        );
-        assert_eq!(
-            f64::nearest_rational(&(Rational::from_float(5e-324).unwrap() / ratio(2, 1))),
-            0.0
-        );
+        assert_eq!(times(f64::MAX, ratio(3, 2)), f64::INFINITY);
+        assert_eq!(times(5e-324, ratio(1, 2)), 0.0);
     }
 
     #[test]

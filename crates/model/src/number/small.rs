@@ -19,9 +19,8 @@ pub(super) fn product(a: &Rational, b: &Rational) -> Rational {
     // What they have in common goes first: p/q and r/s are in lowest terms, so
     // the product is. Each factor is below 2⁶³.
     let (first, second) = (common(p, s), common(r, q));
-    let numerator = (p / first) * (r / second);
-    let denominator = (q / second) * (s / first);
-    Rational::new_raw(BigInt::from(numerator), BigInt::from(denominator))
+    let [numerator, denominator] = [(p / first) * (r / second), (q / second) * (s / first)];
+    Rational::new_raw(numerator.into(), denominator.into())
 }
 
 pub(super) fn sum(a: &Rational, b: &Rational) -> Rational {
@@ -34,10 +33,7 @@ pub(super) fn sum(a: &Rational, b: &Rational) -> Rational {
         false => (p * s + r * q, q * s),
     };
     let common = common(numerator, denominator);
-    Rational::new_raw(
-        BigInt::from(numerator / common),
-        BigInt::from(denominator / common),
-    )
+    Rational::new_raw((numerator / common).into(), (denominator / common).into())
 }
 
 pub(super) fn compare(a: &Rational, b: &Rational) -> Ordering {

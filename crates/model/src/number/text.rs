@@ -1,14 +1,13 @@
 //! Exact constants as text: `-3/4`, `1/2*cos(pi/5)^2+3*sin(3/10)*cos(3/10)`.
 
-use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::sync::Arc;
 use core::fmt;
 use core::str::FromStr;
 
-use super::exact::{Form, Monomial, Power};
 use num_traits::Zero;
 
+use super::exact::{Form, Monomial, Power, Terms};
 use super::{Angle, Exact, Rational};
 
 impl fmt::Display for Exact {
@@ -68,7 +67,7 @@ impl FromStr for Exact {
         if text.len() > MAX_BYTES {
             return Err(NotExact);
         }
-        let mut terms: BTreeMap<Monomial, Rational> = BTreeMap::new();
+        let mut terms = Terms::new();
         for term in text.split('+') {
             let (monomial, coefficient) = parse_term(term)?;
             *terms.entry(monomial).or_insert_with(Rational::zero) += coefficient;
@@ -91,10 +90,8 @@ fn parse_term(text: &str) -> Result<(Monomial, Rational), NotExact> {
         let (exponent, after) = match after.strip_prefix('^') {
             Some(after) => {
                 let end = after.find('*').unwrap_or(after.len());
-                (
-                    after[..end].parse::<u32>().map_err(|_| NotExact)?,
-                    &after[end..],
-                )
+                let (exponent, after) = after.split_at(end);
+                (exponent.parse::<u32>().map_err(|_| NotExact)?, after)
             }
             None => (1, after),
         };
@@ -120,12 +117,9 @@ fn parse_term(text: &str) -> Result<(Monomial, Rational), NotExact> {
 }
 
 fn parse_angle(text: &str) -> Result<Angle, NotExact> {
-    match text.split_once("*pi/") {
-        Some((numerator, denominator)) => {
-            let value = rational(&alloc::format!("{numerator}/{denominator}"))?;
-            Ok(Angle::PiTimes(value))
-        }
-        None => rational(text).map(Angle::Radians),
+    match text.contains("*pi/") {
+        true => rational(&text.replacen("*pi/", "/", 1)).map(Angle::PiTimes),
+        false => rational(text).map(Angle::Radians),
     }
 }
 
@@ -140,11 +134,11 @@ fn rational(text: &str) -> Result<Rational, NotExact> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::ratio;
     use crate::scalar::Scalar;
 
     #[test]
     fn constants_read_back() {
-        let ratio = |n: i64, d: i64| Rational::new(n.into(), d.into());
         let a = Exact::sincos(&Angle::PiTimes(ratio(1, 5)));
         let b = Exact::sincos(&Angle::Radians(ratio(3, 10)));
         let three = Exact::from(ratio(-3, 4));
@@ -156,19 +150,9 @@ mod tests {
         ] {
             assert_eq!(constant.to_string().parse(), Ok(constant));
         }
-        for wrong in [
-            "",
-            "1/0",
-            "x",
-            "1*sin(",
-            "1*cos(1)^",
-            "1/-2",
-            "1*tan(1)",
-            "1*cos(1)^9999",
-            "1*sin(1)^2",
-            "1*sin(1)*sin(1)",
-            "1*cos(2)*cos(1)",
-        ] {
+        let wrong = "1/0 x 1*sin( 1*cos(1)^ 1/-2 1*tan(1) 1*cos(1)^9999 1*sin(1)^2 \
+            1*sin(1)*sin(1) 1*cos(2)*cos(1)";
+        for wrong in wrong.split(' ').chain([""]) {
             assert_eq!(wrong.parse::<Exact>(), Err(NotExact), "{wrong}");
         }
     }

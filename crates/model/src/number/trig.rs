@@ -1,14 +1,49 @@
-//! Sine and cosine of exact angles to any number of bits, in integers.
+//! π, and sine and cosine of exact angles, to any number of bits, in integers.
 //!
 //! Fixed point: a number x is ⌊x·2^w⌋ with an error of a few units. No
 //! platform libm takes part, so constants are the same on every machine.
 
-use num_bigint::BigInt;
+use num_bigint::{BigInt, Sign};
 use num_integer::Integer;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Zero};
 
-use super::pi::pi;
 use super::{Angle, Rational};
+
+const KEPT: usize = 512;
+
+/// ⌊π·2^512⌋, the least significant words first.
+const PI: [u32; 17] = [
+    0xb5470917, 0x3f84d5b5, 0xc97c50dd, 0xc0ac29b7, 0x34e90c6c, 0xbe5466cf, 0x38d01377, 0x452821e6,
+    0xec4e6c89, 0x082efa98, 0x299f31d0, 0xa4093822, 0x03707344, 0x13198a2e, 0x85a308d3, 0x243f6a88,
+    0x00000003,
+];
+
+/// Series of some hundred bits are asked for thousands of times, so as many are kept.
+pub(super) fn pi(w: usize) -> BigInt {
+    match KEPT.checked_sub(w) {
+        Some(more) => BigInt::from_slice(Sign::Plus, &PI) >> more,
+        None => machin(w),
+    }
+}
+
+/// Computes π by Machin's formula: π = 16 atan(1/5) − 4 atan(1/239).
+fn machin(w: usize) -> BigInt {
+    let guard = 32;
+    let one = BigInt::one() << (w + guard);
+    let atan_inverse = |n: u32| {
+        let square = BigInt::from(n) * n;
+        let mut power = &one / n;
+        let mut sum = power.clone();
+        let mut k = 1u32;
+        while !power.is_zero() {
+            power = -(power / &square);
+            k += 2;
+            sum += &power / k;
+        }
+        sum
+    };
+    (atan_inverse(5) * 16 - atan_inverse(239) * 4) >> guard
+}
 
 /// The errors of [`sin_cos`] are below 2^(`SLACK` − w).
 pub(super) const SLACK: usize = 8;
@@ -56,12 +91,8 @@ fn series(x: &BigInt, w: usize) -> (BigInt, BigInt) {
     while !term.is_zero() {
         n += 1;
         term = (&term * x) >> w;
-        // Truncate towards zero, so that the loop ends for negative x too.
-        term = if term.is_negative() {
-            -((-term) / n)
-        } else {
-            term / n
-        };
+        // Truncates towards zero, so that the loop ends for negative x too.
+        term /= n;
         match n % 4 {
             1 => sin += &term,
             2 => cos -= &term,
@@ -70,4 +101,17 @@ fn series(x: &BigInt, w: usize) -> (BigInt, BigInt) {
         }
     }
     (sin, cos)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_kept_of_pi_is_what_the_series_gives() {
+        for w in [1, 240, KEPT - 1, KEPT, KEPT + 1, 1000] {
+            let (kept, series) = (pi(w), machin(w + 64) >> 64u32);
+            assert_eq!(kept, series, "{w}");
+        }
+    }
 }

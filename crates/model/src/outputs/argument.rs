@@ -54,22 +54,11 @@ impl Argument {
         Argument::Multiplier,
     ];
 
-    /// Those with an entry a joint, which a motion is made of.
-    pub const JOINTS: [Argument; 6] = [
-        Argument::Position,
-        Argument::Velocity,
-        Argument::Acceleration,
-        Argument::Torque,
-        Argument::ReferenceVelocity,
-        Argument::ReferenceAcceleration,
-    ];
+    /// Those with an entry a joint, which a motion is made of: the first six.
+    pub const JOINTS: [Argument; 6] = *Argument::ALL.first_chunk().unwrap();
 
     /// The state that a box bounds: position, velocity and acceleration.
-    pub const STATE: [Argument; 3] = [
-        Argument::Position,
-        Argument::Velocity,
-        Argument::Acceleration,
-    ];
+    pub const STATE: [Argument; 3] = *Argument::ALL.first_chunk().unwrap();
 
     /// Returns its place in [`Argument::ALL`].
     pub fn index(self) -> usize {
@@ -158,8 +147,7 @@ impl Argument {
         }
     }
 
-    /// Returns the limit of a joint that says how far its entries reach; none where
-    /// they are no joint's.
+    /// Returns the limit of a joint that says how far its entries reach, if they are of joints.
     pub fn limit(self) -> Option<Limit> {
         match self {
             Argument::Position => Some(Limit::Position),
@@ -170,8 +158,7 @@ impl Argument {
         }
     }
 
-    /// Returns how far its entries are taken to reach where a joint has no such
-    /// limit (a position that turns: half a turn).
+    /// Returns how far its entries reach where a joint has no such limit (a turn: half a turn).
     pub fn reach(self) -> f64 {
         match self {
             Argument::Velocity | Argument::ReferenceVelocity => 3.0,

@@ -22,8 +22,7 @@ use crate::scalar::Divide;
 const AT: char = '@';
 const OF: char = ':';
 
-/// A quantity at a frame. What it says of itself is kept for as long as the process runs,
-/// as that of a [`Made`] function is.
+/// A quantity at a frame, kept for as long as the process runs, as a [`Made`] function is.
 #[derive(Clone, Copy, Debug)]
 pub struct QuantityAt(&'static Viewed);
 
@@ -59,7 +58,7 @@ impl QuantityAt {
     }
 
     /// Empty if the robot has no such frame, which generation refuses before.
-    fn of_frame<S: Divide>(
+    pub(super) fn of_frame<S: Divide>(
         self,
         at: &Written<'_, S>,
         compute: impl Fn(Quantity, &Written<'_, S>) -> Vec<S>,
@@ -70,29 +69,15 @@ impl QuantityAt {
         })
     }
 
-    pub(super) fn written<S: Divide>(self, at: &Written<'_, S>) -> Vec<S> {
-        self.of_frame(at, |quantity, at| quantity.written(at))
-    }
-
-    pub(super) fn residual<S: Divide>(self, at: &Written<'_, S>, values: &[S]) -> Vec<S> {
-        self.of_frame(at, |quantity, at| quantity.residual(at, values))
-    }
-
-    pub(super) fn divisor<S: Divide>(self, at: &Written<'_, S>) -> Vec<S> {
-        self.of_frame(at, |quantity, at| quantity.divisor(at))
-    }
-
     pub(super) fn regrouped<S: Divide>(self, at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let textbook = at.textbook.as_ref()?;
         let arm = textbook.arm.seen(&self.0.view)?;
-        let textbook = Written {
+        let mut seen = at.clone();
+        seen.textbook = Some(Written {
             arm: &arm,
             ..*textbook
-        };
-        self.0.quantity.regrouped(&Regrouped {
-            textbook: Some(textbook),
-            ..at.clone()
-        })
+        });
+        self.0.quantity.regrouped(&seen)
     }
 }
 
@@ -123,12 +108,8 @@ impl Ord for QuantityAt {
 }
 
 impl Function {
-    fn at(
-        function: Function,
-        frame: &str,
-        axes: Axes,
-        rows: Rows,
-    ) -> Result<Function, BundleError> {
+    fn at(self, frame: &str, axes: Axes, rows: Rows) -> Result<Function, BundleError> {
+        let function = self;
         let choice = |quantity: &Quantity| quantity.facts().frame;
         let most = function.quantities().iter().map(choice).min();
         let asked = match (axes, rows) {
@@ -137,16 +118,14 @@ impl Function {
             _ => FrameChoice::Rows,
         };
         let suffix = |sign| suffix(axes, rows, sign);
-        match most {
-            Some(FrameChoice::None) | None => {
-                let message = format!("`{function}` is of no frame");
-                return Err(BundleError::new(message, "leave `@` and what follows out"));
-            }
-            Some(most) if most < asked => {
-                let message = format!("`{function}` has no choice of `{}`", suffix(OF));
-                return Err(BundleError::new(message, "it takes a frame alone"));
-            }
-            Some(_) => {}
+        let most = most.unwrap_or(FrameChoice::None);
+        if most == FrameChoice::None {
+            let message = format!("`{function}` is of no frame");
+            return Err(BundleError::new(message, "leave `@` and what follows out"));
+        }
+        if most < asked {
+            let message = format!("`{function}` has no choice of `{}`", suffix(OF));
+            return Err(BundleError::new(message, "it takes a frame alone"));
         }
         let name = format!("{function}_{frame}{}", suffix('_'));
         check_name(&name).map_err(|_| {
@@ -199,7 +178,7 @@ impl Function {
             }
         }
         let (axes, rows) = (axes.unwrap_or_default(), rows.unwrap_or_default());
-        Function::at(function, frame, axes, rows)
+        function.at(frame, axes, rows)
     }
 
     pub(super) fn is_at(text: &str) -> bool {
@@ -233,14 +212,10 @@ fn words(view: View) -> String {
 }
 
 fn suffix(axes: Axes, rows: Rows, sign: char) -> String {
-    let mut text = String::new();
     let axes: Option<String> = (axes != Axes::Mixed).then(|| axes.word().to_string());
     let rows = (rows != Rows::ALL).then(|| rows.word());
-    for word in axes.into_iter().chain(rows) {
-        text.push(sign);
-        text.push_str(&word);
-    }
-    text
+    let words = axes.into_iter().chain(rows);
+    words.map(|word| format!("{sign}{word}")).collect()
 }
 
 fn described(view: View) -> String {

@@ -10,19 +10,15 @@ use super::torques::torques;
 use super::{Argument, Axis, ErrorScale, Motion, Regrouped, Shape, Written};
 use crate::equations::chain::{HandChoice, Unknowns};
 use crate::equations::contact::squared;
-use crate::equations::matrix::{minus, plus, products};
+use crate::equations::matrix::{differences, products, sums};
 use crate::equations::operational::damped;
-use crate::scalar::{Divide, Scalar};
+use crate::scalar::Divide;
 
 pub(super) struct ContactTorque;
 
 pub(super) fn of_wrench<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
     at.formulation
         .torques_of_wrench(at.arm, at.at, &at.motion.wrench)
-}
-
-pub(super) fn less<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
-    a.iter().zip(b).map(|(a, b)| minus(a, b)).collect()
 }
 
 impl Formula for ContactTorque {
@@ -50,24 +46,18 @@ impl Formula for ContactTorque {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let motion = at.motion;
-        let own = at
-            .formulation
-            .inverse_dynamics(at.arm, at.at, &motion.qd, &motion.qdd);
-        less(&own, &of_wrench(at))
+        let (form, motion) = (at.formulation, at.motion);
+        let own = form.inverse_dynamics(at.arm, at.at, &motion.qd, &motion.qdd);
+        differences(&own, &of_wrench(at))
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let wrench = at.pick(&of_wrench(at.textbook.as_ref()?));
-        Some(less(&torques(at, &at.motion.qdd), &wrench))
+        Some(differences(&torques(at, &at.motion.qdd), &wrench))
     }
 }
 
 pub(super) struct ContactAcceleration;
-
-fn added<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
-    a.iter().zip(b).map(|(a, b)| plus(a, b)).collect()
-}
 
 impl Formula for ContactAcceleration {
     const FACTS: Facts = Facts {
@@ -81,32 +71,29 @@ impl Formula for ContactAcceleration {
             Argument::Torque,
             Argument::Wrench,
         ],
-        shape: Shape::VECTOR,
         unit: Acceleration::FACTS.unit,
+        scale: ErrorScale::None,
         given: Some("qdd_with_wrench"),
         choices: Some(&[Choice::Recursion, Choice::Travel]),
-        gravity: true,
+        inverts_inertia: true,
         has_shoulder: true,
-        frame: FrameChoice::Axes,
-        hand: HandChoice::None,
-        ..OF_HAND
+        ..ContactTorque::FACTS
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let motion = at.motion;
-        let tau = added(&motion.tau, &of_wrench(at));
-        at.formulation
-            .forward_dynamics(at.arm, at.at, &motion.qd, &tau, &motion.moves)
+        let (form, motion) = (at.formulation, at.motion);
+        let tau = sums(&motion.tau, &of_wrench(at));
+        form.forward_dynamics(at.arm, at.at, &motion.qd, &tau, &motion.moves)
     }
 
     fn residual<S: Divide>(at: &Written<'_, S>, qdd: &[S]) -> Vec<S> {
-        rest(at, qdd, &added(&at.motion.tau, &of_wrench(at)))
+        rest(at, qdd, &sums(&at.motion.tau, &of_wrench(at)))
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let wrench = at.pick(&of_wrench(at.textbook.as_ref()?));
         let motion = Motion {
-            tau: added(&at.motion.tau, &wrench),
+            tau: sums(&at.motion.tau, &wrench),
             ..at.motion.clone()
         };
         let at = Regrouped {
@@ -135,24 +122,28 @@ impl Formula for ContactWrench {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let motion = at.motion;
+        let (form, motion) = (at.formulation, at.motion);
         let given = [motion.tau.as_slice(), &motion.damping];
-        at.formulation
-            .wrench_of_torques(at.arm, at.at, given, &motion.moves)
+        form.wrench_of_torques(at.arm, at.at, given, &motion.moves)
     }
 
     fn divisor<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let motion = at.motion;
-        let j = at.formulation.moving_jacobian(at.arm, at.at, &motion.moves);
-        damped(&squared(&j), &motion.damping[0]).concat()
+        let [_, matrix] = normal(at);
+        matrix.concat()
     }
 
     /// Returns (J Jᵀ + λ² 1) ŵ − J τ
     fn residual<S: Divide>(at: &Written<'_, S>, wrench: &[S]) -> Vec<S> {
-        let motion = at.motion;
-        let j = at.formulation.moving_jacobian(at.arm, at.at, &motion.moves);
-        let left = products(&damped(&squared(&j), &motion.damping[0]), wrench);
-        let right = products(&j, &motion.tau);
+        let [j, matrix] = normal(at);
+        let (left, right) = (products(&matrix, wrench), products(&j, &at.motion.tau));
         left.iter().zip(&right).map(|(a, b)| a.sub(b)).collect()
     }
+}
+
+/// Returns J and J Jᵀ + λ² 1.
+fn normal<S: Divide>(at: &Written<'_, S>) -> [Vec<Vec<S>>; 2] {
+    let motion = at.motion;
+    let j = at.formulation.moving_jacobian(at.arm, at.at, &motion.moves);
+    let matrix = damped(&squared(&j), &motion.damping[0]);
+    [j, matrix]
 }

@@ -7,8 +7,8 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::forward_dynamics::{InertiaInverse, accelerations, inverse};
-use super::quantity::{Choice, Facts, Index, by_turns, turns};
-use super::{Argument, PayloadDependence, Regrouped, Shape, Written};
+use super::quantity::{Facts, Index, by_turns, turns};
+use super::{Argument, Regrouped, Written};
 use crate::equations::chain::Unknowns;
 use crate::equations::following::{gathered_columns, spread};
 use crate::equations::forward::{against, free};
@@ -23,13 +23,10 @@ impl Formula for TorqueByPosition {
         symbol: "∂τ/∂q",
         summary: "∂τ/∂q: row i has the slopes of τ_i.",
         arguments: &Argument::STATE,
-        shape: Shape::MATRIX,
         unit: |at| by_turns(turns(at), ["N/m", "N", "N·m"]),
         given: Some("dtau_dq"),
-        choices: Some(&[Choice::Travel]),
-        payload_dependence: PayloadDependence::Torque,
         gravity: true,
-        ..Facts::PLAIN
+        ..Facts::MATRIX
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -54,12 +51,9 @@ impl Formula for TorqueByVelocity {
         symbol: "∂τ/∂q̇",
         summary: "∂τ/∂q̇, damping on its diagonal.",
         arguments: &[Argument::Position, Argument::Velocity],
-        shape: Shape::MATRIX,
         unit: |at| by_turns(turns(at), ["N·s/m", "N·s", "N·m·s"]),
         given: Some("dtau_dqd"),
-        choices: Some(&[Choice::Travel]),
-        payload_dependence: PayloadDependence::Torque,
-        ..Facts::PLAIN
+        ..Facts::MATRIX
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -75,12 +69,8 @@ impl Formula for TorqueByVelocity {
     }
 }
 
-const STATE: &[Argument] = &[Argument::Position, Argument::Velocity, Argument::Torque];
-
 pub(super) struct AccelerationByPosition;
-
 pub(super) struct AccelerationByVelocity;
-
 pub(super) struct AccelerationByTorque;
 
 fn slopes<S: Divide>(at: &Regrouped<'_, S>) -> [Vec<S>; 2] {
@@ -107,10 +97,8 @@ pub(super) fn defect<S: Divide>(at: &Written<'_, S>, x: &[S], slopes: &[Vec<S>])
         let products = free.iter().map(|&j| d[i][j].mul(&x[j * n + k]));
         products.fold(slopes[i][k].clone(), |sum, product| sum.add(&product))
     };
-    let rows = free.iter();
-    rows.flat_map(|&i| (0..n).map(move |k| (i, k)))
-        .map(|(i, k)| entry(i, k))
-        .collect()
+    let entries = free.iter().flat_map(|&i| (0..n).map(move |k| (i, k)));
+    entries.map(|(i, k)| entry(i, k)).collect()
 }
 
 impl Formula for AccelerationByPosition {
@@ -119,19 +107,16 @@ impl Formula for AccelerationByPosition {
         letter: "q̈q",
         symbol: "∂q̈/∂q",
         summary: "∂q̈/∂q: row i has the slopes of q̈_i.",
-        arguments: STATE,
-        shape: Shape::MATRIX,
+        arguments: &[Argument::Position, Argument::Velocity, Argument::Torque],
         unit: |at| match at {
             [Index::Turning, Index::Sliding] => "1/(m·s²)",
             [Index::Sliding, Index::Turning] => "m/s²",
             _ => "1/s²",
         },
         given: Some("dqdd_dq"),
-        choices: Some(&[Choice::Travel]),
         inverts_inertia: true,
-        payload_dependence: PayloadDependence::Torque,
         gravity: true,
-        ..Facts::PLAIN
+        ..Facts::MATRIX
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

@@ -4,8 +4,8 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::formula::Formula;
-use super::quantity::{Choice, Facts, load, turns};
-use super::{Argument, PayloadDependence, Regrouped, Shape, Written};
+use super::quantity::{Choice, Facts, by_turns, load, turns};
+use super::{Argument, ErrorScale, PayloadDependence, Regrouped, Shape, Written};
 use crate::equations::chain::composite::CompositeOrder;
 use crate::equations::friction::Friction;
 use crate::equations::matrix::{halved, minus, times, total};
@@ -28,8 +28,8 @@ impl Formula for KineticEnergy {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let energy = at.formulation.kinetic_energy(at.arm, at.at, &at.motion.qd);
-        vec![energy]
+        let qd = &at.motion.qd;
+        vec![at.formulation.kinetic_energy(at.arm, at.at, qd)]
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
@@ -75,10 +75,7 @@ impl Formula for Momentum {
         summary: "Momentum p = D q̇.",
         arguments: &[Argument::Position, Argument::Velocity],
         shape: Shape::VECTOR,
-        unit: |at| match turns(at) {
-            0 => "kg·m/s",
-            _ => "kg·m²/s",
-        },
+        unit: |at| by_turns(turns(at), ["kg·m/s", "kg·m²/s", "kg·m²/s"]),
         choices: Some(&[]),
         payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
@@ -139,13 +136,11 @@ impl Formula for MomentumDrift {
         letter: "β",
         summary: "Drift β = Cᵀq̇ - c - b∘q̇ of the momentum.",
         arguments: &[Argument::Position, Argument::Velocity],
-        shape: Shape::VECTOR,
-        unit: load,
+        scale: ErrorScale::None,
         given: Some("momentum_drift"),
         choices: Some(&[Choice::Travel]),
-        payload_dependence: PayloadDependence::Torque,
         gravity: true,
-        ..Facts::PLAIN
+        ..Facts::LOAD
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

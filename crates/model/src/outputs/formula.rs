@@ -9,10 +9,11 @@ use super::quantity::Facts;
 use crate::equations::chain::composite::Composite;
 use crate::equations::chain::second_derivatives::SecondDerivatives;
 use crate::equations::chain::{Chain, Displacement, Form};
+use crate::equations::factor::picked;
 use crate::equations::following::{Following, gathered_square};
 use crate::equations::load::Loading;
 use crate::equations::regressor::Column;
-use crate::equations::{Arm, DhVariables, Formulation, JointPosition};
+use crate::equations::{Arm, At, Formulation, JointPosition};
 use crate::scalar::{Divide, Scalar};
 
 /// A quantity: what it is, and its formulas, each over any scalar.
@@ -22,15 +23,13 @@ pub(super) trait Formula {
     /// Computes it by a textbook formulation: what everything else is proved against.
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S>;
 
-    /// Computes it by the chain formulas with regrouped parameters; `None` if these do not give
-    /// it: then [`Formula::written`] is where a search starts.
+    /// Computes it by the chain formulas, if these give it; else a search starts as written.
     fn regrouped<S: Divide>(_: &Regrouped<'_, S>) -> Option<Vec<S>> {
         None
     }
 
-    /// Returns the symmetric matrix that it inverts beside D, row by row, of which the condition
-    /// says how far rounding may move it: of what is damped Λ⁻¹ + λ² 1; nothing if it inverts no
-    /// other.
+    /// Returns the symmetric matrix that it inverts beside D, whose condition says how far rounding
+    /// may move it: Λ⁻¹ + λ² 1 of what is damped.
     fn divisor<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         match Self::FACTS.arguments.contains(&Argument::Damping) {
             true => damped_mobility(at).concat(),
@@ -69,8 +68,7 @@ pub struct Motion<S> {
     /// r_i = 1/√(q̇_i² + w_i²) of each joint with Coulomb friction, where it is not
     /// that of a joint at rest ([`friction`](crate::equations::friction)).
     pub per_speed: Vec<Option<S>>,
-    /// For each joint, true if it moves by itself; one that does not is held where it is,
-    /// or follows another.
+    /// For each joint, true if it moves by itself; one that does not is held or follows another.
     pub moves: Vec<bool>,
     /// The payload at the hand, where that is an argument.
     pub loading: Option<Loading<S>>,
@@ -127,24 +125,20 @@ impl<S: Scalar> Motion<S> {
     /// Returns the motion of all rows of an arm from that of the joints that move by themselves:
     /// those that follow move with their leaders, and no torque is theirs.
     #[must_use]
-    pub fn of_rows(self, following: &[Following<S>]) -> Motion<S> {
-        if following.is_empty() {
-            return self;
-        }
-        let mut motion = self;
+    pub fn of_rows(mut self, following: &[Following<S>]) -> Motion<S> {
         for own in following {
             // In their order, so that each stands at its own row at last.
-            motion.insert_still(own.row);
+            self.insert_still(own.row);
         }
         for own in following {
-            motion.q[own.row] = motion.q[own.leader].followed_by(own);
-            for (argument, entries) in motion.vectors_mut() {
+            self.q[own.row] = self.q[own.leader].followed_by(own);
+            for (argument, entries) in self.vectors_mut() {
                 if argument != Argument::Torque {
                     entries[own.row] = own.motion(&entries[own.leader]);
                 }
             }
         }
-        motion
+        self
     }
 
     /// Returns the motion of an arm with one more link, that does not move.
@@ -172,7 +166,7 @@ pub struct Written<'a, S> {
     /// The arm.
     pub arm: &'a Arm<S>,
     /// Where it is.
-    pub at: &'a [DhVariables<S>],
+    pub at: &'a At<S>,
     /// The motion of the arm.
     pub motion: &'a Motion<S>,
     /// The columns of a regressor; none where nothing asked is one.
@@ -198,8 +192,7 @@ pub struct Regrouped<'a, S> {
     pub joints: &'a [usize],
     /// Those of the chain that follow others, by their places in it.
     pub following: &'a [Following<S>],
-    /// What several quantities are read off, computed where it is first asked for: the second
-    /// derivatives of λᵀτ, and those of λᵀq̈.
+    /// The second derivatives of λᵀτ and those of λᵀq̈, computed where they are first asked for.
     pub shared: [OnceCell<SecondDerivatives<S>>; 2],
 }
 
@@ -211,8 +204,4 @@ impl<S: Scalar> Regrouped<'_, S> {
     pub(super) fn pick(&self, values: &[S]) -> Vec<S> {
         picked(values, self.joints)
     }
-}
-
-fn picked<T: Clone>(values: &[T], joints: &[usize]) -> Vec<T> {
-    joints.iter().map(|&joint| values[joint].clone()).collect()
 }

@@ -2,15 +2,15 @@
 
 use alloc::vec::Vec;
 
-use super::contact::less;
 use super::formula::Formula;
 use super::quantity::{Choice, Facts, by_turns, turns};
 use super::torques::torques;
 use super::{Argument, PayloadDependence, Regrouped, Shape, Written};
 use crate::equations::chain::{EliminatedTip, Unknowns};
+use crate::equations::factor::picked;
 use crate::equations::following::{gathered, spread};
 use crate::equations::forward::{free, inverted, solved};
-use crate::equations::matrix::zeros;
+use crate::equations::matrix::{differences, zeros};
 use crate::scalar::Divide;
 
 pub(super) struct Acceleration;
@@ -23,11 +23,10 @@ pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>, unknowns: Unknowns
         let [bias, tau] = [bias, motion.tau.clone()].map(|loads| gathered(at.following, loads));
         return solved(&at.gathered_inertia(), &bias, &tau, &motion.moves);
     }
+    let given = [motion.qd.as_slice(), &motion.tau];
     if let Some(unspun) = EliminatedTip::new(&at.composite, &motion.moves) {
-        let given = [motion.qd.as_slice(), &motion.tau];
         return unspun.forward_dynamics(given, &motion.moves, at.form, unknowns);
     }
-    let given = [motion.qd.as_slice(), &motion.tau];
     let by_shoulder = (at.composite).forward_dynamics_by_shoulder(given, &motion.moves, at.form);
     if let Some(accelerations) = by_shoulder {
         return accelerations;
@@ -37,19 +36,16 @@ pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>, unknowns: Unknowns
         let chain = (at.at, d.as_slice());
         return (at.chain).forward_dynamics(chain, given, &motion.moves, at.form, unknowns);
     }
-    let bias = torques(at, &zeros(motion.qd.len()));
-    at.chain
-        .accelerations(&d, [&bias, &motion.tau], &motion.moves, unknowns)
+    let loads = [&torques(at, &zeros(motion.qd.len()))[..], &motion.tau];
+    at.chain.accelerations(&d, loads, &motion.moves, unknowns)
 }
 
 pub(super) fn rest<S: Divide>(at: &Written<'_, S>, qdd: &[S], tau: &[S]) -> Vec<S> {
     let (form, motion) = (at.formulation, at.motion);
     let qdd = spread(&at.arm.following, qdd.to_vec());
     let taken = form.inverse_dynamics(at.arm, at.at, &motion.qd, &qdd);
-    let rest = gathered(&at.arm.following, less(&taken, tau));
-    let rest = rest.into_iter().zip(&motion.moves);
-    let moving = rest.filter(|(_, moves)| **moves);
-    moving.map(|(rest, _)| rest).collect()
+    let rest = gathered(&at.arm.following, differences(&taken, tau));
+    picked(&rest, &free(&motion.moves))
 }
 
 impl Formula for Acceleration {
@@ -59,10 +55,7 @@ impl Formula for Acceleration {
         summary: "Accelerations q̈.",
         arguments: &[Argument::Position, Argument::Velocity, Argument::Torque],
         shape: Shape::VECTOR,
-        unit: |at| match turns(at) {
-            0 => "m/s²",
-            _ => "rad/s²",
-        },
+        unit: |at| by_turns(turns(at), ["m/s²", "rad/s²", "rad/s²"]),
         given: Some("forward_dynamics"),
         choices: Some(&[Choice::Recursion, Choice::Travel]),
         inverts_inertia: true,
@@ -73,9 +66,8 @@ impl Formula for Acceleration {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let motion = at.motion;
-        at.formulation
-            .forward_dynamics(at.arm, at.at, &motion.qd, &motion.tau, &motion.moves)
+        let (form, motion) = (at.formulation, at.motion);
+        form.forward_dynamics(at.arm, at.at, &motion.qd, &motion.tau, &motion.moves)
     }
 
     fn residual<S: Divide>(at: &Written<'_, S>, qdd: &[S]) -> Vec<S> {
@@ -88,6 +80,17 @@ impl Formula for Acceleration {
 }
 
 pub(super) struct InertiaInverse;
+
+/// Returns A X − 1 over these rows and columns.
+pub(super) fn beside_one<S: Divide>(a: &[Vec<S>], x: &[S], rows: &[usize]) -> Vec<S> {
+    let entry = |(&i, &k): (&usize, &usize)| {
+        let one = if i == k { S::one() } else { S::zero() };
+        let products = rows.iter().map(|&j| a[i][j].mul(&x[j * a.len() + k]));
+        products.fold(one.neg(), |sum, product| sum.add(&product))
+    };
+    let places = rows.iter().flat_map(|i| rows.iter().map(move |k| (i, k)));
+    places.map(entry).collect()
+}
 
 pub(super) fn inverse<S: Divide>(at: &Regrouped<'_, S>) -> Vec<Vec<S>> {
     let (moves, travel) = (&at.motion.moves, at.form.travel);
@@ -103,13 +106,10 @@ impl Formula for InertiaInverse {
         letter: "D⁻¹",
         summary: "Inverse D⁻¹ of the inertia matrix.",
         arguments: &[Argument::Position],
-        shape: Shape::MATRIX,
         unit: |at| by_turns(turns(at), ["1/kg", "1/(kg·m)", "1/(kg·m²)"]),
         given: Some("inertia_inverse"),
-        choices: Some(&[Choice::Travel]),
         inverts_inertia: true,
-        payload_dependence: PayloadDependence::Torque,
-        ..Facts::PLAIN
+        ..Facts::MATRIX
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -121,16 +121,7 @@ impl Formula for InertiaInverse {
     /// Returns D D⁻¹ − 1 over the joints that move.
     fn residual<S: Divide>(at: &Written<'_, S>, inverse: &[S]) -> Vec<S> {
         let d = at.formulation.gathered_inertia(at.arm, at.at);
-        let (free, n) = (free(&at.motion.moves), d.len());
-        let entry = |i: usize, k: usize| {
-            let one = if i == k { S::one() } else { S::zero() };
-            let products = free.iter().map(|&j| d[i][j].mul(&inverse[j * n + k]));
-            products.fold(one.neg(), |sum, product| sum.add(&product))
-        };
-        let rows = free.iter();
-        rows.flat_map(|&i| free.iter().map(move |&k| (i, k)))
-            .map(|(i, k)| entry(i, k))
-            .collect()
+        beside_one(&d, inverse, &free(&at.motion.moves))
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {

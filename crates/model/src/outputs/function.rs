@@ -14,8 +14,7 @@ use super::quantity::Choice;
 use super::{
     Argument, Axis, Function, Motion, PayloadDependence, Quantity, RuntimeParameter, Sizes, Written,
 };
-use crate::equations::chain::Form;
-use crate::equations::chain::HandChoice;
+use crate::equations::chain::{Form, HandChoice};
 use crate::equations::regressor::Column;
 use crate::equations::{Arm, Formulation};
 use crate::scalar::Divide;
@@ -125,8 +124,7 @@ impl Function {
         Argument::ALL.into_iter().filter(read).collect()
     }
 
-    /// Returns whether it is there for arms whose joints follow others: what has something of
-    /// each link is not, nor are second derivatives.
+    /// Returns whether arms with followers have it: nothing of links, and no second derivatives.
     pub fn takes_followers(self) -> bool {
         let mut quantities = self.quantities().iter();
         let is_second = self.arguments().contains(&Argument::Multiplier);
@@ -136,8 +134,8 @@ impl Function {
     /// Returns what it has to do with a payload: as much as any of its results.
     pub fn payload_dependence(self) -> PayloadDependence {
         let all = self.quantities().iter();
-        let all = all.map(|q| q.facts().payload_dependence);
-        all.max().unwrap_or(PayloadDependence::None)
+        let most = all.map(|q| q.facts().payload_dependence).max();
+        most.unwrap_or(PayloadDependence::None)
     }
 
     /// Returns whether it depends on a parameter that can be an argument.
@@ -196,8 +194,7 @@ impl Function {
         results.flat_map(|own| own.written(&written)).collect()
     }
 
-    /// Returns what vanishes if these results over all joints solve the
-    /// equations that they are to solve.
+    /// Returns what vanishes if these results over all joints solve their equations.
     pub fn residual<S: Divide>(
         self,
         formulation: Formulation,
@@ -228,8 +225,7 @@ impl Function {
         self.quantities().iter().any(|q| q.facts().inverts_inertia)
     }
 
-    /// Returns the associations of the chain formulas that differ for it, the usually
-    /// cheapest first.
+    /// Returns the forms of the chain formulas that differ for it, the usually cheapest first.
     pub fn forms(self) -> Vec<Form> {
         let quantities = || self.quantities().iter();
         let matters = |choice| {

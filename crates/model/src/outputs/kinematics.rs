@@ -131,10 +131,8 @@ impl Formula for Wrench {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let motion = at.motion;
-        let wrenches = at
-            .formulation
-            .wrenches(at.arm, at.at, &motion.qd, &motion.qdd);
+        let (form, motion) = (at.formulation, at.motion);
+        let wrenches = form.wrenches(at.arm, at.at, &motion.qd, &motion.qdd);
         let numbers = wrenches.into_iter().flat_map(|w| [w.force, w.moment]);
         numbers.flatten().collect()
     }

@@ -8,7 +8,7 @@
 //! - `quantity`: what a result is: its [`Shape`], names, unit and error scale
 //! - `shape`: the axes of a result, and what their lengths follow from
 //! - `argument`: what functions read
-//! - `runtime`: parameters of the arm that are arguments on request
+//! - `runtime`: parameters of the arm that are arguments on request, and the load of a payload
 //! - `formula`: what is said of a quantity, and what its formulas are given
 //! - the others: quantities that belong together
 //!
@@ -28,17 +28,13 @@ mod runtime;
 mod shape;
 
 mod contact;
-mod dalembert_terms;
 mod derivatives;
 mod energies;
 mod forward_dynamics;
-mod forward_dynamics_second_derivatives;
-mod inverse_dynamics_second_derivatives;
 mod kinematics;
-mod load;
 mod operational;
-mod passivity;
 mod regressors;
+mod second_derivatives;
 mod torques;
 
 use alloc::vec::Vec;
@@ -79,10 +75,10 @@ registry! {
         "Potential energy U = -Σ m g·r in joules, r from the base's origin.";
     momentum: Momentum { energies: Momentum, MomentumSlope }
         "Momentum p = D q̇ and its slope Cᵀq̇ = ∂T/∂q: ṗ = τ + Cᵀq̇ - c - b∘q̇.";
-    coriolis_matrix: CoriolisMatrix { passivity: CoriolisMatrix }
+    coriolis_matrix: CoriolisMatrix { torques: CoriolisMatrix }
         "Coriolis matrix C(q, q̇) of the Christoffel symbols: C q̇ = h, and Ḋ - 2C is skew.";
     dalembert_terms: DalembertTerms {
-        dalembert_terms:
+        torques:
         RotationInertia, TranslationInertia, RotationCoriolis, TranslationCoriolis
     }
         "What rotation and translation of the links contribute: D^rot, D^tran, h^rot, h^tran, and c; armature in neither D.",
@@ -107,7 +103,7 @@ registry! {
     }
         "Derivatives of the inverse dynamics: ∂τ/∂q, ∂τ/∂q̇ and ∂τ/∂q̈ = D.",
         results: &[Quantity::TorqueByPosition, Quantity::TorqueByVelocity, Quantity::Inertia];
-    passivity: Passivity { passivity: Passivity }
+    passivity: Passivity { torques: Passivity }
         "Passivity-based control: D a + C v + c + b∘v, with C of the Christoffel symbols.";
     forward_dynamics: ForwardDynamics { forward_dynamics: Acceleration }
         "Forward dynamics: the accelerations q̈ = D⁻¹ (τ - h - c - b∘q̇).", by_default: true;
@@ -144,13 +140,13 @@ registry! {
     null_space_projector: NullSpaceProjector { operational: NullSpace }
         "Null-space projector N = 1 - J̄ J of velocities; Nᵀ is that of torques.";
     inverse_dynamics_second_derivatives: InverseDynamicsSecondDerivatives {
-        inverse_dynamics_second_derivatives:
+        second_derivatives:
         TorqueByPositions, TorqueByPositionAndVelocity, TorqueByVelocities,
         TorqueByAccelerationAndPosition
     }
         "Second derivatives of the inverse dynamics, of λᵀτ for a given λ.";
     forward_dynamics_second_derivatives: ForwardDynamicsSecondDerivatives {
-        forward_dynamics_second_derivatives:
+        second_derivatives:
         AccelerationByPositions, AccelerationByPositionAndVelocity, AccelerationByVelocities,
         AccelerationByTorqueAndPosition
     }

@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 use super::formula::Formula;
+use super::forward_dynamics::beside_one;
 use super::quantity::{Choice, Facts, FrameChoice, by_turns};
 use super::torques::torques;
 use super::{Argument, Axis, Index, PayloadDependence, Regrouped, Shape, Written};
@@ -37,10 +38,7 @@ pub(super) fn hand<'a, S: Divide>(at: &Regrouped<'a, S>) -> Option<SeenHand<'a, 
     Some(SeenHand::new(whole.formulation, arm, at.form.hand.axes))
 }
 
-pub(super) fn chain_jacobian<S: Divide>(
-    at: &Regrouped<'_, S>,
-    hand: &SeenHand<'_, S>,
-) -> Vec<Vec<S>> {
+fn chain_jacobian<S: Divide>(at: &Regrouped<'_, S>, hand: &SeenHand<'_, S>) -> Vec<Vec<S>> {
     let rows = hand.jacobian();
     let rows = rows.iter().map(|row| at.pick(row));
     gathered_rows(at.following, rows.collect())
@@ -55,10 +53,7 @@ pub(super) fn space<S: Divide>(at: &Regrouped<'_, S>, hand: &SeenHand<'_, S>) ->
     TaskSpace::by_factor(chain_jacobian(at, hand), &factor(at), &at.motion.moves)
 }
 
-pub(super) fn normal<S: Divide>(
-    at: &Regrouped<'_, S>,
-    hand: &SeenHand<'_, S>,
-) -> Option<NormalEquations<S>> {
+fn normal<S: Divide>(at: &Regrouped<'_, S>, hand: &SeenHand<'_, S>) -> Option<NormalEquations<S>> {
     let jacobian = at.form.hand.normal.then(|| chain_jacobian(at, hand))?;
     let (inertia, motion) = (at.gathered_inertia(), at.motion);
     NormalEquations::new(&jacobian, &inertia, &motion.damping[0], &motion.moves)
@@ -82,12 +77,12 @@ impl Formula for OperationalInertiaInverse {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        written_space(at).mobility().concat()
+        written_space(at).mobility.concat()
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let hand = hand(at)?;
-        Some(hand.turned_matrix(space(at, &hand).mobility()).concat())
+        Some(hand.turned_matrix(&space(at, &hand).mobility).concat())
     }
 }
 
@@ -103,10 +98,9 @@ impl Formula for OperationalInertia {
         letter: "Λ",
         summary: "Inertia Λ of the hand, linear over angular.",
         arguments: &[Argument::Position, Argument::Damping],
-        shape: Shape(&[Axis::Fixed(6), Axis::Fixed(6)]),
         unit: |at| by_turns(angular(at), ["kg", "kg·m", "kg·m²"]),
         given: Some("operational_inertia"),
-        ..OF_HAND
+        ..OperationalInertiaInverse::FACTS
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -116,14 +110,8 @@ impl Formula for OperationalInertia {
     /// Returns (Λ⁻¹ + λ² 1) Λ − 1
     fn residual<S: Divide>(at: &Written<'_, S>, inertia: &[S]) -> Vec<S> {
         let matrix = damped_mobility(at);
-        let m = matrix.len();
-        let entry = |i: usize, k: usize| {
-            let one = if i == k { S::one() } else { S::zero() };
-            let products = (0..m).map(|j| matrix[i][j].mul(&inertia[j * m + k]));
-            products.fold(one.neg(), |sum, product| sum.add(&product))
-        };
-        let rows = (0..m).flat_map(|i| (0..m).map(move |k| (i, k)));
-        rows.map(|(i, k)| entry(i, k)).collect()
+        let rows: Vec<usize> = (0..matrix.len()).collect();
+        beside_one(&matrix, inertia, &rows)
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
@@ -153,8 +141,8 @@ impl Formula for ConsistentInverse {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let inverse = written_space(at).consistent_inverse(&at.motion.damping[0]);
-        inverse.concat()
+        let damping = &at.motion.damping[0];
+        written_space(at).consistent_inverse(damping).concat()
     }
 
     /// Returns D J̄ (Λ⁻¹ + λ² 1) − Jᵀ over the joints that move.
@@ -210,10 +198,9 @@ impl Formula for OperationalBias {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let motion = at.motion;
+        let (form, motion) = (at.formulation, at.motion);
         let damping = &motion.damping[0];
-        at.formulation
-            .operational_bias(at.arm, at.at, &motion.qd, damping, &motion.moves)
+        form.operational_bias(at.arm, at.at, &motion.qd, damping, &motion.moves)
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
@@ -241,7 +228,6 @@ impl Formula for NullSpace {
         field: "null_space",
         letter: "N",
         summary: "Null-space projector N = 1 - J̄ J.",
-        arguments: &[Argument::Position, Argument::Damping],
         shape: Shape::MATRIX,
         unit: |at| match at {
             [Index::Turning, Index::Sliding] => "1/m",
@@ -249,8 +235,7 @@ impl Formula for NullSpace {
             _ => "1",
         },
         given: Some("null_space_projector"),
-        hand: HandChoice::Normal,
-        ..OF_HAND
+        ..ConsistentInverse::FACTS
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

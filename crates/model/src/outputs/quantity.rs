@@ -35,8 +35,7 @@ pub struct Facts {
     pub arguments: &'static [Argument],
     /// The arrangement of its numbers.
     pub shape: Shape,
-    /// For a quantity over base parameters: what it gives with their values, and the
-    /// constant of generated code that has these.
+    /// Over base parameters: what it gives with their values, and the generated constant of these.
     pub linear: Option<(&'static str, &'static str)>,
     /// The unit of an entry, given its place along each axis.
     pub unit: fn(&[Index]) -> &'static str,
@@ -48,8 +47,7 @@ pub struct Facts {
     pub(super) choices: Option<&'static [Choice]>,
     /// True if the textbook recursion is a start that may be the cheapest.
     pub starts_from_recursion: bool,
-    /// True if recursions give it only by differences of torques, which costs
-    /// digits and n² recursions.
+    /// True if recursions give it by differences of torques alone: digits and n² recursions.
     pub by_differences: bool,
     /// The parts of a hand's form that it reads.
     pub hand: HandChoice,
@@ -66,8 +64,7 @@ pub struct Facts {
     /// True if joints whose axes meet at the base may be solved for as one.
     pub has_shoulder: bool,
     pub(super) frame: FrameChoice,
-    /// True if an entry a joint is of the link by itself: where joints follow others there
-    /// are more links than coordinates.
+    /// True if an entry is of the link by itself, of which there are more than coordinates.
     pub of_links: bool,
 }
 
@@ -95,6 +92,23 @@ impl Facts {
         has_shoulder: false,
         frame: FrameChoice::None,
         of_links: false,
+    };
+
+    /// A torque or a force of each joint.
+    pub(super) const LOAD: Facts = Facts {
+        shape: Shape::VECTOR,
+        unit: load,
+        scale: ErrorScale::Load,
+        payload_dependence: PayloadDependence::Torque,
+        ..Facts::PLAIN
+    };
+
+    /// A matrix over the joints, of which nothing but the way it travels can be chosen.
+    pub(super) const MATRIX: Facts = Facts {
+        shape: Shape::MATRIX,
+        choices: Some(&[Choice::Travel]),
+        payload_dependence: PayloadDependence::Torque,
+        ..Facts::PLAIN
     };
 
     pub(super) fn symbol(&self) -> &'static str {
@@ -130,8 +144,7 @@ pub enum Index {
     Base,
 }
 
-/// The scale that an error of an entry is held against where the actuators' torque
-/// limits T_i are the measure.
+/// The scale that an error is held against where the actuators' torque limits T_i are the measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorScale {
     /// T_i
@@ -213,11 +226,12 @@ impl Quantity {
     }
 
     fn component(self, place: usize) -> usize {
-        let rows = match self {
-            Quantity::At(at) if self.facts().frame >= FrameChoice::Rows => at.view().rows,
-            _ => return place,
-        };
-        rows.indices().nth(place).unwrap_or(place)
+        match self {
+            Quantity::At(at) if self.facts().frame >= FrameChoice::Rows => {
+                at.view().rows.indices().nth(place).unwrap_or(place)
+            }
+            _ => place,
+        }
     }
 
     /// Returns the name of one entry of a quantity over these joints, one-based: `D_12`, `h_123`,
@@ -238,9 +252,8 @@ impl Quantity {
         }
     }
 
-    /// Returns its entries over some rows of an arm from those over others. Loads of joints
-    /// that follow are gathered at their leaders, along each axis over joints; what is of
-    /// each link by itself is not.
+    /// Returns its entries over some rows of an arm from those over others, gathered at the leaders
+    /// of joints that follow along each axis over joints, unless they are of links.
     pub fn selected<S: Scalar>(
         self,
         mut values: Vec<S>,
@@ -250,9 +263,9 @@ impl Quantity {
     ) -> Vec<S> {
         let shape = self.shape();
         let lengths: Vec<usize> = shape.lengths(sizes.over(from.len())).collect();
-        for (axis, _) in (shape.0.iter().enumerate()).filter(|(_, axis)| **axis == Axis::Joints) {
-            if !self.is_of_links() {
-                let stride = lengths[axis + 1..].iter().product();
+        for (place, axis) in shape.0.iter().enumerate() {
+            if *axis == Axis::Joints && !self.is_of_links() {
+                let stride = lengths[place + 1..].iter().product();
                 gather(following, from, stride, &mut values);
             }
         }
@@ -275,10 +288,7 @@ impl Quantity {
 }
 
 pub(super) fn load(at: &[Index]) -> &'static str {
-    match turns(at) {
-        0 => "N",
-        _ => "N·m",
-    }
+    by_turns(turns(at), ["N", "N·m", "N·m"])
 }
 
 /// Kilograms times metres, so many powers above those of the joints.

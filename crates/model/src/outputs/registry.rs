@@ -37,8 +37,7 @@ macro_rules! registry {
         }
 
         impl Function {
-            /// Every function that can be asked for by its name alone, in the order of
-            /// generated files: bundles have theirs from the user.
+            /// Every function that can be asked for by its name alone, in the order of files.
             pub const ALL: [Function; [$(Function::$function),*].len()] = [$(Function::$function),*];
 
             pub(in crate::outputs) fn definition(self) -> &'static function::Definition {
@@ -75,7 +74,7 @@ macro_rules! registry {
             pub fn facts(self) -> &'static quantity::Facts {
                 match self {
                     $($($(Quantity::$quantity => &$file::$quantity::FACTS,)+)?)*
-                    Quantity::Load => &load::Load::FACTS,
+                    Quantity::Load => &runtime::Load::FACTS,
                     Quantity::At(at) => at.facts(),
                 }
             }
@@ -93,38 +92,35 @@ macro_rules! registry {
             pub fn written<S: Divide>(self, at: &Written<'_, S>) -> Vec<S> {
                 match self {
                     $($($(Quantity::$quantity => $file::$quantity::written(at),)+)?)*
-                    Quantity::Load => load::Load::written(at),
-                    Quantity::At(own) => own.written(at),
+                    Quantity::Load => runtime::Load::written(at),
+                    Quantity::At(own) => own.of_frame(at, |own, at| own.written(at)),
                 }
             }
 
-            /// Returns its entries by the chain formulas, over the chain's joints; `None`
-            /// if these do not give it.
+            /// Returns its entries over the chain's joints by its formulas, if these give it.
             pub fn regrouped<S: Divide>(self, at: &Regrouped<'_, S>) -> Option<Vec<S>> {
                 match self {
                     $($($(Quantity::$quantity => $file::$quantity::regrouped(at),)+)?)*
-                    Quantity::Load => load::Load::regrouped(at),
+                    Quantity::Load => runtime::Load::regrouped(at),
                     Quantity::At(own) => own.regrouped(at),
                 }
             }
 
-            /// Returns what vanishes if these entries over all joints are its
-            /// own, by an equation that it solves; nothing if it solves none.
+            /// Returns what vanishes if these entries over all joints solve its equation, if any.
             pub fn residual<S: Divide>(self, at: &Written<'_, S>, values: &[S]) -> Vec<S> {
                 match self {
                     $($($(Quantity::$quantity => $file::$quantity::residual(at, values),)+)?)*
-                    Quantity::Load => load::Load::residual(at, values),
-                    Quantity::At(own) => own.residual(at, values),
+                    Quantity::Load => runtime::Load::residual(at, values),
+                    Quantity::At(own) => own.of_frame(at, |own, at| own.residual(at, values)),
                 }
             }
 
-            /// Returns the symmetric matrix that it inverts beside D, row by row; nothing if it
-            /// inverts no other.
+            /// Returns the symmetric matrix that it inverts beside D, if any, row by row.
             pub fn divisor<S: Divide>(self, at: &Written<'_, S>) -> Vec<S> {
                 match self {
                     $($($(Quantity::$quantity => $file::$quantity::divisor(at),)+)?)*
-                    Quantity::Load => load::Load::divisor(at),
-                    Quantity::At(own) => own.divisor(at),
+                    Quantity::Load => runtime::Load::divisor(at),
+                    Quantity::At(own) => own.of_frame(at, |own, at| own.divisor(at)),
                 }
             }
 

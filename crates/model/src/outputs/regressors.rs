@@ -3,8 +3,8 @@
 use alloc::vec::Vec;
 
 use super::formula::Formula;
-use super::passivity::ARGUMENTS;
 use super::quantity::{Choice, Facts};
+use super::torques::ARGUMENTS;
 use super::{Argument, Axis, Index, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
@@ -19,7 +19,6 @@ impl Formula for BaseRegressor {
         arguments: &Argument::STATE,
         shape: Shape(&[Axis::Joints, Axis::BaseParameters]),
         linear: Some(("τ", "BASE_PARAMETERS")),
-        unit: |_| "",
         choices: Some(&[Choice::Travel]),
         // What it shares with what the chain formulas give saves a few.
         starts_from_recursion: true,
@@ -60,8 +59,6 @@ pub(super) struct LinkRegressor;
 
 impl Formula for LinkRegressor {
     const FACTS: Facts = Facts {
-        field: "y",
-        letter: "Y",
         symbol: "Y over all links' parameters",
         summary: "Regressor Y over all links' parameters.",
         shape: Shape(&[Axis::Joints, Axis::LinkParameters]),
@@ -88,17 +85,13 @@ pub(super) struct PassivityRegressor;
 
 impl Formula for PassivityRegressor {
     const FACTS: Facts = Facts {
-        field: "y",
-        letter: "Y",
         symbol: "Y of D a + C v + c + b∘v",
         summary: "Regressor Y of D a + C v + c + b∘v over the base parameters.",
         arguments: ARGUMENTS,
-        shape: Shape(&[Axis::Joints, Axis::BaseParameters]),
         linear: Some(("D a + C v + c + b∘v", "PASSIVITY_PARAMETERS")),
-        choices: Some(&[Choice::Travel]),
+        starts_from_recursion: false,
         by_differences: true,
-        gravity: true,
-        ..Facts::PLAIN
+        ..BaseRegressor::FACTS
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

@@ -1,10 +1,14 @@
-//! Torques, and the parts that they are sums of.
+//! Torques, the parts that they are sums of, and those of controllers that use the Coriolis matrix.
+//!
+//! D^rot, D^tran, h^rot and h^tran are of generalized D'Alembert (eqs. 4.2–4.5).
 
 use alloc::vec::Vec;
 
 use super::formula::Formula;
-use super::quantity::{Choice, Facts, kilograms, load, turns};
+use super::quantity::{Choice, Facts, by_turns, kilograms, turns};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use crate::equations::dalembert::Part;
+use crate::equations::energy::contracted;
 use crate::equations::matrix::{plus, zero_vector, zeros};
 use crate::scalar::{Divide, Scalar};
 
@@ -29,21 +33,16 @@ impl Formula for Torque {
         letter: "τ",
         summary: "Torques τ.",
         arguments: &Argument::STATE,
-        shape: Shape::VECTOR,
-        unit: load,
-        scale: ErrorScale::Load,
         given: Some("tau"),
         choices: Some(&[Choice::Recursion]),
         starts_from_recursion: true,
-        payload_dependence: PayloadDependence::Torque,
         gravity: true,
-        ..Facts::PLAIN
+        ..Facts::LOAD
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let motion = at.motion;
-        at.formulation
-            .inverse_dynamics(at.arm, at.at, &motion.qd, &motion.qdd)
+        let (form, motion) = (at.formulation, at.motion);
+        form.inverse_dynamics(at.arm, at.at, &motion.qd, &motion.qdd)
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
@@ -60,14 +59,10 @@ impl Formula for Gravity {
         letter: "c",
         summary: "Gravity load c.",
         arguments: &[Argument::Position],
-        shape: Shape::VECTOR,
-        unit: load,
-        scale: ErrorScale::Load,
         given: Some("c"),
         choices: Some(&[Choice::Travel]),
-        payload_dependence: PayloadDependence::Torque,
         gravity: true,
-        ..Facts::PLAIN
+        ..Facts::LOAD
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -88,14 +83,11 @@ impl Formula for Inertia {
         letter: "D",
         summary: "Inertia matrix D.",
         arguments: &[Argument::Position],
-        shape: Shape::MATRIX,
         unit: |at| kilograms(turns(at)),
         scale: ErrorScale::Inertia,
         given: Some("D"),
-        choices: Some(&[Choice::Travel]),
         definite: true,
-        payload_dependence: PayloadDependence::Torque,
-        ..Facts::PLAIN
+        ..Facts::MATRIX
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -116,13 +108,9 @@ impl Formula for Coriolis {
         letter: "h",
         summary: "Coriolis and centripetal load h.",
         arguments: &[Argument::Position, Argument::Velocity],
-        shape: Shape::VECTOR,
-        unit: load,
-        scale: ErrorScale::Load,
         given: Some("h"),
         choices: Some(&[Choice::Recursion]),
-        payload_dependence: PayloadDependence::Torque,
-        ..Facts::PLAIN
+        ..Facts::LOAD
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -132,15 +120,14 @@ impl Formula for Coriolis {
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let (chain, form) = (at.chain, at.form);
         let rest = zeros(chain.links.len());
+        let (qd, none) = (&at.motion.qd, zero_vector());
         if form.composite_h {
-            let still = zero_vector();
-            let (qd, exerted) = (&at.motion.qd, zero_vector());
-            let torques = at.composite.torques(&still, qd, &rest, form.spin, &exerted);
-            return Some(torques);
+            let composite = &at.composite;
+            return Some(composite.torques(&none, qd, &rest, form.spin, &none));
         }
         let mut still = chain.clone().without_friction();
-        still.gravity = zero_vector();
-        Some(still.inverse_dynamics(at.at, &at.motion.qd, &rest, form.spin, form.couple))
+        still.gravity = none;
+        Some(still.inverse_dynamics(at.at, qd, &rest, form.spin, form.couple))
     }
 }
 
@@ -173,9 +160,145 @@ impl Formula for Christoffel {
     }
 }
 
+/// C_ik = Σ_m h_ikm q̇_m
+pub(super) struct CoriolisMatrix;
+
+impl Formula for CoriolisMatrix {
+    const FACTS: Facts = Facts {
+        field: "c_matrix",
+        letter: "C",
+        summary: "Coriolis matrix C.",
+        arguments: &[Argument::Position, Argument::Velocity],
+        unit: |at| by_turns(turns(at), ["N·s/m", "N·s", "N·m·s"]),
+        choices: Some(&[Choice::Flows]),
+        by_differences: true,
+        ..Facts::MATRIX
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let c = at.formulation.coriolis_matrix(at.arm, at.at, &at.motion.qd);
+        c.concat()
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let qd = &at.motion.qd;
+        let c = match at.form.flows {
+            true => at.composite.coriolis_matrix(qd, at.form.travel),
+            false => contracted(&at.composite.christoffel(), qd),
+        };
+        Some(c.concat())
+    }
+}
+
+pub(super) const ARGUMENTS: &[Argument] = &[
+    Argument::Position,
+    Argument::Velocity,
+    Argument::ReferenceVelocity,
+    Argument::ReferenceAcceleration,
+];
+
+/// (D a + C v + c + b∘v)_i: what passivity-based controllers (Slotine and Li) ask of a model,
+/// with v and a the velocity and the acceleration wished for.
+pub(super) struct Passivity;
+
+impl Formula for Passivity {
+    const FACTS: Facts = Facts {
+        field: "tau",
+        letter: "τ",
+        symbol: "D a + C v + c + b∘v",
+        summary: "Torques D a + C v + c + b∘v.",
+        arguments: ARGUMENTS,
+        choices: Some(&[]),
+        by_differences: true,
+        gravity: true,
+        ..Facts::LOAD
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let motion = at.motion;
+        let wished = [&motion.v[..], &motion.a[..]];
+        at.formulation.passivity(at.arm, at.at, &motion.qd, wished)
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let motion = at.motion;
+        Some(at.chain.passivity(at.at, &motion.qd, &motion.v, &motion.a))
+    }
+}
+
+pub(super) struct RotationInertia;
+
+impl Formula for RotationInertia {
+    const FACTS: Facts = Facts {
+        field: "d_rot",
+        letter: "Drot",
+        summary: "Inertia matrix of the links' rotation D^rot.",
+        arguments: &[Argument::Position],
+        shape: Shape::MATRIX,
+        unit: |at| kilograms(turns(at)),
+        scale: ErrorScale::Inertia,
+        payload_dependence: PayloadDependence::Full,
+        ..Facts::PLAIN
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let form = at.formulation;
+        form.inertia_part(Part::Rotation, at.arm, at.at).concat()
+    }
+}
+
+pub(super) struct TranslationInertia;
+
+impl Formula for TranslationInertia {
+    const FACTS: Facts = Facts {
+        field: "d_tran",
+        letter: "Dtran",
+        summary: "Inertia matrix of the links' translation D^tran.",
+        ..RotationInertia::FACTS
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let form = at.formulation;
+        form.inertia_part(Part::Translation, at.arm, at.at).concat()
+    }
+}
+
+pub(super) struct RotationCoriolis;
+
+impl Formula for RotationCoriolis {
+    const FACTS: Facts = Facts {
+        field: "h_rot",
+        letter: "hrot",
+        summary: "Coriolis and centripetal load of the links' rotation h^rot.",
+        arguments: &[Argument::Position, Argument::Velocity],
+        payload_dependence: PayloadDependence::Full,
+        ..Facts::LOAD
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let (form, qd) = (at.formulation, &at.motion.qd);
+        form.velocity_part(Part::Rotation, at.arm, at.at, qd)
+    }
+}
+
+pub(super) struct TranslationCoriolis;
+
+impl Formula for TranslationCoriolis {
+    const FACTS: Facts = Facts {
+        field: "h_tran",
+        letter: "htran",
+        summary: "Coriolis and centripetal load of the links' translation h^tran.",
+        ..RotationCoriolis::FACTS
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let (form, qd) = (at.formulation, &at.motion.qd);
+        form.velocity_part(Part::Translation, at.arm, at.at, qd)
+    }
+}
+
 impl Quantity {
-    /// Returns what given states have of it, from its entries at a state of these velocities:
-    /// instead of h_ikm they have h.
+    /// Returns what given states have of it, at these velocities: instead of h_ikm they have h.
     pub fn as_given(self, values: &[f64], qd: &[f64]) -> (Quantity, Vec<f64>) {
         match self {
             Quantity::Christoffel => (Quantity::Coriolis, contract(values, qd)),

@@ -98,10 +98,8 @@ pub fn direction(axis: &[Rational; 3]) -> Option<Vector<Wide>> {
     if largest.is_zero() {
         return None;
     }
-    let axis = axis
-        .each_ref()
-        .map(|x| Wide::from_rational(&(x / &largest)));
-    unit(&axis)
+    let relative = |x: &Rational| Wide::from_rational(&(x / &largest));
+    unit(&axis.each_ref().map(relative))
 }
 
 /// Returns a vector divided by its length, unless that is zero.

@@ -36,8 +36,10 @@ mod row;
 
 use alloc::vec::Vec;
 
+use num_traits::{One, Signed, Zero};
+
 use crate::equations::matrix::Columns;
-use crate::number::recover::recovered;
+use crate::number::recover::{near, recovered};
 use crate::number::{Rational, Wide};
 use crate::robot::{Joint, Placement, Robot};
 use crate::scalar::Scalar;
@@ -165,15 +167,11 @@ fn size(robot: &Robot, placed: &[Placed]) -> Rational {
     let ends = ends.chain(robot.frames.iter().map(|frame| &frame.placement));
     let placements = placed.iter().map(|placed| &placed.placement).chain(ends);
     let total: Rational = placements.map(Placement::size).sum();
-    match num_traits::Zero::is_zero(&total) {
-        true => num_traits::One::one(),
-        false => total,
-    }
+    if total.is_zero() { One::one() } else { total }
 }
 
 fn is_nothing(value: &Wide, size: &Rational) -> bool {
-    let value = num_traits::Signed::abs(&value.to_rational());
-    value <= size * crate::number::recover::near()
+    value.to_rational().abs() <= size * near()
 }
 
 fn along(a: &[Wide; 3], s: &Wide, b: &[Wide; 3]) -> [Wide; 3] {

@@ -168,11 +168,9 @@ fn nearly_parallel(here: &Columns<Wide>, next: &Axis, d: Wide, passes: &Vector<W
 fn near(here: &Columns<Wide>, x: Vector<Wide>) -> Vector<Wide> {
     let SinCosPair { sin, cos } = components(here, &x);
     let one = Rational::from_integer(1.into());
-    let backward = match is_nothing(&cos, &one) {
-        true => sin.is_negative(),
-        false => cos.is_negative(),
-    };
-    if backward { opposite(&x) } else { x }
+    let is_across = is_nothing(&cos, &one);
+    let part = if is_across { sin } else { cos };
+    if part.is_negative() { opposite(&x) } else { x }
 }
 
 fn turn(here: &Columns<Wide>, x: &Vector<Wide>) -> Angle {

@@ -59,7 +59,7 @@ impl Scalar for Count<'_> {
             (Zero, x) | (x, Zero) => *x,
             (One, MinusOne) | (MinusOne, One) => Zero,
             (Value(counter), _) | (_, Value(counter)) => {
-                counter.additions.set(counter.additions.get() + 1);
+                counter.additions.update(|count| count + 1);
                 Value(counter)
             }
             (One | MinusOne | Number, One | MinusOne | Number) => Number,
@@ -71,9 +71,7 @@ impl Scalar for Count<'_> {
             (One, x) | (x, One) => *x,
             (MinusOne, x) | (x, MinusOne) => x.neg(),
             (Value(counter), _) | (_, Value(counter)) => {
-                counter
-                    .multiplications
-                    .set(counter.multiplications.get() + 1);
+                counter.multiplications.update(|count| count + 1);
                 Value(counter)
             }
             (Number, Number) => Number,

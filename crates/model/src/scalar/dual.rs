@@ -20,6 +20,13 @@ impl<S: Scalar> Dual<S> {
             rate: S::zero(),
         }
     }
+
+    fn with(&self, other: &Self, operation: impl Fn(&S, &S) -> S) -> Self {
+        Dual {
+            value: operation(&self.value, &other.value),
+            rate: operation(&self.rate, &other.rate),
+        }
+    }
 }
 
 impl<S: Scalar> SinCosPair<S> {
@@ -47,16 +54,10 @@ impl<S: Scalar> Scalar for Dual<S> {
         Dual::constant(S::one())
     }
     fn add(&self, other: &Self) -> Self {
-        Dual {
-            value: self.value.add(&other.value),
-            rate: self.rate.add(&other.rate),
-        }
+        self.with(other, S::add)
     }
     fn sub(&self, other: &Self) -> Self {
-        Dual {
-            value: self.value.sub(&other.value),
-            rate: self.rate.sub(&other.rate),
-        }
+        self.with(other, S::sub)
     }
     fn mul(&self, other: &Self) -> Self {
         let [left, right] = [self.rate.mul(&other.value), self.value.mul(&other.rate)];
@@ -66,16 +67,10 @@ impl<S: Scalar> Scalar for Dual<S> {
         }
     }
     fn neg(&self) -> Self {
-        Dual {
-            value: self.value.neg(),
-            rate: self.rate.neg(),
-        }
+        self.with(self, |x, _| x.neg())
     }
     fn half(&self) -> Self {
-        Dual {
-            value: self.value.half(),
-            rate: self.rate.half(),
-        }
+        self.with(self, |x, _| x.half())
     }
     fn is_zero(&self) -> bool {
         self.value.is_zero() && self.rate.is_zero()

@@ -4,22 +4,20 @@
 //! (sin, cos) pair as input. Zero and one need no context, so that symbolic
 //! and counting scalars can fold them without a global state.
 //!
-//! - floats (this file): the generic runtime
+//! - this file: floats, for the generic runtime, and the pair in which formulas take an angle
 //! - [`field`]: integers modulo primes: in one the search compares values, in another proofs are made
 //! - [`sparse`]: values of any scalar that know when they are zero or one by structure
 //! - [`dual`]: a value with its rate of change, for derivatives
-//! - [`sincos_pair`]: sine and cosine of an angle
 //! - [`structural`]: sums and products without structural zeros and ones
 //! - [`count`]: counts the operations of a formula as written
 
 pub mod count;
 pub mod dual;
 pub mod field;
-pub mod sincos_pair;
 pub mod sparse;
 pub mod structural;
 
-pub use sincos_pair::SinCosPair;
+use structural::{minus, plus, times};
 
 /// A commutative ring with a half, enough for every dynamics formula.
 ///
@@ -76,6 +74,35 @@ pub trait Divide: Scalar {
     /// Returns `false` of a divisor by which there is no quotient.
     fn divides(&self) -> bool {
         true
+    }
+}
+
+/// Sine and cosine of one angle.
+#[derive(Clone, Debug)]
+pub struct SinCosPair<S> {
+    /// sin
+    pub sin: S,
+    /// cos
+    pub cos: S,
+}
+
+impl<S: Scalar> SinCosPair<S> {
+    /// Returns the pair of the sum of two angles.
+    pub fn compose(&self, other: &Self) -> Self {
+        SinCosPair {
+            sin: plus(&times(&self.sin, &other.cos), &times(&self.cos, &other.sin)),
+            cos: minus(&times(&self.cos, &other.cos), &times(&self.sin, &other.sin)),
+        }
+    }
+}
+
+impl<S> SinCosPair<S> {
+    /// Returns both entries through `f`.
+    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> SinCosPair<T> {
+        SinCosPair {
+            sin: f(&self.sin),
+            cos: f(&self.cos),
+        }
     }
 }
 

@@ -171,9 +171,7 @@ mod tests {
     fn floats_fuse() {
         let x = Value(1.0 + f64::EPSILON);
         let fused = x.mul_add(&x, &Value(-1.0)).value();
-        assert_eq!(
-            fused,
-            Some(2.0 * f64::EPSILON + f64::EPSILON * f64::EPSILON)
-        );
+        let expected = 2.0 * f64::EPSILON + f64::EPSILON * f64::EPSILON;
+        assert_eq!(fused, Some(expected));
     }
 }

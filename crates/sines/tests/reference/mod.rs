@@ -73,11 +73,8 @@ fn inverse_factorials(from: u32, sign: f64) -> [f64; 7] {
     core::array::from_fn(|k| {
         let n = from + 2 * k as u32;
         let factorial = (2..=n).fold(1.0, |product, k| product * f64::from(k));
-        if k % 2 == 0 {
-            sign / factorial
-        } else {
-            -sign / factorial
-        }
+        let sign = if k % 2 == 0 { sign } else { -sign };
+        sign / factorial
     })
 }
 

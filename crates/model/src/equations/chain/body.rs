@@ -1,16 +1,12 @@
 //! Rigid bodies by their moments about a frame's origin.
 
 use super::{Rotation, apply};
-use crate::equations::matrix::{
-    Vector, dot, minus, negative, plus, scaled, sum, tensor_times, times, twice, zero_vector,
-};
+use crate::equations::matrix::*;
 use crate::equations::{Link, SinCosPair};
 use crate::robot::Inertia;
 use crate::scalar::Scalar;
 
-/// ∫ dm, ∫ r dm and ∫ r rᵀ dm: a pseudo-inertia by its parts.
-///
-/// Regrouped bodies need not be physical: masses may be negative.
+/// ∫ dm, ∫ r dm and ∫ r rᵀ dm, a pseudo-inertia by its parts; a regrouped mass may be negative.
 #[derive(Clone, Debug)]
 pub struct Body<S> {
     /// ∫ dm
@@ -42,8 +38,7 @@ impl<S: Scalar> Body<S> {
         }
     }
 
-    /// Returns a link about the origin of its DH frame:
-    /// ∫ r rᵀ dm = ½ tr(I)·1 − I + m s̄ s̄ᵀ, I about the centre of mass.
+    /// Returns a link about its frame's origin: ∫ r rᵀ dm = ½ tr(I)·1 − I + m s̄ s̄ᵀ, I about s̄.
     pub fn of(link: &Link<S>) -> Self {
         let tensor = &link.inertia;
         let half = plus(&plus(&tensor.xx, &tensor.yy), &tensor.zz).half();
@@ -78,17 +73,10 @@ impl<S: Scalar> Body<S> {
 
     /// Returns whether turning it about z changes nothing, by structure.
     pub fn is_axisymmetric(&self) -> bool {
-        let second = &self.second;
-        [
-            &self.first[0],
-            &self.first[1],
-            &second.xy,
-            &second.yz,
-            &second.xz,
-            &minus(&second.xx, &second.yy),
-        ]
-        .into_iter()
-        .all(S::is_zero)
+        let ([x, y, _], second) = (&self.first, &self.second);
+        let across = minus(&second.xx, &second.yy);
+        let odd = [x, y, &second.xy, &second.yz, &second.xz, &across];
+        odd.into_iter().all(S::is_zero)
     }
 
     /// Returns both together, about the same origin and in the same axes.
@@ -131,10 +119,8 @@ impl<S: Scalar> Body<S> {
             mass: self.mass.clone(),
             // ∫ (r + p)(r + p)ᵀ = Σ + s pᵀ + p (s + m p)ᵀ
             second: Inertia::symmetric(|i, j| {
-                let mixed = plus(
-                    &times(&self.first[i], &offset[j]),
-                    &times(&offset[i], &first[j]),
-                );
+                let own = times(&self.first[i], &offset[j]);
+                let mixed = plus(&own, &times(&offset[i], &first[j]));
                 plus(entry(&self.second, i, j), &mixed)
             }),
             first,
@@ -147,10 +133,8 @@ impl<S: Scalar> Body<S> {
         let (s, c, old) = (&theta.sin, &theta.cos, &self.second);
         let [x, y] = theta.turn(&self.first[0], &self.first[1]);
         let [xz, yz] = theta.turn(&old.xz, &old.yz);
-        let k = plus(
-            &times(s, &minus(&old.xx, &old.yy)),
-            &times(c, &twice(&old.xy)),
-        );
+        let across = times(s, &minus(&old.xx, &old.yy));
+        let k = plus(&across, &times(c, &twice(&old.xy)));
         let shift = times(s, &k);
         Body {
             mass: self.mass.clone(),
@@ -171,8 +155,7 @@ impl<S: Scalar> Body<S> {
         tensor_times(&self.second, v)
     }
 
-    /// Returns it in another unit of length: torques keep their numbers, so a mass is multiplied
-    /// by the square of the unit and a first moment by the unit.
+    /// Returns it in another unit of length: torques keep their numbers, masses get its square.
     pub fn in_unit(&self, unit: &S) -> Self {
         Body {
             mass: times(unit, &times(unit, &self.mass)),

@@ -6,10 +6,7 @@ use core::cmp::Ordering;
 
 use super::recursion::{AccelerationForm, MomentForm, Motion};
 use super::{Body, Chain, Displacement};
-use crate::equations::matrix::{
-    Vector, cross, dot, minus, negative, plus, scaled, sum, symmetric, times, twice, z_across,
-    zeros,
-};
+use crate::equations::matrix::*;
 use crate::equations::screws::{Twist, Wrench};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
@@ -80,14 +77,12 @@ impl<'a, S: Scalar> Composite<'a, S> {
         let (link, body) = (&self.chain.links[k], &self.bodies[k]);
         let second = &body.second;
         match link.kind {
-            JointKind::Revolute => Wrench {
-                force: z_across(&body.first),
-                moment: [
-                    negative(&second.xz),
-                    negative(&second.yz),
-                    plus(&second.xx, &second.yy),
-                ],
-            },
+            JointKind::Revolute => {
+                let force = z_across(&body.first);
+                let [x, y] = [&second.xz, &second.yz].map(negative);
+                let moment = [x, y, plus(&second.xx, &second.yy)];
+                Wrench { force, moment }
+            }
             JointKind::Prismatic => slid(body, &link.axis),
         }
     }
@@ -102,50 +97,41 @@ impl<'a, S: Scalar> Composite<'a, S> {
     /// Returns D_0k … D_kk.
     fn inertia_column(&self, k: usize, travel: CompositeOrder) -> Vec<S> {
         let mut wrench = self.momentum(k);
-        let mut column = Vec::with_capacity(k + 1);
-        for i in (0..=k).rev() {
+        from_hand(0..=k, |i| {
             let load = match travel {
                 CompositeOrder::Inward => self.chain.load(i, &wrench),
                 CompositeOrder::Outward => self.project(i, k, &wrench),
             };
-            let load = self.chain.rescaled(k, load);
-            column.push(if i == k {
-                plus(&load, &self.chain.links[i].armature)
-            } else {
-                load
-            });
+            let mut load = self.chain.rescaled(k, load);
+            if i == k {
+                load = plus(&load, &self.chain.links[i].armature);
+            }
             if travel == CompositeOrder::Inward && i > 0 {
                 wrench = self.chain.to_previous(i, self.at, &wrench);
             }
-        }
-        column.reverse();
-        column
+            load
+        })
     }
 
     /// Returns `h[i][k][m]` = h_ikm, n×n×n.
     pub fn christoffel(&self) -> Vec<Vec<Vec<S>>> {
         let n = self.chain.links.len();
-        let outer: Vec<Vec<Vec<S>>> = (0..n)
-            .map(|m| (0..=m).map(|k| self.christoffel_row(k, m)).collect())
-            .collect();
-        let entry = |i: usize, m: usize, k: usize| match m.cmp(&i) {
+        let rows = |m: usize| (0..=m).map(|k| self.christoffel_row(k, m)).collect();
+        let outer: Vec<Vec<Vec<S>>> = (0..n).map(rows).collect();
+        symmetric_each(n, |i, m, k| match m.cmp(&i) {
             Ordering::Greater => outer[m][k][i].clone(),
             // h_iki = 0: a joint does not feel its own Coriolis term.
             Ordering::Equal => S::zero(),
             // h_ikm = −h_mki: joint i feels what joint m does not.
             Ordering::Less => negative(&outer[i][k][m]),
-        };
-        (0..n)
-            .map(|i| symmetric(n, |m, k| entry(i, m, k)))
-            .collect()
+        })
     }
 
     /// Returns h_ikm of all i < m.
     fn christoffel_row(&self, k: usize, m: usize) -> Vec<S> {
         let wrench = self.quadratic(m, &self.twist(k, m).turn);
-        (0..m)
-            .map(|i| self.chain.rescaled(m, self.project(i, m, &wrench)))
-            .collect()
+        let entry = |i: usize| self.chain.rescaled(m, self.project(i, m, &wrench));
+        (0..m).map(entry).collect()
     }
 
     /// Returns c, length n.
@@ -156,12 +142,11 @@ impl<'a, S: Scalar> Composite<'a, S> {
             let (spin, couple) = (AccelerationForm::Column, MomentForm::SecondMoments);
             return chain.inverse_dynamics(self.at, &rest, &rest, spin, couple);
         }
-        let mut c = Vec::with_capacity(chain.links.len());
         let mut gravity = chain.gravity.clone();
-        for (i, link) in chain.links.iter().enumerate() {
+        let c = chain.links.iter().enumerate().map(|(i, link)| {
             gravity = link.inward(&self.at[i], &gravity);
             let body = &self.bodies[i];
-            c.push(match link.kind {
+            match link.kind {
                 JointKind::Revolute => {
                     let [x, y, _] = &body.first;
                     minus(&times(y, &gravity[0]), &times(x, &gravity[1]))
@@ -170,9 +155,9 @@ impl<'a, S: Scalar> Composite<'a, S> {
                     let pull = dot(&scaled(&body.mass, &link.axis), &gravity);
                     negative(&times(&pull, &chain.per_unit))
                 }
-            });
-        }
-        c
+            }
+        });
+        c.collect()
     }
 
     /// Returns τ, length n, without armature and damping.
@@ -204,21 +189,18 @@ impl<'a, S: Scalar> Composite<'a, S> {
             let both = |drift: &Vector<S>, push: &Vector<S>| {
                 sum(&scaled(&rates[i], drift), &scaled(&accelerations[i], push))
             };
-            wrenches.push(Wrench {
-                force: both(&drift.force, &push.force),
-                moment: both(&drift.moment, &push.moment),
-            });
+            let force = both(&drift.force, &push.force);
+            let moment = both(&drift.moment, &push.moment);
+            wrenches.push(Wrench { force, moment });
             before = before.next(link, &self.at[i], &rates[i], &accelerations[i], spin);
         }
-        let mut torques = Vec::with_capacity(n);
         let mut wrench = Wrench::couple(exerted.clone());
-        for i in (0..n).rev() {
+        from_hand(0..n, |i| {
             wrench = wrench.with(&wrenches[i]);
-            torques.push(plus(&chain.load(i, &wrench), &own[i]));
+            let torque = plus(&chain.load(i, &wrench), &own[i]);
             wrench = chain.to_previous(i, self.at, &wrench);
-        }
-        torques.reverse();
-        torques
+            torque
+        })
     }
 
     /// Returns the wrench of Δ_k Δ_m on the composite body m, `turn` being the angular part of Δ_k.
@@ -228,10 +210,9 @@ impl<'a, S: Scalar> Composite<'a, S> {
             // A point r moves by z × r; turning that gives turn × (z × r).
             JointKind::Revolute => {
                 let [x, y, _] = body.second_times(turn);
-                Wrench {
-                    force: cross(turn, &z_across(&body.first)),
-                    moment: [y, negative(&x), S::zero()],
-                }
+                let force = cross(turn, &z_across(&body.first));
+                let moment = [y, negative(&x), S::zero()];
+                Wrench { force, moment }
             }
             JointKind::Prismatic => slid(body, &cross(turn, &link.axis)),
         }

@@ -1,14 +1,12 @@
-//! ∂τ/∂q and ∂τ/∂q̇ from composite bodies: each entry is the power of a wrench on a twist.
+//! ∂τ/∂q and ∂τ/∂q̇ from composite bodies: each entry is the power of a wrench on a twist. C is
+//! half of the slopes of h by velocities.
 
 use alloc::vec::Vec;
 
 use super::composite::{Acting, Composite, CompositeOrder};
 use super::recursion::{AccelerationForm, MomentForm, Motion};
 use super::{Body, ChainLink, Displacement, Rotation};
-use crate::equations::matrix::{
-    Vector, across_z, cross, dot, minus, negative, plus, scaled, sum, tensor_times, three, times,
-    twice, zero_vector,
-};
+use crate::equations::matrix::*;
 use crate::equations::screws::{Twist, Wrench};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
@@ -47,11 +45,8 @@ impl<S: Scalar> Composite<'_, S> {
     pub fn slopes(&self, qd: &[S], qdd: &[S], travel: CompositeOrder) -> Slopes<S> {
         let joints = self.own_slopes(qd, qdd);
         let n = joints.len();
-        let blank = || alloc::vec![alloc::vec![S::zero(); n]; n];
-        let mut slopes = Slopes {
-            position: blank(),
-            velocity: blank(),
-        };
+        let [position, velocity] = [zero_matrix(n), zero_matrix(n)];
+        let mut slopes = Slopes { position, velocity };
         let twists = joints.iter().enumerate().map(|(i, joint)| {
             let [first, second] = joint.drift.clone();
             [self.twist(i, i), first, second]
@@ -87,48 +82,75 @@ impl<S: Scalar> Composite<'_, S> {
         let chain = self.chain;
         let velocities = chain.velocities(self.at, qd);
         let motions = chain.motions(self.at, qd, qdd, AccelerationForm::Column);
-        let mut flow = Flow::nothing();
-        let mut load = Wrench::zero();
-        let mut joints = Vec::with_capacity(chain.links.len());
-        for (i, link) in chain.links.iter().enumerate().rev() {
-            flow = flow.with(&Flow::of(&link.body, &velocities[i]));
-            load = load.with(&motions[i].wrench(&link.body, MomentForm::SecondMoments));
-            joints.push(self.own(i, &velocities[i], &motions[i], &flow, &load));
+        let (mut flow, mut load) = (Flow::nothing(), Wrench::zero());
+        from_hand(chain.links.iter().enumerate(), |(i, link)| {
+            let (velocity, motion, body) = (&velocities[i], &motions[i], &self.bodies[i]);
+            flow = flow.with(&Flow::of(&link.body, velocity));
+            load = load.with(&motion.wrench(&link.body, MomentForm::SecondMoments));
+            let twist = self.twist(i, i);
+            let drift = drift(link, velocity, motion);
+            let push = self.momentum(i);
+            let [first, second] = &drift;
+            let changing = flow.of_turn(&first.turn).with(&inertial(body, second));
+            let turned = load.turned(&twist);
+            let damping = flow.of_turn(&twist.turn);
+            let damping = damping.with(&inertial(body, &first.doubled()));
+            let joint = Joint {
+                push,
+                swing: flow.swing(link),
+                position: (changing.along(&twist), changing.with(&turned)),
+                velocity: (damping.along(&twist), damping),
+                flow: flow.clone(),
+                drift,
+            };
             flow = flow.carried(link, &self.at[i]);
             load = chain.to_previous(i, self.at, &load);
-        }
-        joints.reverse();
-        joints
+            joint
+        })
     }
 
-    fn own(
-        &self,
-        i: usize,
-        velocity: &Twist<S>,
-        motion: &Motion<S>,
-        flow: &Flow<S>,
-        load: &Wrench<S>,
-    ) -> Joint<S> {
-        let (link, body) = (&self.chain.links[i], &self.bodies[i]);
-        let twist = self.twist(i, i);
-        let drift = drift(link, velocity, motion);
-        let push = self.momentum(i);
-        let [first, second] = &drift;
-        let changing = flow.of_turn(&first.turn).with(&inertial(body, second));
-        let turned = load.turned(&twist);
-        let velocity = flow
-            .of_turn(&twist.turn)
-            .with(&inertial(body, &first.doubled()));
-        Joint {
-            push,
-            swing: flow.swing(link),
-            position: (changing.along(&twist), changing.with(&turned)),
-            velocity: (velocity.along(&twist), velocity),
-            flow: flow.clone(),
-            drift,
-        }
+    /// Returns C, n×n, by composite momenta.
+    pub fn coriolis_matrix(&self, qd: &[S], travel: CompositeOrder) -> Vec<Vec<S>> {
+        let (earlier, later) = self.velocity_parts(qd);
+        let mut matrix = zero_matrix(later.len());
+        self.each_pair(travel, &earlier, later, |[j, i], [twist, rate], own| {
+            let ([felt, push], [swing]) = (&own.wrenches, &own.vectors);
+            matrix[j][i] = felt.along(twist);
+            if j < i {
+                matrix[i][j] = plus(&dot(swing, &twist.turn), &push.along(rate));
+            }
+        });
+        self.matrix_in_metres(&mut matrix);
+        matrix
+    }
+
+    fn velocity_parts(&self, qd: &[S]) -> (Vec<Earlier<S>>, Vec<Later<S>>) {
+        let velocities = self.chain.velocities(self.at, qd);
+        let mut flow = Flow::nothing();
+        let joints = from_hand(self.chain.links.iter().enumerate(), |(i, link)| {
+            flow = flow.with(&Flow::of(&link.body, &velocities[i]));
+            let rate = rate(link, &velocities[i]);
+            let push = self.momentum(i);
+            let twist = self.twist(i, i);
+            let felt = flow.half_of_turn(&twist.turn);
+            let felt = felt.with(&inertial(&self.bodies[i], &rate));
+            let acting = Acting {
+                wrenches: [felt, push],
+                vectors: [flow.half_swing(link)],
+            };
+            flow = flow.carried(link, &self.at[i]);
+            ([twist, rate], acting)
+        });
+        joints.into_iter().unzip()
     }
 }
+
+/// The twist of a joint and its rate.
+type Earlier<S> = [Twist<S>; 2];
+
+/// Half of the wrench per unit velocity that the joints before feel, the wrench of a unit
+/// acceleration, and half of the composite's rate along the joint per turn.
+type Later<S> = Acting<S, 2, 1>;
 
 /// Returns V × Δ: how the twist of a joint changes.
 pub(super) fn rate<S: Scalar>(link: &ChainLink<S>, velocity: &Twist<S>) -> Twist<S> {
@@ -144,18 +166,16 @@ pub(super) fn rate<S: Scalar>(link: &ChainLink<S>, velocity: &Twist<S>) -> Twist
     }
 }
 
-/// Returns V × Δ and what it becomes at the rate of V: for a joint that turns the
-/// third column of U, with what the origin's motion adds.
+/// Returns V × Δ and its rate: of a joint that turns the third column of U, and of the origin.
 fn drift<S: Scalar>(link: &ChainLink<S>, velocity: &Twist<S>, motion: &Motion<S>) -> [Twist<S>; 2] {
     let first = rate(link, velocity);
     let second = match link.kind {
         JointKind::Revolute => {
             let across = across_z(&motion.acceleration);
             let shift = cross(&velocity.shift, &first.turn);
-            Twist {
-                turn: motion.u[2].clone(),
-                shift: sum(&across, &shift.each_ref().map(twice)),
-            }
+            let shift = sum(&across, &shift.each_ref().map(twice));
+            let turn = motion.u[2].clone();
+            Twist { turn, shift }
         }
         JointKind::Prismatic => Twist {
             shift: motion.u_times(&link.axis),
@@ -165,24 +185,30 @@ fn drift<S: Scalar>(link: &ChainLink<S>, velocity: &Twist<S>, motion: &Motion<S>
     [first, second]
 }
 
-/// Returns the wrench of an acceleration t + α × r of a body: m t + α × s, and
-/// s × t + I α with I = tr(Σ)·1 − Σ.
+/// Returns the wrench of t + α × r of a body: m t + α × s, and s × t + I α with I = tr(Σ)·1 − Σ.
 pub(super) fn inertial<S: Scalar>(body: &Body<S>, twist: &Twist<S>) -> Wrench<S> {
     let Twist { turn, shift } = twist;
-    Wrench {
-        force: sum(&scaled(&body.mass, shift), &cross(turn, &body.first)),
-        moment: sum(
-            &tensor_times(&body.tensor(), turn),
-            &cross(&body.first, shift),
-        ),
-    }
+    let force = sum(&scaled(&body.mass, shift), &cross(turn, &body.first));
+    let moment = tensor_times(&body.tensor(), turn);
+    let moment = sum(&moment, &cross(&body.first, shift));
+    Wrench { force, moment }
+}
+
+/// Returns tr(M) v − M v
+fn traced<S: Scalar>(m: &Rotation<S>, v: &Vector<S>) -> Vector<S> {
+    three(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        let main = times(&plus(&m[j][j], &m[k][k]), &v[i]);
+        let other = plus(&times(&m[i][j], &v[j]), &times(&m[i][k], &v[k]));
+        minus(&main, &other)
+    })
 }
 
 impl<S: Scalar> Flow<S> {
     pub(super) fn nothing() -> Self {
         Flow {
             momentum: zero_vector(),
-            moment: [zero_vector(), zero_vector(), zero_vector()],
+            moment: three(|_| zero_vector()),
         }
     }
 
@@ -190,16 +216,10 @@ impl<S: Scalar> Flow<S> {
     pub(super) fn of(body: &Body<S>, velocity: &Twist<S>) -> Self {
         let (omega, origin) = (&velocity.turn, &velocity.shift);
         let columns = body.second.rows().map(|column| cross(omega, &column));
+        let entry = |r: usize, c: usize| plus(&times(&origin[r], &body.first[c]), &columns[c][r]);
         Flow {
             momentum: sum(&scaled(&body.mass, origin), &cross(omega, &body.first)),
-            moment: three(|row| {
-                three(|column| {
-                    plus(
-                        &times(&origin[row], &body.first[column]),
-                        &columns[column][row],
-                    )
-                })
-            }),
+            moment: three(|r| three(|c| entry(r, c))),
         }
     }
 
@@ -210,8 +230,7 @@ impl<S: Scalar> Flow<S> {
         }
     }
 
-    /// Returns them in the axes of the frame before, r from its origin: R (∫ V rᵀ dm) Rᵀ + (R ∫ V
-    /// dm) pᵀ.
+    /// Returns them in the frame before, r from its origin: R (∫ V rᵀ dm) Rᵀ + (R ∫ V dm) pᵀ.
     pub(super) fn carried(&self, link: &ChainLink<S>, at: &Displacement<S>) -> Self {
         let momentum = link.outward(at, &self.momentum);
         // Rows turn as r, then columns as V.
@@ -219,32 +238,22 @@ impl<S: Scalar> Flow<S> {
         let column = |c: usize| link.outward(at, &rows.each_ref().map(|row| row[c].clone()));
         let columns = [0, 1, 2].map(column);
         let lever = link.lever(at);
+        let entry = |r: usize, c: usize| plus(&columns[c][r], &times(&momentum[r], &lever[c]));
         Flow {
-            moment: three(|row| {
-                three(|c| plus(&columns[c][row], &times(&momentum[row], &lever[c])))
-            }),
+            moment: three(|r| three(|c| entry(r, c))),
             momentum,
         }
     }
 
-    /// Returns twice ∫ (α × V) dm, and its moment: 2 α × ∫ V dm, and with M = ∫ V rᵀ dm
-    /// 2 (tr(M) α − M α).
+    /// Returns 2 ∫ (α × V) dm = 2 α × ∫ V dm, and its moment 2 (tr(M) α − M α), M = ∫ V rᵀ dm.
     fn of_turn(&self, turn: &Vector<S>) -> Wrench<S> {
         self.half_of_turn(&turn.each_ref().map(twice))
     }
 
     pub(super) fn half_of_turn(&self, turn: &Vector<S>) -> Wrench<S> {
-        let m = &self.moment;
-        let component = |i: usize| {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            let main = times(&plus(&m[j][j], &m[k][k]), &turn[i]);
-            let other = plus(&times(&m[i][j], &turn[j]), &times(&m[i][k], &turn[k]));
-            minus(&main, &other)
-        };
-        Wrench {
-            force: cross(turn, &self.momentum),
-            moment: [component(0), component(1), component(2)],
-        }
+        let force = cross(turn, &self.momentum);
+        let moment = traced(&self.moment, turn);
+        Wrench { force, moment }
     }
 
     /// Returns ∫ V dm, and its moment ∫ r × V dm.
@@ -258,14 +267,8 @@ impl<S: Scalar> Flow<S> {
 
     /// Returns ∫ V × (t + α × r) dm = ∫ V dm × t + tr(M) α − Mᵀ α.
     pub(super) fn across(&self, twist: &Twist<S>) -> Vector<S> {
-        let (m, turn) = (&self.moment, &twist.turn);
-        let component = |i: usize| {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            let main = times(&plus(&m[j][j], &m[k][k]), &turn[i]);
-            let other = plus(&times(&m[j][i], &turn[j]), &times(&m[k][i], &turn[k]));
-            minus(&main, &other)
-        };
-        sum(&cross(&self.momentum, &twist.shift), &three(component))
+        let shifted = cross(&self.momentum, &twist.shift);
+        sum(&shifted, &traced(&transposed(&self.moment), &twist.turn))
     }
 
     /// Returns the result of [`Flow::of_turn`] along the joint, as a form in the turn.
@@ -277,11 +280,8 @@ impl<S: Scalar> Flow<S> {
         match link.kind {
             JointKind::Revolute => {
                 let m = &self.moment;
-                [
-                    negative(&m[2][0]),
-                    negative(&m[2][1]),
-                    plus(&m[0][0], &m[1][1]),
-                ]
+                let [x, y] = [&m[2][0], &m[2][1]].map(negative);
+                [x, y, plus(&m[0][0], &m[1][1])]
             }
             JointKind::Prismatic => cross(&self.momentum, &link.axis),
         }

@@ -67,8 +67,7 @@ impl Form {
         hands.flat_map(of).collect()
     }
 
-    /// Returns the same where joints whose axes meet at the base are solved for as one, from
-    /// torques of the recursion.
+    /// Returns those of the recursion, with joints whose axes meet at the base solved for as one.
     pub fn with_shoulder(forms: &[Form]) -> Vec<Form> {
         let forms = forms.iter().filter(|form| !form.composite_h && !form.flows);
         let shoulder = true;

@@ -5,18 +5,14 @@
 
 pub mod body;
 pub mod composite;
-mod coriolis;
 pub mod derivatives;
 mod form;
-mod hinged;
 mod momentum;
 mod parallel;
 mod passivity;
 pub mod pose;
-pub mod probe;
 pub mod recursion;
-mod reference;
-mod regressor;
+pub mod regressor;
 pub mod regrouping;
 pub mod second_derivatives;
 mod shoulder;
@@ -29,17 +25,14 @@ pub use body::Body;
 pub use form::{Form, HandChoice, HandForm};
 pub use parallel::Unknowns;
 pub use pose::Displacement;
-pub use probe::{Column, Probe, Probed};
+pub use regressor::{Column, Probe, Probed};
 pub use regrouping::{LinkRegrouping, Regrouping};
 pub use skeleton::{Segment, Skeleton};
 pub use spin::EliminatedTip;
 
 use super::SinCosPair;
 use super::friction::Friction;
-use super::matrix::{
-    ABOUT_Z, Vector, cross, difference, dot, identity, opposite, scaled, sum, times, transposed,
-    zero_vector,
-};
+use super::matrix::*;
 use super::screws::Twist;
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
@@ -78,15 +71,13 @@ pub struct ChainLink<S> {
     pub body: Body<S>,
     /// The probes that are fixed to it, a column of a regressor each; not regrouped.
     pub probes: Vec<Probe<S>>,
-    /// Mass, first and second moment along the axis that the link could keep
-    /// (revolute): its own and what arrived from the links after it.
+    /// Mass, first and second moment along a revolute axis that the link could keep, arrivals too.
     pub free: [S; 3],
     /// Rotor inertia felt at the joint.
     pub armature: S,
     /// The friction of the joint.
     pub friction: Friction<S>,
-    /// True if the frame may stay behind while the link turns: for a last
-    /// link that is symmetric about its axis.
+    /// True if the frame may stay behind: of a last link that is symmetric about its axis.
     pub spins_freely: bool,
     /// By how many joints the frame turns more than its link, where it can.
     pub axes: i32,
@@ -196,7 +187,7 @@ impl<S: Clone> Chain<S> {
     #[must_use]
     pub fn at_speeds(mut self, per_speed: &[Option<S>]) -> Chain<S> {
         for (link, per_speed) in self.links.iter_mut().zip(per_speed) {
-            link.friction = link.friction.clone().at_speed(per_speed.as_ref());
+            link.friction.take_speed(per_speed.as_ref());
         }
         self
     }

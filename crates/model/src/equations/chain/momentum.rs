@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use super::{Chain, ChainLink, Displacement};
-use crate::equations::matrix::{cross, dot, halved, minus, plus, scaled, sum, tensor_times, times};
+use crate::equations::matrix::*;
 use crate::equations::screws::{Twist, Wrench};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
@@ -13,16 +13,11 @@ impl<S: Scalar> Twist<S> {
         let carried = sum(&self.shift, &cross(&self.turn, &link.lever(at)));
         let own = scaled(rate, &link.axis);
         let (turn, shift) = (link.inward(at, &self.turn), link.inward(at, &carried));
-        match link.kind {
-            JointKind::Revolute => Twist {
-                turn: sum(&turn, &own),
-                shift,
-            },
-            JointKind::Prismatic => Twist {
-                turn,
-                shift: sum(&shift, &own),
-            },
-        }
+        let (turn, shift) = match link.kind {
+            JointKind::Revolute => (sum(&turn, &own), shift),
+            JointKind::Prismatic => (turn, sum(&shift, &own)),
+        };
+        Twist { turn, shift }
     }
 }
 
@@ -47,10 +42,8 @@ impl<S: Scalar> Chain<S> {
             let body = &link.body;
             let half = body.tensor().map(halved);
             let spin = tensor_times(&half, omega);
-            let slide = sum(
-                &scaled(&halved(&body.mass), origin),
-                &cross(omega, &body.first),
-            );
+            let slide = scaled(&halved(&body.mass), origin);
+            let slide = sum(&slide, &cross(omega, &body.first));
             energy = plus(&energy, &plus(&dot(omega, &spin), &dot(origin, &slide)));
             let rotor = times(&halved(&link.armature), rate);
             energy = plus(&energy, &times(&rotor, rate));
@@ -65,10 +58,8 @@ impl<S: Scalar> Chain<S> {
     /// of the joint's frame, and T by the composite momentum along that.
     pub fn momentum(&self, at: &[Displacement<S>], qd: &[S]) -> [Vec<S>; 2] {
         let velocities = self.velocities(at, qd);
-        let n = self.links.len();
-        let (mut momenta, mut slopes) = (Vec::with_capacity(n), Vec::with_capacity(n));
         let mut wrench = Wrench::zero();
-        for (i, link) in self.links.iter().enumerate().rev() {
+        let joints = from_hand(self.links.iter().enumerate(), |(i, link)| {
             let (omega, origin) = (&velocities[i].turn, &velocities[i].shift);
             let body = &link.body;
             let own = sum(&scaled(&body.mass, origin), &cross(omega, &body.first));
@@ -77,8 +68,8 @@ impl<S: Scalar> Chain<S> {
             wrench.moment = sum(&wrench.moment, &sum(&own, &cross(&body.first, origin)));
             let load = self.load(i, &wrench);
             let (push, spin) = (&wrench.force, &wrench.moment);
-            momenta.push(plus(&load, &times(&link.armature, &qd[i])));
-            slopes.push(match link.kind {
+            let momentum = plus(&load, &times(&link.armature, &qd[i]));
+            let slope = match link.kind {
                 // (a × z)·b = a_y b_x − a_x b_y
                 JointKind::Revolute => plus(
                     &minus(&times(&omega[1], &spin[0]), &times(&omega[0], &spin[1])),
@@ -87,11 +78,11 @@ impl<S: Scalar> Chain<S> {
                 JointKind::Prismatic => {
                     times(&dot(&cross(omega, &link.axis), push), &self.per_unit)
                 }
-            });
+            };
             wrench = self.to_previous(i, at, &wrench);
-        }
-        momenta.reverse();
-        slopes.reverse();
+            (momentum, slope)
+        });
+        let (momenta, slopes) = joints.into_iter().unzip();
         [momenta, slopes]
     }
 }

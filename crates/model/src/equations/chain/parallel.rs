@@ -80,8 +80,7 @@ impl<S: Divide> Chain<S> {
         solved_in_pairs(&pairs, d, [bias, tau], moves)
     }
 
-    /// Returns q̈ under τ, zero of joints that do not move, from the torques of the recursion at
-    /// accelerations that shorten it.
+    /// Returns q̈ under τ, zero of joints that do not move, from the recursion that is shortened.
     pub fn forward_dynamics(
         &self,
         (at, d): (&[Displacement<S>], &[Vec<S>]),

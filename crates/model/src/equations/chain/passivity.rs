@@ -6,9 +6,7 @@ use alloc::vec::Vec;
 
 use super::recursion::{MomentForm, Motion, from_column};
 use super::{Chain, ChainLink, Displacement};
-use crate::equations::matrix::{
-    Vector, cross, dot, halved, plus, scaled, sum, times, twice, zero_vector,
-};
+use crate::equations::matrix::*;
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
@@ -23,14 +21,6 @@ struct Mixed<S> {
 }
 
 impl<S: Scalar> Mixed<S> {
-    fn base(gravity: &Vector<S>) -> Self {
-        Mixed {
-            omega: zero_vector(),
-            half_nu: zero_vector(),
-            motion: Motion::base(gravity),
-        }
-    }
-
     fn next(
         &self,
         link: &ChainLink<S>,
@@ -97,12 +87,15 @@ impl<S: Scalar> Chain<S> {
     ) -> Vec<Motion<S>> {
         let halves: Vec<S> = v.iter().map(halved).collect();
         let [rates, halves, accelerations] = [qd, &halves, a].map(|rates| self.rates(rates));
-        let mut before = Mixed::base(&self.gravity);
-        let mut motions = Vec::with_capacity(self.links.len());
-        for (i, link) in self.links.iter().enumerate() {
+        let mut before = Mixed {
+            omega: zero_vector(),
+            half_nu: zero_vector(),
+            motion: Motion::base(&self.gravity),
+        };
+        let motions = self.links.iter().enumerate().map(|(i, link)| {
             before = before.next(link, &at[i], [&rates[i], &halves[i], &accelerations[i]]);
-            motions.push(before.motion.clone());
-        }
-        motions
+            before.motion.clone()
+        });
+        motions.collect()
     }
 }

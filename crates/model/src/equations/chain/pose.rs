@@ -43,8 +43,7 @@ impl<S: Scalar> Chain<S> {
         freedoms
     }
 
-    /// Returns the links that turn about parallel axes, group by group, and whether
-    /// each turns against the first of its group.
+    /// Returns the links that turn about parallel axes, and whether against the first of a group.
     pub fn parallel(&self) -> Vec<Vec<(usize, bool)>> {
         let mut groups: Vec<Vec<(usize, bool)>> = Vec::new();
         let links = self.links.iter().enumerate();
@@ -71,30 +70,19 @@ impl<S: Scalar> Chain<S> {
                 places[i] = Some(FramePlacement { group, index });
             }
         }
-        let angles: Vec<Option<SinCosPair<S>>> = self
-            .links
-            .iter()
-            .zip(position)
-            .map(|(link, q)| match q {
-                JointPosition::Revolute(_) if link.spins_freely => Some(SinCosPair::straight()),
-                JointPosition::Revolute(pair) => Some(pair.compose(&link.theta)),
-                JointPosition::Prismatic(_) => None,
-            })
-            .collect();
+        let angles = self.links.iter().zip(position).map(|(link, q)| match q {
+            JointPosition::Revolute(_) if link.spins_freely => Some(SinCosPair::straight()),
+            JointPosition::Revolute(pair) => Some(pair.compose(&link.theta)),
+            JointPosition::Prismatic(_) => None,
+        });
+        let angles: Vec<Option<SinCosPair<S>>> = angles.collect();
+        let angle = |&(j, opposite): &(usize, bool)| {
+            let angle = angles[j].clone()?;
+            Some(if opposite { angle.reversed() } else { angle })
+        };
         let sum = |links: &[(usize, bool)]| {
-            links
-                .iter()
-                .fold(None, |sum: Option<SinCosPair<S>>, &(j, opposite)| {
-                    let angle = angles[j].clone()?;
-                    let angle = match opposite {
-                        true => angle.reversed(),
-                        false => angle,
-                    };
-                    Some(match sum {
-                        Some(sum) => sum.compose(&angle),
-                        None => angle,
-                    })
-                })
+            let angles = links.iter().filter_map(angle);
+            angles.reduce(|sum, angle| sum.compose(&angle))
         };
         let between = |from: usize, to: usize, place: FramePlacement| {
             let links = &groups[place.group];
@@ -136,9 +124,8 @@ impl<S: Scalar> Chain<S> {
                 Some((seen, own)) if own.group == place.group => seen,
                 _ => 0,
             };
-            at.push(Displacement::Turn(
-                between(from, seen, place).unwrap_or_else(SinCosPair::straight),
-            ));
+            let turn = between(from, seen, place).unwrap_or_else(SinCosPair::straight);
+            at.push(Displacement::Turn(turn));
             before = Some((seen, place));
         }
         (chain, at)

@@ -4,9 +4,7 @@
 use alloc::vec::Vec;
 
 use super::{Body, Chain, ChainLink, Displacement};
-use crate::equations::matrix::{
-    Vector, cross, dot, minus, negative, opposite, plus, scaled, sum, times, twice, zero_vector,
-};
+use crate::equations::matrix::*;
 use crate::equations::screws::Wrench;
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
@@ -117,62 +115,39 @@ impl<S: Scalar> Motion<S> {
     }
 
     pub(super) fn wrench(&self, body: &Body<S>, couple: MomentForm) -> Wrench<S> {
-        Wrench {
-            force: sum(
-                &scaled(&body.mass, &self.acceleration),
-                &self.u_times(&body.first),
-            ),
-            moment: sum(
-                &self.couple(body, couple),
-                &cross(&body.first, &self.acceleration),
-            ),
-        }
+        let force = scaled(&body.mass, &self.acceleration);
+        let force = sum(&force, &self.u_times(&body.first));
+        let moment = self.couple(body, couple);
+        let moment = sum(&moment, &cross(&body.first, &self.acceleration));
+        Wrench { force, moment }
     }
 
     /// Returns ∫ r × (U r) dm
     fn couple(&self, body: &Body<S>, form: MomentForm) -> Vector<S> {
         match form {
             MomentForm::SecondMoments => {
-                let sigma = &body.second;
+                let s = body.second.rows();
                 let u = |row: usize, column: usize| &self.u[column][row];
-                let part = |a: &S, x: &S, b: &S, y: &S, c: &S, p: &S, q: &S| {
-                    let squares = minus(&times(a, x), &times(b, y));
-                    plus(&squares, &times(c, &minus(p, q)))
-                };
-                let mixed = |a: &S, x: &S, b: &S, y: &S| minus(&times(a, x), &times(b, y));
-                let (xx, yy, zz) = (&sigma.xx, &sigma.yy, &sigma.zz);
-                let (xy, yz, xz) = (&sigma.xy, &sigma.yz, &sigma.xz);
-                [
-                    plus(
-                        &part(yy, u(2, 1), zz, u(1, 2), yz, u(2, 2), u(1, 1)),
-                        &mixed(xy, u(2, 0), xz, u(1, 0)),
-                    ),
-                    plus(
-                        &part(zz, u(0, 2), xx, u(2, 0), xz, u(0, 0), u(2, 2)),
-                        &mixed(yz, u(0, 1), xy, u(2, 1)),
-                    ),
-                    plus(
-                        &part(xx, u(1, 0), yy, u(0, 1), xy, u(1, 1), u(0, 0)),
-                        &mixed(xz, u(1, 2), yz, u(0, 2)),
-                    ),
-                ]
+                three(|i| {
+                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                    let squares = minus(&times(&s[j][j], u(k, j)), &times(&s[k][k], u(j, k)));
+                    let within = plus(&squares, &times(&s[j][k], &minus(u(k, k), u(j, j))));
+                    let mixed = minus(&times(&s[i][j], u(k, i)), &times(&s[i][k], u(j, i)));
+                    plus(&within, &mixed)
+                })
             }
             MomentForm::Euler => {
                 let tensor = body.tensor();
-                let times = crate::equations::matrix::tensor_times;
-                sum(
-                    &times(&tensor, &self.omega_dot),
-                    &cross(&self.omega, &times(&tensor, &self.omega)),
-                )
+                let turning = tensor_times(&tensor, &self.omega_dot);
+                let spin = cross(&self.omega, &tensor_times(&tensor, &self.omega));
+                sum(&turning, &spin)
             }
         }
     }
 }
 
-/// Returns ω̇ and U from ω, ω̇_z and the third column of U.
-///
-/// Nothing of ω is needed but its products, so those of two velocities do as
-/// well where U is to be bilinear in them.
+/// Returns ω̇ and U from ω̇_z, the third column of U and the products of ω, for which those of two
+/// velocities do as well where U is to be bilinear in them.
 pub(super) fn from_column<S: Scalar>(
     product: impl Fn(usize, usize) -> S,
     along: &S,
@@ -241,15 +216,13 @@ impl<S: Scalar> Chain<S> {
         exerted: &Vector<S>,
         drive: impl Fn(usize) -> S,
     ) -> Vec<S> {
-        let mut torques = Vec::with_capacity(self.links.len());
         let mut wrench = Wrench::couple(exerted.clone());
-        for (i, link) in self.links.iter().enumerate().rev() {
+        from_hand(self.links.iter().enumerate(), |(i, link)| {
             wrench = wrench.with(&motions[i].wrench(&link.body, couple));
-            torques.push(plus(&self.load(i, &wrench), &drive(i)));
+            let torque = plus(&self.load(i, &wrench), &drive(i));
             wrench = self.to_previous(i, at, &wrench);
-        }
-        torques.reverse();
-        torques
+            torque
+        })
     }
 
     pub(super) fn motions(
@@ -260,13 +233,12 @@ impl<S: Scalar> Chain<S> {
         spin: AccelerationForm,
     ) -> Vec<Motion<S>> {
         let (rates, accelerations) = (self.rates(qd), self.rates(qdd));
-        let mut motions: Vec<Motion<S>> = Vec::with_capacity(self.links.len());
-        let base = Motion::base(&self.gravity);
-        for (i, link) in self.links.iter().enumerate() {
-            let before = motions.last().unwrap_or(&base);
-            motions.push(before.next(link, &at[i], &rates[i], &accelerations[i], spin));
-        }
-        motions
+        let mut before = Motion::base(&self.gravity);
+        let motions = self.links.iter().enumerate().map(|(i, link)| {
+            before = before.next(link, &at[i], &rates[i], &accelerations[i], spin);
+            before.clone()
+        });
+        motions.collect()
     }
 
     pub(super) fn load(&self, i: usize, wrench: &Wrench<S>) -> S {
@@ -285,5 +257,56 @@ impl<S: Scalar> Chain<S> {
     ) -> Wrench<S> {
         let (link, at) = (&self.links[i], &at[i]);
         wrench.carried(|v| link.outward(at, v), &link.lever(at))
+    }
+}
+
+/// A motion with the accelerations a that make U_12 = ω_x ω_y − ω̇_z vanish: D (q̈ − a) = τ − τ(a).
+pub(super) struct ReferenceMotion<S> {
+    pub(super) accelerations: Vec<S>,
+    pub(super) links: Vec<Motion<S>>,
+}
+
+impl<S: Scalar> Chain<S> {
+    /// a is zero of joints that slide, and of those that do not move.
+    pub(super) fn reference_motion(
+        &self,
+        at: &[Displacement<S>],
+        qd: &[S],
+        moves: &[bool],
+        spin: AccelerationForm,
+    ) -> ReferenceMotion<S> {
+        let rates = self.rates(qd);
+        let n = self.links.len();
+        let mut motion = ReferenceMotion {
+            accelerations: Vec::with_capacity(n),
+            links: Vec::with_capacity(n),
+        };
+        let base = Motion::base(&self.gravity);
+        for (i, link) in self.links.iter().enumerate() {
+            let before = motion.links.last().unwrap_or(&base);
+            let (next, acceleration) = match link.kind {
+                JointKind::Revolute if moves[i] => {
+                    let [x, y, _] = link.inward(&at[i], &before.omega);
+                    let along = times(&x, &y);
+                    let carried = dot(&link.axis_before(), &before.omega_dot);
+                    let acceleration = minus(&along, &carried);
+                    let next = before.next_along(link, &at[i], &rates[i], &along, spin);
+                    (next, acceleration)
+                }
+                _ => {
+                    let rest = S::zero();
+                    (before.next(link, &at[i], &rates[i], &rest, spin), rest)
+                }
+            };
+            motion.links.push(next);
+            motion.accelerations.push(acceleration);
+        }
+        motion
+    }
+
+    pub(crate) fn drive(&self, joint: usize, qd: &[S], accelerations: &[S]) -> S {
+        let link = &self.links[joint];
+        let inertial = times(&link.armature, &accelerations[joint]);
+        plus(&inertial, &link.friction.torque(&qd[joint]))
     }
 }

@@ -1,20 +1,111 @@
-//! The columns of a regressor: what bodies that are fixed to the links take of
-//! torque, each by itself, at one motion; of the torques of a passivity-based
-//! controller the same, at a motion with two velocities.
-//!
-//! An entry is the power of a body's wrench on a joint's twist. Where the axes of
-//! several joints meet, the wrench may be taken about that point instead: N + F × o
+//! The columns of a regressor: an entry is the power of a body's wrench on a joint's twist. Where
+//! the axes of several joints meet, the wrench may be taken about that point instead: N + F × o
 //! once, and of each of these joints the angular part alone.
 
 use alloc::vec::Vec;
 
 use super::composite::CompositeOrder;
-use super::probe::Probed;
 use super::recursion::{AccelerationForm, MomentForm, Motion};
-use super::{Chain, Displacement};
-use crate::equations::matrix::{Vector, cross, difference, dot, sum, zero_vector, zeros};
+use super::{Body, Chain, Displacement, Rotation, Segment, Skeleton};
+use crate::equations::matrix::{Vector, cross, difference, dot, sum, times, zero_vector, zeros};
 use crate::equations::screws::Twist;
 use crate::scalar::Scalar;
+
+/// A column of a regressor: the torque of what causes it.
+#[derive(Clone, Debug)]
+pub struct Column<S> {
+    /// The joint that feels it or moves the link that it is fixed to.
+    pub joint: usize,
+    /// The cause; a body is about the origin and in the axes of the link's DH frame.
+    pub of: Probed<S>,
+}
+
+impl<S> Column<S> {
+    /// Returns every number through `f`.
+    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Column<T> {
+        Column {
+            joint: self.joint,
+            of: self.of.through(|body| body.map(&mut f)),
+        }
+    }
+}
+
+/// A cause of torque that is fixed to a link beside its body.
+#[derive(Clone, Debug)]
+pub struct Probe<S> {
+    /// The column of the regressor.
+    pub column: usize,
+    /// The value itself.
+    pub of: Probed<S>,
+}
+
+/// The cause of a column of a regressor.
+#[derive(Clone, Debug)]
+pub enum Probed<S> {
+    /// A body, about the origin and in the axes of the link's frame.
+    Body(Body<S>),
+    /// A unit of the rotor's inertia.
+    Armature,
+    /// A unit of viscous friction.
+    Viscous,
+}
+
+impl<S> Probed<S> {
+    fn through<T>(&self, f: impl FnOnce(&Body<S>) -> Body<T>) -> Probed<T> {
+        match self {
+            Probed::Body(body) => Probed::Body(f(body)),
+            Probed::Armature => Probed::Armature,
+            Probed::Viscous => Probed::Viscous,
+        }
+    }
+}
+
+impl<S> Probe<S> {
+    pub(super) fn is_body(&self) -> bool {
+        matches!(self.of, Probed::Body(_))
+    }
+
+    pub(super) fn each<T>(
+        probes: &[Probe<S>],
+        mut f: impl FnMut(&Body<S>) -> Body<T>,
+    ) -> Vec<Probe<T>> {
+        let each = probes.iter().map(|probe| Probe {
+            column: probe.column,
+            of: probe.of.through(&mut f),
+        });
+        each.collect()
+    }
+}
+
+pub(super) fn probes<S: Scalar>(
+    columns: &[Column<S>],
+    joint: usize,
+    turned: &Rotation<S>,
+    moved: &Vector<S>,
+) -> impl Iterator<Item = Probe<S>> {
+    let all = columns.iter().enumerate();
+    let own = all.filter(move |(_, own)| own.joint == joint);
+    own.map(move |(column, own)| Probe {
+        column,
+        of: own.of.through(|body| body.carried(turned, moved)),
+    })
+}
+
+impl<S: Scalar> Skeleton<S> {
+    /// Returns the skeleton whose bodies have its columns, times these values, and no columns.
+    #[must_use]
+    pub fn with_values(mut self, values: &[S]) -> Skeleton<S> {
+        for Segment { link, .. } in &mut self.links {
+            for probe in core::mem::take(&mut link.probes) {
+                if let (Probed::Body(unit), Some(value)) = (&probe.of, values.get(probe.column)) {
+                    link.body = link.body.with(&unit.map(|x| times(value, x)));
+                }
+            }
+        }
+        self.columns = 0;
+        self
+    }
+}
 
 struct Centre<S> {
     joints: Vec<usize>,
@@ -60,10 +151,9 @@ impl<S: Scalar> Chain<S> {
         let mut twists: Vec<Twist<S>> = Vec::with_capacity(n);
         let mut centres: Vec<Centre<S>> = Vec::new();
         for (i, link) in self.links.iter().enumerate() {
-            twists = twists
-                .iter()
-                .map(|t| link.twist_outward(&at[i], t))
-                .collect();
+            for twist in &mut twists {
+                *twist = link.twist_outward(&at[i], twist);
+            }
             twists.push(link.twist());
             for centre in &mut centres {
                 let lever = link.lever(&at[i]);
@@ -85,10 +175,8 @@ impl<S: Scalar> Chain<S> {
                     Probed::Body(body) => body,
                 };
                 let wrench = motions[i].wrench(body, MomentForm::SecondMoments);
-                let moments: Vec<Vector<S>> = centres
-                    .iter()
-                    .map(|centre| sum(&wrench.moment, &cross(&wrench.force, &centre.at)))
-                    .collect();
+                let about = |own: &Centre<S>| sum(&wrench.moment, &cross(&wrench.force, &own.at));
+                let moments: Vec<Vector<S>> = centres.iter().map(about).collect();
                 for (k, twist) in twists.iter().enumerate() {
                     let power = match widest(&centres, k) {
                         Some(centre) => dot(&twist.turn, &moments[centre]),
@@ -107,18 +195,13 @@ fn meeting<S: Scalar>(twists: &[Twist<S>]) -> Option<Centre<S>> {
         let turns = twist.turn.iter().any(|x| !x.is_zero());
         turns && twist.shift.iter().all(S::is_zero)
     };
-    let joints = twists.iter().enumerate();
-    let joints = joints.filter(|(_, twist)| passes(twist));
-    let joints: Vec<usize> = joints.map(|(joint, _)| joint).collect();
-    (joints.len() > 1).then(|| Centre {
-        joints,
-        at: zero_vector(),
-    })
+    let joints: Vec<usize> = (0..twists.len()).filter(|&j| passes(&twists[j])).collect();
+    let at = zero_vector();
+    (joints.len() > 1).then_some(Centre { joints, at })
 }
 
 fn widest<S>(centres: &[Centre<S>], joint: usize) -> Option<usize> {
-    let on_axis = centres.iter().enumerate();
-    let on_axis = on_axis.filter(|(_, centre)| centre.joints.contains(&joint));
-    let widest = on_axis.rev().max_by_key(|(_, centre)| centre.joints.len());
-    widest.map(|(index, _)| index)
+    let size = |index: &usize| centres[*index].joints.len();
+    let on_axis = (0..centres.len()).filter(|&index| centres[index].joints.contains(&joint));
+    on_axis.rev().max_by_key(size)
 }

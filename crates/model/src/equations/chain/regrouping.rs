@@ -127,8 +127,7 @@ impl<S: Scalar> ChainLink<S> {
         }
     }
 
-    /// Returns what the link keeps of a body where all moves that can, and what
-    /// arrives at the link before, in its frame.
+    /// Returns what the link keeps of a body where all moves that can, and what arrives before it.
     pub fn split_base(&self, body: &Body<S>) -> (Body<S>, Body<S>) {
         let moving = self.moving(body, &LinkRegrouping::base(zero_vector()));
         (body.with(&moving.negated()), self.arriving(&moving))

@@ -6,8 +6,7 @@ use alloc::vec::Vec;
 use super::Body;
 use super::composite::{Acting, Composite, CompositeOrder};
 use super::derivatives::{Flow, Joint, inertial, rate};
-use crate::equations::matrix::{Vector, cross, difference, dot, plus, sum, times, twice};
-use crate::equations::matrix::{opposite, zero_vector};
+use crate::equations::matrix::*;
 use crate::equations::screws::Twist;
 use crate::scalar::Scalar;
 
@@ -40,8 +39,7 @@ impl<S: Scalar> Composite<'_, S> {
         travel: CompositeOrder,
     ) -> SecondDerivatives<S> {
         let (earlier, later) = self.pairs([qd, qdd, multiplier]);
-        let n = earlier.len();
-        let blank = || alloc::vec![alloc::vec![S::zero(); n]; n];
+        let blank = || zero_matrix(earlier.len());
         let mut all = SecondDerivatives {
             position: blank(),
             mixed: blank(),
@@ -131,9 +129,7 @@ fn later<S: Scalar>(
 /// (m v₀ + ω × s) × ℓ₀ + v₀ × (ν × s) + Σ (ω × ν), since (ω × r) × (ν × r) = r (r·(ω × ν)).
 fn crossed<S: Scalar>(body: &Body<S>, v: &Twist<S>, l: &Twist<S>) -> Vector<S> {
     let momentum = Flow::of(body, v).wrench().force;
-    let straight = sum(
-        &cross(&momentum, &l.shift),
-        &cross(&v.shift, &cross(&l.turn, &body.first)),
-    );
+    let straight = cross(&momentum, &l.shift);
+    let straight = sum(&straight, &cross(&v.shift, &cross(&l.turn, &body.first)));
     sum(&straight, &body.second_times(&cross(&v.turn, &l.turn)))
 }

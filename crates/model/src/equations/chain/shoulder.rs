@@ -1,27 +1,18 @@
 //! Forward dynamics of a chain whose first three joints or more turn about axes that meet.
 //!
-//! Of all that the links beyond do to these joints, only the moment about the point is felt. With
-//! ω̇ of the last link of the shoulder and ÿ of the joints beyond it
-//!
-//! ```text
-//! ( I   N ) ( ω̇ )   ( μ − p )        I   inertia about the point of all links beyond
-//! ( Nᵀ  D ) ( ÿ ) = ( τ − b )        N   moments about it of their unit accelerations
-//! ```
-//!
-//! in the axes of the first link beyond. The joints beyond are eliminated from that, and what is
-//! left is an articulated body that only turns.
+//! Of I ω̇ + N ÿ = μ − p and Nᵀ ω̇ + D ÿ = τ − b, with I the inertia of all links beyond about the
+//! point and N the moments about it of their unit accelerations, in the axes of the first link
+//! beyond, ÿ is eliminated; what is left is an articulated body that only turns.
 
 use alloc::vec::Vec;
 
+use super::body::entry;
 use super::composite::{Composite, CompositeOrder};
-use super::hinged::{Hinged, Solved};
-use super::reference::ReferenceMotion;
-use super::{Chain, ChainLink, Displacement, Form, apply, apply_transposed};
-use crate::equations::factor::{Factor, placed};
+use super::recursion::ReferenceMotion;
+use super::{Body, Chain, ChainLink, Displacement, Form, apply, apply_transposed};
+use crate::equations::factor::{Factor, picked, placed};
 use crate::equations::forward::free;
-use crate::equations::matrix::{
-    Vector, cross, minus, negative, plus, sum, sums, symmetric, three, times, zero_vector, zeros,
-};
+use crate::equations::matrix::*;
 use crate::equations::screws::Wrench;
 use crate::robot::{Inertia, JointKind};
 use crate::scalar::{Divide, Scalar};
@@ -38,8 +29,7 @@ impl<S: Scalar> Chain<S> {
         self.shoulder().is_some()
     }
 
-    /// Finds the heights of the joints at the base whose axes meet: of each frame's origin along
-    /// its axis, seen from the point.
+    /// Finds the joints at the base whose axes meet: the height of each frame over the point.
     pub(super) fn shoulder(&self) -> Option<Vec<S>> {
         let most = self.links.len().checked_sub(BEYOND)?;
         let all = (0..FEWEST).filter_map(|origin| self.through(origin));
@@ -86,8 +76,7 @@ impl<S: Scalar> Chain<S> {
 }
 
 impl<S: Divide> Composite<'_, S> {
-    /// Returns q̈ under τ, zero of joints that do not move, if the form asks for it and the chain
-    /// has a shoulder.
+    /// Returns q̈ under τ, zero of what does not move, if the form asks and there is a shoulder.
     pub fn forward_dynamics_by_shoulder(
         &self,
         [qd, tau]: [&[S]; 2],
@@ -101,8 +90,7 @@ impl<S: Divide> Composite<'_, S> {
         Some(sums(&rest, &motion.accelerations))
     }
 
-    /// Returns q̈ beyond a reference under τ; `exerted` is the moment that the last link exerts on
-    /// something else.
+    /// Returns q̈ beyond a reference under τ; the last link exerts a moment on something else.
     pub(super) fn accelerations_by_shoulder(
         &self,
         heights: &[S],
@@ -134,22 +122,18 @@ impl<S: Divide> Composite<'_, S> {
             // Along its axis the joint passes on what it is given.
             moment[2] = plus(&lifted[2], &minus(&tau[first], &drive(first)));
         }
-        let matrix = self.beyond(first, &lever, moves, form.travel);
-        let matrix = match is_taken_back {
-            true => taken_back(matrix),
-            false => matrix,
-        };
+        let mut matrix = self.beyond(first, &lever, moves, form.travel);
+        if is_taken_back {
+            matrix = taken_back(matrix);
+        }
         let beyond = Factor::partial(&matrix, 3);
         let joints: Vec<usize> = free(moves).into_iter().filter(|&i| i >= first).collect();
-        let right = moment.iter().map(negative);
-        let right = right.chain(joints.iter().map(|&i| left[i].clone()));
+        let right = moment.iter().map(negative).chain(picked(&left, &joints));
         let right = beyond.halfway(&right.collect::<Vec<S>>());
         let (about, rest) = right.split_at(3);
-        let entry = |i: usize, k: usize| beyond.left(k, i).clone();
-        let mut hinged = Hinged {
-            inertia: Inertia::symmetric(entry),
-            moment: three(|axis| negative(&about[axis])),
-        };
+        let inertia = Inertia::symmetric(|i, k| beyond.left(k, i).clone());
+        let moment = three(|axis| negative(&about[axis]));
+        let mut hinged = Hinged { inertia, moment };
         hinged = hinged.carried(&chain.links[first], &self.at[first]);
 
         let mut solved: Vec<Option<Solved<S>>> = Vec::with_capacity(first);
@@ -190,8 +174,7 @@ impl<S: Divide> Composite<'_, S> {
         found
     }
 
-    /// Returns I, N and D of the joints from the first beyond a shoulder that move; the lever is
-    /// that of the first frame's origin.
+    /// Returns I, N and D of the joints that move beyond a shoulder; a lever to the first frame.
     fn beyond(
         &self,
         first: usize,
@@ -200,12 +183,8 @@ impl<S: Divide> Composite<'_, S> {
         travel: CompositeOrder,
     ) -> Vec<Vec<S>> {
         let chain = self.chain;
-        let tensor = self.bodies[first].moved(lever).tensor();
-        let mut lower: Vec<Vec<S>> = alloc::vec![
-            alloc::vec![tensor.xx.clone()],
-            alloc::vec![tensor.xy.clone(), tensor.yy.clone()],
-            alloc::vec![tensor.xz.clone(), tensor.yz.clone(), tensor.zz.clone()],
-        ];
+        let tensor = self.bodies[first].moved(lever).tensor().rows();
+        let mut lower: Vec<Vec<S>> = (0..3).map(|i| tensor[i][..=i].to_vec()).collect();
         for k in (first..chain.links.len()).filter(|&k| moves[k]) {
             let own = self.momentum(k);
             let mut wrench = own.clone();
@@ -243,4 +222,86 @@ fn taken_back<S: Scalar>(mut matrix: Vec<Vec<S>>) -> Vec<Vec<S>> {
         row[2] = minus(&row[2], &row[3]);
     }
     matrix
+}
+
+/// Articulated bodies that only turn, about a point that stays where it is: a moment I ω̇ + p about
+/// it, in the axes of a frame, is what the joints of a shoulder feel of all that is beyond them.
+///
+/// A joint about z that is given the torque τ turns with ω̇_z = w_z + q̈, w being what the
+/// joints before bring along, so that D q̈ = τ − p_z − (I w)_z with D = I_zz + A, A its rotor.
+/// What the joints before feel is I′ w + p′ with I′ = I − I_z I_zᵀ/D and p′ = p + I_z (τ − p_z)/D.
+struct Hinged<S> {
+    inertia: Inertia<S>,
+    moment: Vector<S>,
+}
+
+struct Solved<S> {
+    /// (τ − p_z) / D
+    own: S,
+    /// I_xz / D, I_yz / D, I_zz / D
+    shares: Vector<S>,
+}
+
+impl<S: Scalar> Hinged<S> {
+    fn carried(&self, link: &ChainLink<S>, at: &Displacement<S>) -> Self {
+        // A tensor turns as second moments do.
+        let body = Body {
+            second: self.inertia.clone(),
+            ..Body::zero()
+        };
+        let inertia = match at {
+            Displacement::Turn(theta) => body.turned_z(theta).turned(&link.rotation).second,
+            Displacement::Slide(_) => body.second,
+        };
+        let moment = link.outward(at, &self.moment);
+        Hinged { inertia, moment }
+    }
+
+    fn with(&self, body: &Body<S>, height: &S, wrench: &Wrench<S>) -> Self {
+        let lever = [S::zero(), S::zero(), height.clone()];
+        let own = body.moved(&lever).tensor();
+        let both = |i: usize, k: usize| plus(entry(&self.inertia, i, k), entry(&own, i, k));
+        let inertia = Inertia::symmetric(both);
+        let moment = sum(&wrench.moment, &cross(&lever, &wrench.force));
+        let moment = sum(&self.moment, &moment);
+        Hinged { inertia, moment }
+    }
+}
+
+impl<S: Divide> Hinged<S> {
+    /// Eliminates a joint about z with this rotor and torque; the first that moves divides alone.
+    fn eliminated(self, rotor: &S, given: &S, is_first: bool) -> (Self, Solved<S>) {
+        let Hinged { inertia, moment } = self;
+        let pivot = plus(&inertia.zz, rotor);
+        let inverse = over(&S::one(), &pivot);
+        let left = minus(given, &moment[2]);
+        let [x, y] = [&inertia.xz, &inertia.yz].map(|entry| times(entry, &inverse));
+        // Without a rotor nothing is left about the axis, and no rounding of it either.
+        let z = match rotor.is_zero() {
+            true => S::one(),
+            false => times(&inertia.zz, &inverse),
+        };
+        let moment = [
+            plus(&moment[0], &times(&x, &left)),
+            plus(&moment[1], &times(&y, &left)),
+            match rotor.is_zero() {
+                true => given.clone(),
+                false => plus(&moment[2], &times(&z, &left)),
+            },
+        ];
+        let inertia = Inertia {
+            xx: minus(&inertia.xx, &times(&x, &inertia.xz)),
+            yy: minus(&inertia.yy, &times(&y, &inertia.yz)),
+            xy: minus(&inertia.xy, &times(&x, &inertia.yz)),
+            xz: times(&x, rotor),
+            yz: times(&y, rotor),
+            zz: times(&z, rotor),
+        };
+        let own = match is_first {
+            true => over(&left, &pivot),
+            false => times(&left, &inverse),
+        };
+        let shares = [x, y, z];
+        (Hinged { inertia, moment }, Solved { own, shares })
+    }
 }

@@ -4,11 +4,9 @@
 use alloc::vec::Vec;
 
 use super::pose::sense;
-use super::probe::{Column, Probe, probes};
+use super::regressor::{Column, Probe, probes};
 use super::{Body, ChainLink, Rotation, apply, product, turn};
-use crate::equations::matrix::{
-    ABOUT_X, ABOUT_Y, ABOUT_Z, Vector, identity, sum, unit_z, zero_vector,
-};
+use crate::equations::matrix::*;
 use crate::equations::{Arm, DhVariables, JointPosition, SinCosPair};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
@@ -38,8 +36,7 @@ pub struct Segment<S> {
 }
 
 impl<S: Scalar> Skeleton<S> {
-    /// Returns the skeleton of an arm; a joint with a lock stays where the lock says. Missing
-    /// locks are none.
+    /// Returns the skeleton of an arm; a joint with a lock stays where the lock says.
     pub fn new(arm: &Arm<S>, locks: &[Option<JointPosition<S>>]) -> Skeleton<S> {
         Skeleton::with_columns(arm, locks, &[])
     }
@@ -140,18 +137,14 @@ impl<S: Scalar> ChainLink<S> {
     fn absorb_turn(&mut self) {
         let r = &self.rotation;
         let Some(opposite) = sense(r) else { return };
-        let own = SinCosPair {
-            sin: r[1][0].clone(),
-            cos: r[0][0].clone(),
-        };
+        let (sin, cos) = (r[1][0].clone(), r[0][0].clone());
+        let mut own = SinCosPair { sin, cos };
         let mut straight = identity();
-        let own = if opposite {
+        if opposite {
             straight[1][1] = S::one().neg();
             straight[2][2] = S::one().neg();
-            own.reversed()
-        } else {
-            own
-        };
+            own = own.reversed();
+        }
         self.theta = own.compose(&self.theta);
         self.rotation = straight;
     }

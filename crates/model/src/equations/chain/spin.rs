@@ -1,7 +1,4 @@
-//! Forward dynamics of a chain whose last joint turns about a principal axis: the joints
-//! before feel a body that is fixed to link n−1, the last link as it is turned but with
-//! A J/(J + A) about the axis, and a couple that does not depend on q̈. J is the inertia
-//! about the axis, A the rotor's.
+//! Forward dynamics of a chain whose last joint turns about a principal axis.
 //!
 //! The couple is that of the link's own turn. What of the tensor is symmetric about the
 //! axis gives J ω_z (ω × z); the rest, I_δ, has no trace and no component along the
@@ -11,13 +8,11 @@
 use alloc::vec::Vec;
 
 use super::composite::{Composite, CompositeOrder};
-use super::reference::ReferenceMotion;
+use super::recursion::ReferenceMotion;
 use super::{Body, Chain, ChainLink, Displacement, Form, Unknowns};
 use crate::equations::SinCosPair;
 use crate::equations::forward::inverted;
-use crate::equations::matrix::{
-    Vector, dot, halved, minus, negative, over, plus, product, sums, symmetric, times, twice, zeros,
-};
+use crate::equations::matrix::*;
 use crate::robot::JointKind;
 use crate::scalar::{Divide, Scalar};
 
@@ -40,9 +35,8 @@ pub struct EliminatedTip<'a, S> {
 }
 
 impl<'a, S: Divide> EliminatedTip<'a, S> {
-    /// Eliminates the tip of a chain at its position, if its last joint moves, is not the only one and
-    /// turns about a principal axis. J + A is the last joint's entry of D, a constant
-    /// that is above zero where D has an inverse.
+    /// Eliminates the tip of a chain, if its last joint moves, is not the only one and turns about
+    /// a principal axis. J + A is its entry of D, a constant above zero where D has an inverse.
     pub fn new(whole: &'a Composite<'a, S>, moves: &[bool]) -> Option<Self> {
         let (link, inner) = whole.chain.links.split_last()?;
         let Displacement::Turn(theta) = whole.at.last()? else {
@@ -59,8 +53,7 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
             true => [S::one(), S::zero()],
             false => {
                 let share = times(&inertia, &inverse);
-                let rest = times(&share, &link.armature);
-                [share, rest]
+                [share.clone(), times(&share, &link.armature)]
             }
         };
         let mut body = link.body.clone();
@@ -128,9 +121,9 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
     ) -> Vec<S> {
         let (chain, at, last) = (&self.chain, self.at(), self.chain.links.len());
         let link = &self.whole.chain.links[last];
-        let before = &qd[..last];
+        let (before, loads, moves) = (&qd[..last], &tau[..last], &moves[..last]);
         let motion = match form.composite_h {
-            false => chain.reference_motion(at, before, &moves[..last], form.spin),
+            false => chain.reference_motion(at, before, moves, form.spin),
             true => ReferenceMotion {
                 accelerations: zeros(last),
                 links: chain.motions(at, before, &zeros(last), form.spin),
@@ -159,21 +152,18 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
                     }
                 };
                 let d = composite.inertia(form.travel);
-                chain.accelerations(&d, [&bias, &tau[..last]], &moves[..last], unknowns)
+                chain.accelerations(&d, [&bias, loads], moves, unknowns)
             }
             Some(heights) => {
-                let (exerted, loads) = ((form, &couple), [before, &tau[..last]]);
-                let moves = &moves[..last];
-                composite.accelerations_by_shoulder(&heights, &motion, exerted, loads, moves)
+                let (exerted, given) = ((form, &couple), [before, loads]);
+                composite.accelerations_by_shoulder(&heights, &motion, exerted, given, moves)
             }
         };
         let still = dot(&link.axis_before(), &tip.omega_dot);
         let brought = plus(&still, &product(&self.brought(), &rest));
         let mut qdd = sums(&rest, reference);
-        qdd.push(minus(
-            &times(&left, &self.inverse),
-            &times(&self.share, &brought),
-        ));
+        let own = times(&left, &self.inverse);
+        qdd.push(minus(&own, &times(&self.share, &brought)));
         qdd
     }
 
@@ -183,12 +173,9 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         let d = Composite::new(&self.chain, self.at()).inertia(travel);
         let inner = inverted(&d, &moves[..last]);
         let brought = self.brought();
-        let along = |row: &[S]| product(row, &brought);
-        let given: Vec<S> = inner
-            .iter()
-            .map(|row| negative(&times(&self.share, &along(row))))
-            .collect();
-        let own = minus(&self.inverse, &times(&self.share, &along(&given)));
+        let share = |row: &[S]| times(&self.share, &product(row, &brought));
+        let given: Vec<S> = inner.iter().map(|row| negative(&share(row))).collect();
+        let own = minus(&self.inverse, &share(&given));
         symmetric(last + 1, |i, k| match (i == last, k == last) {
             (true, true) => own.clone(),
             (true, false) => given[k].clone(),

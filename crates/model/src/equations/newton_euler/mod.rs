@@ -9,7 +9,7 @@ pub mod table1;
 pub mod table2;
 
 use super::Link;
-use super::matrix::{Vector, opposite, plus, times, zero_vector};
+use super::matrix::{Vector, centripetal, cross, opposite, plus, sum, times, zero_vector};
 use crate::scalar::Scalar;
 
 #[derive(Clone, Debug)]
@@ -21,13 +21,28 @@ pub(super) struct Motion<S> {
 }
 
 impl<S: Scalar> Motion<S> {
+    fn new(omega: Vector<S>, omega_dot: Vector<S>, acceleration: Vector<S>) -> Self {
+        Motion {
+            omega,
+            omega_dot,
+            acceleration,
+        }
+    }
+
     /// Returns the base, accelerated upwards instead of being pulled down.
     pub(super) fn of_base(gravity: &Vector<S>) -> Self {
-        Motion {
-            omega: zero_vector(),
-            omega_dot: zero_vector(),
-            acceleration: opposite(gravity),
-        }
+        Motion::new(zero_vector(), zero_vector(), opposite(gravity))
+    }
+
+    /// Returns ω̇ × r + ω × (ω × r).
+    fn of_lever(&self, r: &Vector<S>) -> Vector<S> {
+        let turning = cross(&self.omega_dot, r);
+        sum(&turning, &centripetal(&self.omega, r))
+    }
+
+    /// Returns the acceleration of a point at r from the origin.
+    fn acceleration_at(&self, r: &Vector<S>) -> Vector<S> {
+        sum(&self.acceleration, &self.of_lever(r))
     }
 }
 

@@ -3,12 +3,9 @@
 use alloc::vec::Vec;
 
 use super::{Motion, with_drive};
-use crate::equations::matrix::{
-    Columns, Vector, centripetal, cross, dot, identity, scaled, sum, tensor_times, twice,
-    zero_vector,
-};
+use crate::equations::matrix::*;
 use crate::equations::screws::Wrench;
-use crate::equations::{Arm, DhVariables, Link};
+use crate::equations::{Arm, At, Link};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 
@@ -26,62 +23,42 @@ struct Body<S> {
 }
 
 /// Returns τ by the recursion of Table 1.
-pub fn inverse_dynamics<S: Scalar>(
-    arm: &Arm<S>,
-    at: &[DhVariables<S>],
-    qd: &[S],
-    qdd: &[S],
-) -> Vec<S> {
-    let bodies = bodies(arm, at, qd, qdd, &Motion::of_base(&arm.gravity));
+pub fn inverse_dynamics<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], qdd: &[S]) -> Vec<S> {
+    let bodies = bodies(arm, at, [qd, qdd], &Motion::of_base(&arm.gravity));
     let wrenches = wrenches_on(arm, &bodies);
-    let joints = arm.links.iter().zip(&bodies).zip(&wrenches).enumerate();
-    joints
-        .map(|(i, ((link, body), wrench))| {
-            let along = dot(wrench.part(link.kind), &body.axis);
-            with_drive(link, &along, &qd[i], &qdd[i])
-        })
-        .collect()
+    let torque = |(i, link): (usize, &Link<S>)| {
+        let along = dot(wrenches[i].part(link.kind), &bodies[i].axis);
+        with_drive(link, &along, &qd[i], &qdd[i])
+    };
+    arm.links.iter().enumerate().map(torque).collect()
 }
 
 /// Returns f_i and n_i: what link i−1 exerts on link i, gravity included, the moment
 /// about the origin of frame i−1, or of frame i in modified DH.
-pub fn wrenches<S: Scalar>(
-    arm: &Arm<S>,
-    at: &[DhVariables<S>],
-    qd: &[S],
-    qdd: &[S],
-) -> Vec<Wrench<S>> {
-    let bodies = bodies(arm, at, qd, qdd, &Motion::of_base(&arm.gravity));
+pub fn wrenches<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], qdd: &[S]) -> Vec<Wrench<S>> {
+    let bodies = bodies(arm, at, [qd, qdd], &Motion::of_base(&arm.gravity));
     wrenches_on(arm, &bodies)
 }
 
 /// Returns v̇ and ω̇ of the hand, in the axes of frame 0, of which this is the motion.
 pub(in crate::equations) fn tip_acceleration<S: Scalar>(
     arm: &Arm<S>,
-    at: &[DhVariables<S>],
-    qd: &[S],
-    qdd: &[S],
+    at: &At<S>,
+    rates: [&[S]; 2],
     base: &Motion<S>,
 ) -> [Vector<S>; 2] {
-    match bodies(arm, at, qd, qdd, base).pop() {
-        Some(last) => [
-            last.acceleration_of(arm.tool.as_ref()),
-            last.motion.omega_dot,
-        ],
-        None => [base.acceleration.clone(), base.omega_dot.clone()],
-    }
+    let Some(last) = bodies(arm, at, rates, base).pop() else {
+        return [base.acceleration.clone(), base.omega_dot.clone()];
+    };
+    let acceleration = last.acceleration_of(arm.tool.as_ref());
+    [acceleration, last.motion.omega_dot]
 }
 
 fn wrenches_on<S: Scalar>(arm: &Arm<S>, bodies: &[Body<S>]) -> Vec<Wrench<S>> {
-    let mut wrenches = Vec::with_capacity(bodies.len());
     let mut wrench = Wrench::zero();
-    for (i, (body, link)) in bodies.iter().zip(&arm.links).enumerate().rev() {
-        let motion = &body.motion;
-        let of_com = sum(
-            &cross(&motion.omega_dot, &body.com),
-            &centripetal(&motion.omega, &body.com),
-        );
-        let inertial_force = scaled(&link.mass, &sum(&motion.acceleration, &of_com));
+    let links = bodies.iter().zip(&arm.links).enumerate();
+    from_hand(links, |(i, (body, link))| {
+        let inertial_force = scaled(&link.mass, &body.motion.acceleration_at(&body.com));
         let inertial_moment = body.euler(link);
 
         // The lever of f_{i+1}, and that of F_i, from the point the moment is taken about.
@@ -94,24 +71,16 @@ fn wrenches_on<S: Scalar>(arm: &Arm<S>, bodies: &[Body<S>]) -> Vec<Wrench<S>> {
         };
         let carried = sum(&wrench.moment, &cross(&lever, &wrench.force));
         let moment = sum(&carried, &cross(&centre, &inertial_force));
-        wrench = Wrench {
-            moment: sum(&moment, &inertial_moment),
-            force: sum(&inertial_force, &wrench.force),
-        };
-        wrenches.push(wrench.clone());
-    }
-    wrenches.reverse();
-    wrenches
+        let moment = sum(&moment, &inertial_moment);
+        let force = sum(&inertial_force, &wrench.force);
+        wrench = Wrench { force, moment };
+        wrench.clone()
+    })
 }
 
-fn bodies<S: Scalar>(
-    arm: &Arm<S>,
-    at: &[DhVariables<S>],
-    qd: &[S],
-    qdd: &[S],
-    base: &Motion<S>,
-) -> Vec<Body<S>> {
+fn bodies<S: Scalar>(arm: &Arm<S>, at: &At<S>, rates: [&[S]; 2], base: &Motion<S>) -> Vec<Body<S>> {
     let mut bodies: Vec<Body<S>> = Vec::with_capacity(arm.links.len());
+    let [qd, qdd] = rates;
     let base = Body {
         rotation: identity(),
         axis: zero_vector(),
@@ -119,21 +88,15 @@ fn bodies<S: Scalar>(
         com: zero_vector(),
         motion: base.clone(),
     };
-    for (i, link) in arm.links.iter().enumerate() {
-        let before = bodies.last().unwrap_or(&base);
-        // Without the origin of frame i−1 the step's own origin is p_i*: no
-        // difference of two large positions.
-        let from_before = Columns::turned(before.rotation.clone());
-        let frame = link.append(arm.convention, &at[i], &from_before);
-        let axis = match arm.convention {
-            Convention::Standard => before.rotation[2].clone(),
-            Convention::Modified => frame.axes[2].clone(),
-        };
+    for (i, step) in arm.steps(at).enumerate() {
+        let (link, before) = (step.link, bodies.last().unwrap_or(&base));
+        // The step's own origin is p_i*: no difference of two large positions.
+        let frame = step.append(&Columns::turned(before.rotation.clone()));
         let body = Body {
             com: frame.rotate(&link.com),
+            axis: step.at_joint(&before.rotation, &frame.axes)[2].clone(),
             rotation: frame.axes,
             lever: frame.origin,
-            axis,
             motion: before.motion.clone(),
         };
         bodies.push(body.moved(arm.convention, link.kind, &qd[i], &qdd[i]));
@@ -147,10 +110,7 @@ impl<S: Scalar> Body<S> {
             return self.motion.acceleration.clone();
         };
         let axes = Columns::turned(self.rotation.clone());
-        let lever = axes.rotate(&tool.origin);
-        let turning = cross(&self.motion.omega_dot, &lever);
-        let of_lever = sum(&turning, &centripetal(&self.motion.omega, &lever));
-        sum(&self.motion.acceleration, &of_lever)
+        self.motion.acceleration_at(&axes.rotate(&tool.origin))
     }
 
     fn moved(mut self, convention: Convention, kind: JointKind, qd: &S, qdd: &S) -> Self {
@@ -167,11 +127,7 @@ impl<S: Scalar> Body<S> {
             Convention::Standard => &*own,
             Convention::Modified => &before,
         };
-        let of_lever = sum(
-            &cross(&turns.omega_dot, &self.lever),
-            &centripetal(&turns.omega, &self.lever),
-        );
-        own.acceleration = sum(&before.acceleration, &of_lever);
+        own.acceleration = sum(&before.acceleration, &turns.of_lever(&self.lever));
         if kind == JointKind::Prismatic {
             let coriolis = cross(&own.omega, &scaled(&twice(qd), &self.axis));
             let sliding = sum(&scaled(qdd, &self.axis), &coriolis);

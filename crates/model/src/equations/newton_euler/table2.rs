@@ -3,23 +3,19 @@
 use alloc::vec::Vec;
 
 use super::{Motion, with_drive};
-use crate::equations::matrix::{
-    Vector, centripetal, cross, cross_z, dot, minus, negative, plus, scaled, sum, tensor_times,
-    three, times, twice,
-};
+use crate::equations::arm::Step;
+use crate::equations::matrix::*;
 use crate::equations::screws::Wrench;
-use crate::equations::{Arm, DhVariables, Link};
+use crate::equations::{Arm, At, Link};
 use crate::robot::{Convention, Inertia, JointKind};
 use crate::scalar::Scalar;
 
-/// The form of the moment of the next link's force about frame i
-/// (standard DH; modified DH has only the second form).
+/// The form of the moment of the next link's force about frame i; modified DH has only the second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Moment {
     /// ⁱR_{i+1}[n_{i+1} + (ⁱ⁺¹R_i p_i*) × f_{i+1}]: the lever is turned into frame i+1.
     AsPrinted,
-    /// ⁱR_{i+1} n_{i+1} + p_i* × (ⁱR_{i+1} f_{i+1}): uses the force that is
-    /// turned anyway. Fewer operations, and never less accurate.
+    /// ⁱR_{i+1} n_{i+1} + p_i* × (ⁱR_{i+1} f_{i+1}): fewer operations, and never less accurate.
     RotateFirst,
     /// As [`Moment::RotateFirst`], and ω × (I ω) from the differences of the
     /// moments of inertia: about the axis of a round link it is nothing, where
@@ -38,8 +34,7 @@ impl<S: Scalar> Motion<S> {
     }
 }
 
-/// Returns ω × (I ω): its x component is
-/// (I_zz − I_yy) yz + I_yz (y + z)(y − z) + x (I_xz y − I_xy z), and so on.
+/// Returns ω × (I ω): of x (I_zz − I_yy) yz + I_yz (y + z)(y − z) + x (I_xz y − I_xy z), and so on.
 fn gyroscopic<S: Scalar>(tensor: &Inertia<S>, omega: &Vector<S>) -> Vector<S> {
     let rows = tensor.rows();
     three(|x| {
@@ -55,38 +50,25 @@ fn gyroscopic<S: Scalar>(tensor: &Inertia<S>, omega: &Vector<S>) -> Vector<S> {
 /// Returns τ by the recursion of Table 2.
 pub fn inverse_dynamics<S: Scalar>(
     arm: &Arm<S>,
-    at: &[DhVariables<S>],
-    qd: &[S],
-    qdd: &[S],
+    at: &At<S>,
+    [qd, qdd]: [&[S]; 2],
     moment: Moment,
 ) -> Vec<S> {
     let motions = motions(arm, at, qd, qdd);
-    let n = arm.links.len();
-    let mut torques = Vec::with_capacity(n);
+    let steps: Vec<Step<'_, S>> = arm.steps(at).collect();
     // f_{i+1} and n_{i+1}, in the axes of frame i+1.
     let mut wrench = Wrench::zero();
-    for i in (0..n).rev() {
-        let (link, motion) = (&arm.links[i], &motions[i]);
-        let next = (i + 1 < n).then(|| LinkStep::new(arm, at, i + 1));
-        let turned = |v: &Vector<S>| match &next {
-            Some(next) => next.to_previous(v),
-            None => v.clone(),
-        };
+    from_hand(motions.iter().enumerate(), |(i, motion)| {
+        let (link, next) = (&arm.links[i], steps.get(i + 1));
+        let turned = |v: &Vector<S>| next.map_or_else(|| v.clone(), |next| next.to_previous(v));
         let force_here = turned(&wrench.force);
-        let centre = sum(
-            &motion.acceleration,
-            &sum(
-                &cross(&motion.omega_dot, &link.com),
-                &centripetal(&motion.omega, &link.com),
-            ),
-        );
-        let inertial_force = scaled(&link.mass, &centre);
+        let inertial_force = scaled(&link.mass, &motion.acceleration_at(&link.com));
         let inertial_moment = motion.euler(link, moment);
 
         let (carried, arm_of_centre) = match arm.convention {
             Convention::Standard => {
                 let lever = link.lever_here(&at[i].d);
-                let carried = match (&next, moment) {
+                let carried = match (next, moment) {
                     (Some(next), Moment::AsPrinted) => {
                         let moment = cross(&next.to_link(&lever), &wrench.force);
                         next.to_previous(&sum(&wrench.moment, &moment))
@@ -96,35 +78,29 @@ pub fn inverse_dynamics<S: Scalar>(
                 (carried, sum(&lever, &link.com))
             }
             Convention::Modified => {
-                let carried = match &next {
-                    Some(next) => sum(
-                        &next.to_previous(&wrench.moment),
-                        &cross(&next.lever_before(), &force_here),
-                    ),
-                    None => wrench.moment.clone(),
-                };
+                let mut carried = turned(&wrench.moment);
+                if let Some(next) = next {
+                    carried = sum(&carried, &cross(&next.lever_before(), &force_here));
+                }
                 (carried, link.com.clone())
             }
         };
         let moment = sum(&carried, &cross(&arm_of_centre, &inertial_force));
-        wrench = Wrench {
-            moment: sum(&moment, &inertial_moment),
-            force: sum(&force_here, &inertial_force),
-        };
+        let moment = sum(&moment, &inertial_moment);
+        let force = sum(&force_here, &inertial_force);
+        wrench = Wrench { force, moment };
         let load = wrench.part(link.kind);
         let along = match arm.convention {
             Convention::Standard => dot(load, &link.axis_here()),
             Convention::Modified => load[2].clone(),
         };
-        torques.push(with_drive(link, &along, &qd[i], &qdd[i]));
-    }
-    torques.reverse();
-    torques
+        with_drive(link, &along, &qd[i], &qdd[i])
+    })
 }
 
 pub(in crate::equations) fn last_motion<S: Scalar>(
     arm: &Arm<S>,
-    at: &[DhVariables<S>],
+    at: &At<S>,
     qd: &[S],
     qdd: &[S],
 ) -> Motion<S> {
@@ -132,23 +108,20 @@ pub(in crate::equations) fn last_motion<S: Scalar>(
     last.unwrap_or_else(|| Motion::of_base(&arm.gravity))
 }
 
-fn motions<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S], qdd: &[S]) -> Vec<Motion<S>> {
-    let mut motions: Vec<Motion<S>> = Vec::with_capacity(arm.links.len());
-    let base = Motion::of_base(&arm.gravity);
-    for i in 0..arm.links.len() {
-        let before = if i == 0 { &base } else { &motions[i - 1] };
-        let step = LinkStep::new(arm, at, i);
-        let motion = match arm.convention {
-            Convention::Standard => standard(&step, before, &qd[i], &qdd[i]),
-            Convention::Modified => modified(&step, before, &qd[i], &qdd[i]),
+fn motions<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], qdd: &[S]) -> Vec<Motion<S>> {
+    let mut before = Motion::of_base(&arm.gravity);
+    let motions = arm.steps(at).enumerate().map(|(i, step)| {
+        before = match step.convention {
+            Convention::Standard => standard(&step, &before, &qd[i], &qdd[i]),
+            Convention::Modified => modified(&step, &before, &qd[i], &qdd[i]),
         };
-        motions.push(motion);
-    }
-    motions
+        before.clone()
+    });
+    motions.collect()
 }
 
 /// The joint moves along z_{i−1}, before the rotation X, and the rows of Table 2 stand as printed.
-fn standard<S: Scalar>(step: &LinkStep<S>, before: &Motion<S>, qd: &S, qdd: &S) -> Motion<S> {
+fn standard<S: Scalar>(step: &Step<S>, before: &Motion<S>, qd: &S, qdd: &S) -> Motion<S> {
     let lever = step.link.lever_here(&step.at.d);
     let of_lever = |omega: &Vector<S>, omega_dot: &Vector<S>| {
         sum(&cross(omega_dot, &lever), &centripetal(omega, &lever))
@@ -160,11 +133,7 @@ fn standard<S: Scalar>(step: &LinkStep<S>, before: &Motion<S>, qd: &S, qdd: &S) 
             let omega_dot = step.to_link(&sum(&before.omega_dot, &turning));
             let acceleration = step.to_link(&before.acceleration);
             let acceleration = sum(&acceleration, &of_lever(&omega, &omega_dot));
-            Motion {
-                omega,
-                omega_dot,
-                acceleration,
-            }
+            Motion::new(omega, omega_dot, acceleration)
         }
         JointKind::Prismatic => {
             let omega = step.to_link(&before.omega);
@@ -173,39 +142,24 @@ fn standard<S: Scalar>(step: &LinkStep<S>, before: &Motion<S>, qd: &S, qdd: &S) 
             let along = scaled(&twice(qd), &step.link.axis_here());
             let coriolis = cross(&omega, &along);
             let acceleration = sum(&sliding, &of_lever(&omega, &omega_dot));
-            let acceleration = sum(&acceleration, &coriolis);
-            Motion {
-                omega,
-                omega_dot,
-                acceleration,
-            }
+            Motion::new(omega, omega_dot, sum(&acceleration, &coriolis))
         }
     }
 }
 
 /// The joint moves along z_i, after the rotation X, and the lever P_i belongs to the previous link.
-fn modified<S: Scalar>(step: &LinkStep<S>, before: &Motion<S>, qd: &S, qdd: &S) -> Motion<S> {
-    let lever = step.lever_before();
-    let of_lever = sum(
-        &cross(&before.omega_dot, &lever),
-        &centripetal(&before.omega, &lever),
-    );
-    let carried = step.to_link(&sum(&before.acceleration, &of_lever));
+fn modified<S: Scalar>(step: &Step<S>, before: &Motion<S>, qd: &S, qdd: &S) -> Motion<S> {
+    let carried = step.to_link(&before.acceleration_at(&step.lever_before()));
     let omega = step.to_link(&before.omega);
     let omega_dot = step.to_link(&before.omega_dot);
     match step.link.kind {
-        JointKind::Revolute => Motion {
-            omega_dot: sum(&omega_dot, &plus_z(&cross_z(&omega, qd), qdd)),
-            omega: plus_z(&omega, qd),
-            acceleration: carried,
-        },
+        JointKind::Revolute => {
+            let omega_dot = sum(&omega_dot, &plus_z(&cross_z(&omega, qd), qdd));
+            Motion::new(plus_z(&omega, qd), omega_dot, carried)
+        }
         JointKind::Prismatic => {
             let sliding = plus_z(&cross_z(&omega, &twice(qd)), qdd);
-            Motion {
-                acceleration: sum(&carried, &sliding),
-                omega,
-                omega_dot,
-            }
+            Motion::new(omega, omega_dot, sum(&carried, &sliding))
         }
     }
 }
@@ -214,29 +168,7 @@ fn plus_z<S: Scalar>(v: &Vector<S>, s: &S) -> Vector<S> {
     [v[0].clone(), v[1].clone(), plus(&v[2], s)]
 }
 
-struct LinkStep<'a, S> {
-    convention: Convention,
-    link: &'a Link<S>,
-    at: &'a DhVariables<S>,
-}
-
-impl<'a, S: Scalar> LinkStep<'a, S> {
-    fn new(arm: &'a Arm<S>, at: &'a [DhVariables<S>], i: usize) -> Self {
-        LinkStep {
-            convention: arm.convention,
-            link: &arm.links[i],
-            at: &at[i],
-        }
-    }
-
-    fn to_link(&self, v: &Vector<S>) -> Vector<S> {
-        self.link.to_link(self.convention, self.at, v)
-    }
-
-    fn to_previous(&self, v: &Vector<S>) -> Vector<S> {
-        self.link.to_previous(self.convention, self.at, v)
-    }
-
+impl<S: Scalar> Step<'_, S> {
     /// Returns P_i = (a_i, −d_i sin α_i, d_i cos α_i) in frame i−1 (modified DH).
     fn lever_before(&self) -> Vector<S> {
         let alpha = &self.link.alpha;
@@ -246,14 +178,10 @@ impl<'a, S: Scalar> LinkStep<'a, S> {
 }
 
 impl<S: Scalar> Link<S> {
-    /// Returns p_i* = (a_i, d_i sin α_i, d_i cos α_i) in frame i (standard DH; turned
-    /// back by β where there is one).
+    /// Returns p_i* = (a_i, d_i sin α_i, d_i cos α_i) in frame i (standard DH, turned back by β).
     fn lever_here(&self, d: &S) -> Vector<S> {
-        self.tilt_back([
-            self.a.clone(),
-            times(d, &self.alpha.sin),
-            times(d, &self.alpha.cos),
-        ])
+        let [y, z] = [&self.alpha.sin, &self.alpha.cos].map(|part| times(d, part));
+        self.tilt_back([self.a.clone(), y, z])
     }
 
     /// Returns X z_0 = (0, sin α_i, cos α_i), the joint's axis in frame i (standard DH).

@@ -1,30 +1,138 @@
-//! The second derivatives of λᵀq̈(q, q̇, τ) for a given λ: what differential dynamic
-//! programming adds to ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ, with λ the slope of the cost to go.
-//! By τ and q̇, and by τ and τ, they vanish.
+//! The second derivatives of λᵀτ and of λᵀq̈(q, q̇, τ) for a given λ.
+//!
+//! By those of λᵀτ optimisers of second order bend what τ is linearised by. Those of λᵀq̈ are what
+//! differential dynamic programming adds to ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ, with λ the slope of the
+//! cost to go; by τ and q̇, and by τ and τ, they vanish.
 
 use alloc::vec::Vec;
 
 use super::derivatives::defect;
 use super::formula::Formula;
 use super::forward_dynamics::accelerations;
-use super::inverse_dynamics_second_derivatives::SHARED;
 use super::operational::factor;
-use super::quantity::{Facts, Index, by_turns, turns};
+use super::quantity::{Facts, Index, by_turns, kilograms, turns};
 use super::{Argument, Regrouped, Written};
 use crate::equations::chain::Unknowns;
 use crate::equations::chain::second_derivatives::SecondDerivatives;
-use crate::equations::factor::scatter;
-use crate::equations::forward::free;
+use crate::equations::derivatives::OfAccelerations;
+use crate::equations::factor::{picked, scatter};
+use crate::equations::forward::{free, hold};
 use crate::equations::matrix::products;
-use crate::equations::second_derivatives::OfAccelerations;
 use crate::scalar::Divide;
 
+pub(super) struct TorqueByPositions;
+pub(super) struct TorqueByPositionAndVelocity;
+pub(super) struct TorqueByVelocities;
+pub(super) struct TorqueByAccelerationAndPosition;
+
+fn of_torques<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S> {
+    let motion = at.motion;
+    let given = [&motion.qd[..], &motion.qdd, &motion.multiplier];
+    let all = || at.composite.second_derivatives(given, at.form.travel);
+    at.shared[0].get_or_init(all)
+}
+
+impl Formula for TorqueByPositions {
+    const FACTS: Facts = Facts {
+        field: "d2tau_dq_dq",
+        letter: "τqq",
+        symbol: "∂²(λᵀτ)/∂q∂q",
+        summary: "∂²(λᵀτ)/∂q∂q, symmetric.",
+        arguments: &[
+            Argument::Position,
+            Argument::Velocity,
+            Argument::Acceleration,
+            Argument::Multiplier,
+        ],
+        unit: |at| by_turns(turns(at), ["N/m", "N", "N·m"]),
+        given: Some("d2tau_dq_dq"),
+        gravity: true,
+        ..Facts::MATRIX
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let (motion, form) = (at.motion, at.formulation);
+        let given = [&motion.qd[..], &motion.qdd, &motion.multiplier];
+        form.torque_by_positions(at.arm, at.at, given).concat()
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        Some(of_torques(at).position.concat())
+    }
+}
+
+impl Formula for TorqueByPositionAndVelocity {
+    const FACTS: Facts = Facts {
+        field: "d2tau_dq_dqd",
+        letter: "τqv",
+        symbol: "∂²(λᵀτ)/∂q∂q̇",
+        summary: "∂²(λᵀτ)/∂q∂q̇: row i has the slopes by q̇ of ∂(λᵀτ)/∂q_i.",
+        arguments: &[Argument::Position, Argument::Velocity, Argument::Multiplier],
+        unit: |at| by_turns(turns(at), ["N·s/m", "N·s", "N·m·s"]),
+        given: Some("d2tau_dq_dqd"),
+        ..Facts::MATRIX
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let (motion, form) = (at.motion, at.formulation);
+        let given = [&motion.qd[..], &motion.multiplier];
+        form.torque_by_position_and_velocity(at.arm, at.at, given)
+            .concat()
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        Some(of_torques(at).mixed.concat())
+    }
+}
+
+impl Formula for TorqueByVelocities {
+    const FACTS: Facts = Facts {
+        field: "d2tau_dqd_dqd",
+        letter: "τvv",
+        symbol: "∂²(λᵀτ)/∂q̇∂q̇",
+        summary: "∂²(λᵀτ)/∂q̇∂q̇, symmetric.",
+        unit: |at| kilograms(turns(at)),
+        given: Some("d2tau_dqd_dqd"),
+        ..TorqueByPositionAndVelocity::FACTS
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let (motion, form) = (at.motion, at.formulation);
+        let given = [&motion.qd[..], &motion.multiplier];
+        form.torque_by_velocities(at.arm, at.at, given).concat()
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        Some(of_torques(at).velocity.concat())
+    }
+}
+
+impl Formula for TorqueByAccelerationAndPosition {
+    const FACTS: Facts = Facts {
+        field: "d2tau_dqdd_dq",
+        letter: "τaq",
+        symbol: "∂²(λᵀτ)/∂q̈∂q",
+        summary: "∂²(λᵀτ)/∂q̈∂q = ∂(D λ)/∂q: row i has the slopes of (D λ)_i.",
+        arguments: &[Argument::Position, Argument::Multiplier],
+        unit: |at| kilograms(turns(at)),
+        given: Some("d2tau_dqdd_dq"),
+        ..Facts::MATRIX
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let (motion, form) = (at.motion, at.formulation);
+        form.torque_by_acceleration_and_position(at.arm, at.at, &motion.multiplier)
+            .concat()
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        Some(of_torques(at).driven.concat())
+    }
+}
+
 pub(super) struct AccelerationByPositions;
-
 pub(super) struct AccelerationByPositionAndVelocity;
-
 pub(super) struct AccelerationByVelocities;
-
 pub(super) struct AccelerationByTorqueAndPosition;
 
 /// D⁻¹ as written, and μ = D⁻¹λ.
@@ -35,10 +143,9 @@ struct Inverted<S> {
 
 impl<S: Divide> Inverted<S> {
     fn new(at: &Written<'_, S>) -> Self {
-        let inverse = at
-            .formulation
-            .inertia_inverse(at.arm, at.at, &at.motion.moves);
-        let raised = products(&inverse, &at.motion.multiplier);
+        let (form, motion) = (at.formulation, at.motion);
+        let inverse = form.inertia_inverse(at.arm, at.at, &motion.moves);
+        let raised = products(&inverse, &motion.multiplier);
         Inverted { inverse, raised }
     }
 
@@ -53,14 +160,12 @@ impl<S: Divide> Inverted<S> {
     }
 }
 
-fn regrouped<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S> {
+fn of_accelerations<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S> {
     let (motion, travel) = (at.motion, at.form.travel);
     let all = || {
         let (factor, free) = (factor(at), free(&motion.moves));
-        let by_inverse = |values: &[S]| {
-            let load: Vec<S> = free.iter().map(|&i| values[i].clone()).collect();
-            scatter(&factor.solve(&load), &free, values.len())
-        };
+        let by_inverse =
+            |values: &[S]| scatter(&factor.solve(&picked(values, &free)), &free, values.len());
         let qdd = accelerations(at, Unknowns::Joints);
         let raised = by_inverse(&motion.multiplier);
         let given = [&motion.qd[..], &qdd, &raised];
@@ -93,7 +198,7 @@ impl Formula for AccelerationByPositions {
         given: Some("d2qdd_dq_dq"),
         inverts_inertia: true,
         gravity: true,
-        ..SHARED
+        ..Facts::MATRIX
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -107,7 +212,7 @@ impl Formula for AccelerationByPositions {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        Some(regrouped(at).position.concat())
+        Some(of_accelerations(at).position.concat())
     }
 }
 
@@ -121,7 +226,7 @@ impl Formula for AccelerationByPositionAndVelocity {
         unit: |at| by_turns(turns(at), ["1/(m²·s)", "1/(m·s)", "1/s"]),
         given: Some("d2qdd_dq_dqd"),
         inverts_inertia: true,
-        ..SHARED
+        ..Facts::MATRIX
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -134,7 +239,7 @@ impl Formula for AccelerationByPositionAndVelocity {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        Some(regrouped(at).mixed.concat())
+        Some(of_accelerations(at).mixed.concat())
     }
 }
 
@@ -158,7 +263,7 @@ impl Formula for AccelerationByVelocities {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        Some(regrouped(at).velocity.concat())
+        Some(of_accelerations(at).velocity.concat())
     }
 }
 
@@ -177,7 +282,7 @@ impl Formula for AccelerationByTorqueAndPosition {
         },
         given: Some("d2qdd_dtau_dq"),
         inverts_inertia: true,
-        ..SHARED
+        ..Facts::MATRIX
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -188,15 +293,11 @@ impl Formula for AccelerationByTorqueAndPosition {
     /// Returns D X + ∂(D μ)/∂q with D μ = λ, of the joints that move.
     fn residual<S: Divide>(at: &Written<'_, S>, values: &[S]) -> Vec<S> {
         let mut driven = Inverted::new(at).driven(at);
-        for row in &mut driven {
-            let held = row.iter_mut().zip(&at.motion.moves);
-            held.filter(|(_, moves)| !**moves)
-                .for_each(|(entry, _)| *entry = S::zero());
-        }
+        hold(&mut driven, &at.motion.moves);
         defect(at, values, &driven)
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        Some(regrouped(at).driven.concat())
+        Some(of_accelerations(at).driven.concat())
     }
 }

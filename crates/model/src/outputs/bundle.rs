@@ -5,23 +5,18 @@
 //! function returns, reads or is called need not know which of the two it is.
 //! [`Function::ManipulatorEquation`] is one that is always there.
 
-mod error;
-
 use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+use core::fmt;
 
 use super::function::{Definition, Made};
 use super::{Columns, Function, Quantity};
 use crate::robot::{ENDINGS, WORDS, is_snake};
 
-pub use error::BundleError;
-
 const PLUS: char = '+';
-
 const IS: char = '=';
-
 const MAX_BYTES: usize = 64;
 
 /// Names that modules use otherwise; with each the struct of the name is taken too.
@@ -36,8 +31,7 @@ const OWN: [&str; 7] = [
 ];
 
 impl Function {
-    /// Returns a function of this name that returns what all of these return, in their
-    /// order; a part that is a bundle stands for its parts.
+    /// Returns what all of these return, in their order, by this name; bundles are their parts.
     ///
     /// ```
     /// use dalembert_model::outputs::Function;
@@ -72,25 +66,23 @@ impl Function {
             return Err(BundleError::new(message, help));
         }
         let mut results: Vec<(Quantity, Function)> = Vec::new();
-        for &part in &parts {
-            for &quantity in part.quantities() {
-                let field = quantity.field();
-                let same = |(other, _): &&(Quantity, Function)| other.field() == field;
-                if let Some(&(other, by)) = results.iter().find(same) {
-                    let one = "leave one of them out";
-                    return Err(if other != quantity {
-                        let message =
-                            format!("`{by}` and `{part}` would both be the field `{field}`");
-                        BundleError::new(message, "ask for one of them by itself")
-                    } else if by == part {
-                        BundleError::new(format!("`{by}` is in it twice"), one)
-                    } else {
-                        let both = format!("`{by}` and `{part}` both return {}", quantity.symbol());
-                        BundleError::new(both, one)
-                    });
-                }
-                results.push((quantity, part));
+        let own = |&part: &Function| part.quantities().iter().map(move |&own| (own, part));
+        for (quantity, part) in parts.iter().flat_map(own) {
+            let field = quantity.field();
+            let same = |(other, _): &&(Quantity, Function)| other.field() == field;
+            if let Some(&(other, by)) = results.iter().find(same) {
+                let one = "leave one of them out";
+                return Err(if other != quantity {
+                    let message = format!("`{by}` and `{part}` would both be the field `{field}`");
+                    BundleError::new(message, "ask for one of them by itself")
+                } else if by == part {
+                    BundleError::new(format!("`{by}` is in it twice"), one)
+                } else {
+                    let both = format!("`{by}` and `{part}` both return {}", quantity.symbol());
+                    BundleError::new(both, one)
+                });
             }
+            results.push((quantity, part));
         }
         let results: Vec<Quantity> = results.into_iter().map(|(quantity, _)| quantity).collect();
         let text = joined(name, &parts);
@@ -109,8 +101,7 @@ impl Function {
         camel(self.name())
     }
 
-    /// Returns the functions that it bundles, in their order; a function that is none is
-    /// its only part.
+    /// Returns the functions that it bundles, in their order, or itself if it is no bundle.
     pub fn parts(self) -> Vec<Function> {
         match self {
             Function::Bundle(bundle) => bundle.0.parts.to_vec(),
@@ -118,8 +109,7 @@ impl Function {
         }
     }
 
-    /// Returns its name, and what it bundles if it is a bundle, without spaces:
-    /// `servo=inverse_dynamics+jacobian`. [`Function::parse`] reads it.
+    /// Returns what [`Function::parse`] reads, without spaces: `servo=inverse_dynamics+jacobian`.
     pub fn text(self) -> String {
         match self {
             Function::Bundle(bundle) => joined(self.name(), bundle.0.parts),
@@ -162,8 +152,7 @@ impl Function {
         }
     }
 
-    /// Returns these functions in the order of generated files, each once: those of
-    /// [`Function::ALL`] in its order, then bundles as they come.
+    /// Returns these functions, each once: in the order of [`Function::ALL`], then as they come.
     pub fn in_order(wanted: &[Function]) -> Vec<Function> {
         let mut ordered: Vec<Function> = Function::ALL.to_vec();
         ordered.retain(|function| wanted.contains(function));
@@ -226,19 +215,80 @@ fn summary(parts: &[Function]) -> String {
         Some(part) => format!(" Columns are those of `{part}`."),
         None => String::new(),
     };
-    match names.split_last() {
-        Some((last, others)) => format!(
-            "{} and {last} in one function that shares their work.{over}",
-            others.join(", ")
-        ),
-        None => String::new(),
-    }
+    let Some((last, others)) = names.split_last() else {
+        return String::new();
+    };
+    let others = others.join(", ");
+    format!("{others} and {last} in one function that shares their work.{over}")
 }
 
 /// Returns a text for as long as the process runs.
 pub(super) fn kept(text: String) -> &'static str {
     Box::leak(text.into_boxed_str())
 }
+
+/// Why there is no such bundle.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct BundleError {
+    /// The mistake.
+    pub message: String,
+    /// The likely fix.
+    pub help: String,
+    /// The word that names no output, if this is what is wrong.
+    pub unknown: Option<String>,
+}
+
+impl BundleError {
+    pub(super) fn new(message: String, help: impl Into<String>) -> BundleError {
+        BundleError {
+            message,
+            help: help.into(),
+            unknown: None,
+        }
+    }
+
+    pub(super) fn of_unknown(word: &str) -> BundleError {
+        let (message, help) = match word {
+            "" => (
+                "expected an output".to_string(),
+                "write its name, such as `gravity`",
+            ),
+            word => (
+                format!("unknown output `{word}`"),
+                "a bundle is NAME = OUTPUT + OUTPUT",
+            ),
+        };
+        BundleError {
+            unknown: Some(word.to_string()),
+            ..BundleError::new(message, help)
+        }
+    }
+
+    /// Returns the error where these functions are known too: a word may be a bundle among them.
+    #[must_use]
+    pub fn among(self, functions: &[Function]) -> BundleError {
+        let word = self.unknown.as_deref();
+        let is_it = |function: &&Function| {
+            matches!(function, Function::Bundle(_)) && word == Some(function.name())
+        };
+        let Some(bundle) = functions.iter().find(is_it) else {
+            return self;
+        };
+        let parts: Vec<&str> = bundle.parts().iter().map(|part| part.name()).collect();
+        let parts = parts.join(" + ");
+        let help = format!("bundles do not nest: write its parts, {parts}");
+        BundleError::new(format!("`{bundle}` is a bundle itself"), help)
+    }
+}
+
+impl fmt::Display for BundleError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.message, self.help)
+    }
+}
+
+impl core::error::Error for BundleError {}
 
 #[cfg(test)]
 mod tests {

@@ -1,0 +1,270 @@
+//! Functions of any number of states in columns: entry i of state s stands at `i * n + s`. In C
+//! that is `NAME_batch`, in CUDA a kernel; in Rust `NAME_columns`, by the crate `dalembert-batch`,
+//! which asks the processor what vectors it has.
+//!
+//! The type `…Batch` tells that crate about the function, and has its arithmetic over vectors:
+//!
+//! ```text
+//! fn angles<V: dalembert_batch::Floats<f64>>([q]: &[[V; 2]; 1]) -> [V; 1] {
+//!     [q[0]]
+//! }
+//!
+//! fn vectors<V: dalembert_batch::Vector<f64>>([q]: &[[V; 2]; 1], &[s1]: &[V; 1], &[c1]: &[V; 1]) -> [V; 2] {
+//!     let of = q[0];
+//!     let t1 = c1 * of.all(0.5);
+//!     …
+//! }
+//! ```
+//!
+//! It is a text of its own, since one that both took would slow down the other: unoptimised, each
+//! operator of a type that nobody knows is a call.
+
+use super::c99::{
+    Names, argument_structure, float, is_bundle, is_number, is_told, largest, structure_name,
+};
+use super::dialect::{Dialect, Lines};
+use super::{Language, function, list, trig};
+use crate::function::{Argument, Function};
+use crate::program::{Code, Literal, Program};
+
+/// In u; the documentation of `dalembert-sines` proves it.
+const FUSED_ERROR: f64 = 0.83;
+
+pub(crate) fn columns(program: &Program, code: &Code) -> String {
+    let name = program.function.name();
+    let kind = format!("{}Batch", program.function.camel());
+    let (n, scalar) = (program.joints, code.scalar);
+    let arguments = program.arguments.iter().map(|argument| argument.name());
+    let arguments: Vec<&str> = arguments.collect();
+    let (count, entries) = (arguments.len(), code.dag.outputs.len());
+    let taken = trig::taken(code).count();
+    let sizes = format!("{count}, {n}, {entries}, {taken}");
+    let bits = match fuses_sines(code) {
+        false => {
+            "/// the processor has; bit for bit the results that each has alone, or a NaN for a NaN.".to_owned()
+        }
+        true => format!(
+            "/// the processor has: the same bits on every one, but not those of [`{name}`]. Products are fused\n\
+             /// in the sines and cosines as well, which are proved to err by at most {FUSED_ERROR} u, u = {}, up to\n\
+             /// {:?} rad; beyond, they are libm's.",
+            scalar.of("2⁻⁵³", "2⁻²⁴"),
+            largest(scalar)
+        ),
+    };
+    let mut text = format!(
+        "/// [`{name}`] as the functions of `dalembert-batch` take it.\n\
+         #[derive(Clone, Copy, Debug)]\npub struct {kind};\n\n\
+         impl dalembert_batch::Function<{sizes}> for {kind} {{\n    \
+         type Scalar = {scalar};\n"
+    );
+    if fuses_sines(code) {
+        text.push_str("    const FUSED: bool = true;\n");
+    }
+    text.push('\n');
+    write_vectors(&mut text, program, code);
+    let parameter = |name: &&str| format!("{name}: &[&[{scalar}]; {n}], ");
+    let parameters: String = arguments.iter().map(parameter).collect();
+    text += &format!(
+        "}}\n\n/// [`{name}`] at any number of states in columns: a slice for every entry of an argument, and of\n\
+         /// the result in the order of its text. It is computed with the vectors that\n\
+         {bits}\n\
+         ///\n/// # Errors\n/// The slices are of different lengths; then nothing is computed.\n\
+         pub fn {name}_columns({parameters}results: &mut [&mut [{scalar}]; {entries}]) -> Result<(), dalembert_batch::Unequal> {{\n    \
+         dalembert_batch::columns::<{kind}, {sizes}>([{}], results)\n}}\n",
+        arguments.join(", "),
+    );
+    text
+}
+
+fn fuses_sines(code: &Code) -> bool {
+    code.counts().fma > 0 && trig::taken(code).next().is_some()
+}
+
+fn write_vectors(text: &mut String, program: &Program, code: &Code) {
+    write_angles(text, program, code);
+    let dialect = Dialect::vectors(code.scalar);
+    let mut body = String::new();
+    trig::write_each(&mut body, code, dialect, |function, angle| {
+        let method = if function == "sincos" { "both" } else { "each" };
+        let suffix = code.scalar.math_suffix();
+        format!("{angle}.{method}(libm::{function}{suffix})")
+    });
+    let is_computed = !body.is_empty();
+    trig::write_speeds(&mut body, dialect, code, "dalembert_batch");
+    function::write_steps(&mut body, code, dialect);
+    let results = list(Lines::new(dialect, code).results());
+    let first = program.arguments.first().map_or("", |first| first.name());
+    let of = match body.contains("of.all(") || results.contains("of.all(") {
+        true => format!("        let of = {first}[0];\n"),
+        false => String::new(),
+    };
+    let (count, n) = (program.arguments.len(), program.joints);
+    let entries = code.dag.outputs.len();
+    let arguments = program.arguments.iter().map(|&argument| {
+        let is_read = function::reads_entry(code, argument)
+            || (argument == Argument::Position && is_computed)
+            || (argument.name() == first && !of.is_empty());
+        marked(argument.name(), is_read)
+    });
+    let ([sin, cos], taken) = (trig::taken_names(code), trig::taken(code).count());
+    *text += &format!(
+        "\n    #[inline(always)]\n    \
+         fn vectors<V: dalembert_batch::Vector<{}>>([{}]: &[[V; {n}]; {count}], \
+         &[{sin}]: &[V; {taken}], &[{cos}]: &[V; {taken}]) -> [V; {entries}] {{\n",
+        code.scalar,
+        list(arguments),
+    );
+    text.push_str(&of);
+    for line in body.lines() {
+        *text += &format!("    {line}\n");
+    }
+    *text += &format!("        [{results}]\n    }}\n");
+}
+
+fn marked(name: &str, is_read: bool) -> String {
+    format!("{}{name}", if is_read { "" } else { "_" })
+}
+
+fn write_angles(text: &mut String, program: &Program, code: &Code) {
+    let (n, count) = (program.joints, program.arguments.len());
+    let angles: Vec<_> = trig::taken(code).map(|pair| pair.joint).collect();
+    let arguments = program.arguments.iter().map(|argument| {
+        let is_read = *argument == Argument::Position && !angles.is_empty();
+        marked(argument.name(), is_read)
+    });
+    *text += &format!(
+        "    #[inline(always)]\n    \
+         fn angles<V: dalembert_batch::Floats<{}>>([{}]: &[[V; {n}]; {count}]) -> [V; {}] {{\n",
+        code.scalar,
+        list(arguments),
+        angles.len()
+    );
+    let angles = list(angles.iter().map(|&own| trig::operand(own)));
+    *text += &format!("        [{angles}]\n    }}\n");
+}
+
+struct Columns {
+    parameters: Vec<String>,
+    gathered: String,
+    passed: Vec<String>,
+    stored: String,
+}
+
+impl Columns {
+    fn of(program: &Program, names: &Names, restrict: &str) -> Columns {
+        let (function, sizes) = (program.function, program.sizes());
+        let float = float(names.dialect().scalar);
+        let (mut parameters, mut passed) = (vec!["const size_t n".to_owned()], Vec::new());
+        let (mut gathered, mut stored) = (String::new(), String::new());
+        let at = |index: usize| match index {
+            0 => "s".to_owned(),
+            1 => "n + s".to_owned(),
+            more => format!("({more}U * n) + s"),
+        };
+        for &argument in &program.arguments {
+            let (name, length) = (argument.name(), argument.length(sizes));
+            parameters.push(format!("const {float} *{restrict} {name}"));
+            let entries = list((0..length).map(|index| format!("{name}[{}]", at(index))));
+            gathered += &match argument_structure(argument, names) {
+                Some(kind) => {
+                    format!("        const {kind} {name}_s[1] = {{{{{{{entries}}}}}}};\n")
+                }
+                None => format!("        const {float} {name}_s[{length}] = {{{entries}}};\n"),
+            };
+            passed.push(format!("{name}_s"));
+        }
+        if is_bundle(function) && !is_number(function) {
+            let kind = structure_name(function, names);
+            gathered += &format!("        {kind} result_s[1];\n");
+            passed.push("result_s".to_owned());
+        }
+        for quantity in function.quantities() {
+            let (field, length) = (quantity.field(), quantity.len(sizes));
+            parameters.push(format!("{float} *{restrict} {field}"));
+            if is_number(function) {
+                continue;
+            }
+            let mut array = format!("result_s->{field}");
+            if !is_bundle(function) {
+                array = format!("{field}_s");
+                gathered += &format!("        {float} {array}[{length}];\n");
+                passed.push(array.clone());
+            }
+            for index in 0..length {
+                let place = at(index);
+                stored += &format!("        {field}[{place}] = {array}[{index}];\n");
+            }
+        }
+        Columns {
+            parameters,
+            gathered,
+            passed,
+            stored,
+        }
+    }
+
+    fn call(&self, function: Function, names: &Names, is_told: bool) -> String {
+        let passed = self.passed.join(", ");
+        let mut call = match is_told {
+            true => format!("{}(0, {passed})", names.of(&format!("{function}_any"))),
+            false => format!("{}({passed})", names.of(function.name())),
+        };
+        if is_number(function) {
+            call = format!("{}[s] = {call}", function.quantities()[0].field());
+        }
+        format!("        {call};\n{}", self.stored)
+    }
+}
+
+pub(crate) fn batch(program: &Program, code: &Code, names: &Names) -> String {
+    if names.language() == Language::Cuda {
+        return kernel(program, names);
+    }
+    let [restrict, simd] = ["RESTRICT", "SIMD"].map(|word| names.constant(word));
+    let (is_told, function) = (is_told(code, names), program.function);
+    let columns = Columns::of(program, names, &restrict);
+    let gathered = &columns.gathered;
+    let body = |is_told: bool, when: &str| {
+        let call = columns.call(function, names, is_told);
+        format!("    for (s = 0U; s < n; ++s) {{\n{gathered}{when}{call}    }}\n")
+    };
+    let mut again = String::new();
+    if is_told {
+        let (scalar, joints) = (code.scalar, program.joints);
+        let far = largest(scalar) / joints.next_power_of_two() as f64;
+        let (far, f) = (names.dialect().literal(Literal(far)), scalar.math_suffix());
+        let near = (0..joints).map(|joint| format!("(fabs{f}(q_s[{joint}]) <= {far})"));
+        let near = near.collect::<Vec<String>>().join(" && ");
+        let when = format!("        if ({near}) {{\n            continue;\n        }}\n");
+        again = body(false, &when);
+    }
+    format!(
+        "/* {} at n states, in columns: entry i of state s stands at i * n + s. Each state\n \
+         * has the results that it has alone, bit for bit. */\n\
+         #if defined(__GNUC__)\n__attribute__((flatten))\n#endif\n\
+         static inline void {}({})\n{{\n    size_t s;\n    {simd}\n{}{again}}}\n",
+        names.of(function.name()),
+        names.of(&format!("{function}_batch")),
+        columns.parameters.join(", "),
+        body(is_told, "")
+    )
+}
+
+/// Each thread takes its own state, then every state after as many as there are threads.
+fn kernel(program: &Program, names: &Names) -> String {
+    let function = program.function;
+    let columns = Columns::of(program, names, "__restrict__");
+    format!(
+        "/* {} at n states, in columns: entry i of state s stands at i * n + s. Any number of\n \
+         * threads in one dimension: each takes a state, then the one as many further on as there are\n \
+         * threads. Each state has the results that it has alone, bit for bit. */\n\
+         static __global__ void {}({})\n{{\n    \
+         const size_t threads = (size_t)gridDim.x * blockDim.x;\n    size_t s;\n    \
+         for (s = ((size_t)blockIdx.x * blockDim.x) + threadIdx.x; s < n; s += threads) {{\n{}{}    }}\n}}\n",
+        names.of(function.name()),
+        names.of(&format!("{function}_batch")),
+        columns.parameters.join(", "),
+        columns.gathered,
+        columns.call(function, names, false)
+    )
+}
