@@ -16,7 +16,6 @@ mod emit;
 mod figures;
 mod function;
 mod generate;
-mod interval;
 mod language;
 mod parallel;
 mod plan;

@@ -12,7 +12,6 @@ pub use crate::generate::{
     search::{Found, replay, search},
     tolerate::admitted,
 };
-pub use crate::interval::Interval;
 pub use crate::language::{
     function::write as write_function,
     names::Names,
@@ -34,6 +33,7 @@ pub use crate::setup::{
     base::{BaseParameters, Parameter},
     input_hash,
 };
+pub use crate::sincos::interval::Interval;
 pub use crate::sincos::{AngleKernel, Sines, choose::Candidates, stated};
 pub use crate::states::{JointState, SEED, STATES, State, positions, seeded};
 pub use crate::task::Job;

@@ -218,6 +218,7 @@ scara    | lock = { 3 = 0.1 } | TORQUES, jacobian | 7
 coulomb  | | forward_dynamics, inverse_dynamics_derivatives, momentum_observer, forward_dynamics_derivatives | 4
 coulomb  | velocity = "zero" | inverse_dynamics, inverse_dynamics_derivatives | 2
 coulomb  | | forward_dynamics_second_derivatives | 1
+nearpar  | | inverse_dynamics, gravity, forward_dynamics | 3
 wafer    | | coriolis_matrix, forward_dynamics | 2
 planar3r | | inverse_dynamics, gravity; parameters: gravity | 2
 "#,

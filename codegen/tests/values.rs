@@ -39,6 +39,7 @@ base_and_tool   | inverse_dynamics, forward_kinematics, link_poses, jacobian, ja
     r#"
 planar3r | reach = gravity + jacobian, coriolis | lock = { 2 = "pi/2" }; velocity = "zero" | 50
 coulomb  | inverse_dynamics; formulation: lagrange_euler | | 20
+nearpar | inverse_dynamics, inertia | | 50
 nearly_parallel | inverse_dynamics, coriolis, forward_kinematics, jacobian_rate | | 50
 frames/planar3r | FRAMES; parameters: payload, gravity | | 60
 frames/planar3r | FRAMES | lock = { 2 = 0.4 } | 60

@@ -7,12 +7,12 @@
 use super::GeneratedFunction;
 use super::variant::held;
 use crate::function::Argument;
-use crate::interval::Interval;
 use crate::language::c99::{Names, float};
 use crate::language::list;
 use crate::program::{Literal, ScalarType};
 use crate::setup::Setup;
 use crate::sincos;
+use crate::sincos::interval::Interval;
 use crate::tolerance::variant::Variant;
 
 pub(super) struct StateBox {

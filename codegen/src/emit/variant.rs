@@ -7,9 +7,9 @@ use dalembert_model::scene::Scale;
 use super::say;
 use crate::figures::{at_least, bound as up, inside};
 use crate::function::{Argument, ErrorScale, Quantity};
-use crate::interval::Interval;
 use crate::program::Program;
 use crate::setup::Setup;
+use crate::sincos::interval::Interval;
 use crate::tolerance::input_box::payloads;
 use crate::tolerance::variant::{Admitted, Variant};
 

@@ -93,7 +93,7 @@ pub(super) fn warn_of_overflow(
     let Ok(limits) = InputBox::of(robot) else {
         return;
     };
-    let overflows = overflows(program, scalar, &[], &limits, 1);
+    let overflows = overflows(program, scalar, &limits);
     if let Some(first) = overflows.first() {
         warnings.push(format!(
             "`{}` in {scalar}, inside the robot's limits: {first}; {} more like it",

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use super::forms::{Centre, Form};
 use super::proof::{Errors, prove};
 use super::series::Fit;
-use crate::interval::Interval;
 use crate::program::ScalarType;
 use crate::program::kernel::{Kernel, Need};
+use crate::sincos::interval::Interval;
 use crate::sincos::reduction;
 
 #[derive(Clone, Debug, PartialEq)]

@@ -5,6 +5,7 @@
 
 pub(crate) mod choose;
 pub(crate) mod forms;
+pub(crate) mod interval;
 pub(crate) mod poly;
 pub(crate) mod proof;
 pub(crate) mod reach;
@@ -14,9 +15,9 @@ pub(crate) mod series;
 #[cfg(test)]
 mod tests;
 
-use crate::interval::Interval;
 use crate::program::kernel::Kernel;
 use crate::program::{Code, Library, Pair, Program, ScalarType};
+use crate::sincos::interval::Interval;
 use crate::words::words;
 use choose::Candidates;
 use dalembert_model::robot::{JointKind, Robot};

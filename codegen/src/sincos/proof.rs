@@ -5,7 +5,10 @@
 //! polynomials on pieces of the range, in integers: the sum of the coefficients' magnitudes bounds
 //! it, and what Taylor leaves out is added.
 //!
-//! **Rounding.** As of every other code ([`crate::interval::rounding`]), over sub-ranges.
+//! **Rounding.** Over sub-ranges: every operation gives (x ∘ y)(1 + δ) + η. Each interval is widened by
+//! that, so it holds what is computed *and* what is exact. The error of a result is exactly Σ own
+//! error of a node · adjoint of the node, with adjoints that mix computed and exact operands; both
+//! are in the intervals, so the sum bounds the whole error, not only its first order.
 //!
 //! **Reduction.** Where whole turns are taken off first, both hold for what
 //! is left of the angle, and a sine moves no more than its angle.
@@ -13,15 +16,14 @@
 use num_bigint::BigInt;
 use num_traits::One;
 
+use super::interval::Interval;
 use super::poly::Poly;
 use super::reduction;
 use super::series::{FARTHEST, Taylor, Wave};
 use crate::dag::{Edge, Node};
-use crate::interval::Interval;
-use crate::interval::rounding::{Forward, forward};
-use crate::program::kernel::{Angle, Kernel, Need};
+use crate::program::kernel::{Kernel, Need};
 use crate::program::scalar_type::underflow;
-use crate::program::{Literal, Operation, ScalarType};
+use crate::program::{Operation, ScalarType};
 
 /// Proved bounds of |computed − true|; zero for what is not computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -169,19 +171,39 @@ fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
     worst
 }
 
+/// Intervals that hold what is exact and what is computed, and each node's own rounding.
+struct Forward {
+    values: Vec<Interval>,
+    own: Vec<f64>,
+}
+
 fn ranges(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> Forward {
     let u = scalar.unit_roundoff();
-    let leaf = |_, node: &Node<Literal, Angle>| match node {
-        Node::Constant(value) => (Interval::point(value.0), 0.0),
-        _ => (angle, 0.0),
+    let mut ran = Forward {
+        values: Vec::with_capacity(kernel.dag.nodes.len()),
+        own: Vec::with_capacity(kernel.dag.nodes.len()),
     };
-    forward(&kernel.dag, leaf, |_, operation, exact| {
-        let eta = match operation {
-            Operation::Add | Operation::Sub => 0.0,
-            Operation::Mul | Operation::Fused | Operation::Div => underflow(scalar),
+    for node in &kernel.dag.nodes {
+        let (value, own) = match node {
+            Node::Constant(value) => (Interval::point(value.0), 0.0),
+            Node::Input(_) => (angle, 0.0),
+            Node::Apply(operation, operands) => {
+                let [x, y] = operands.map(|id| ran.values[id as usize]);
+                let (exact, eta) = match operation {
+                    Operation::Add | Operation::Sub => (operation.apply(&x, &y), 0.0),
+                    Operation::Mul | Operation::Fused if operands[0] == operands[1] => {
+                        (x.square(), underflow(scalar))
+                    }
+                    _ => (operation.apply(&x, &y), underflow(scalar)),
+                };
+                let own = ((u * exact.magnitude()).next_up() + eta).next_up();
+                (exact.widened(own), own)
+            }
         };
-        ((u * exact.magnitude()).next_up() + eta).next_up()
-    })
+        ran.values.push(value);
+        ran.own.push(own);
+    }
+    ran
 }
 
 /// Returns Σ |adjoint|·rounding for one result.

@@ -5,8 +5,8 @@ use std::fmt;
 
 use super::choose::Candidates;
 use crate::figures::{above, bound_of};
-use crate::interval::Interval;
 use crate::program::{Need, ScalarType};
+use crate::sincos::interval::Interval;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct OutOfReach {

@@ -8,10 +8,10 @@ use dalembert_model::number::{Angle, Rational, Rounded};
 use num_traits::float::FloatCore;
 
 use crate::dag::{Id, Node};
-use crate::interval::Interval;
 use crate::program::kernel::{Kernel, KernelWriter};
 use crate::program::scalar_type::underflow;
 use crate::program::{Literal, Operation, ScalarType};
+use crate::sincos::interval::Interval;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rest {

@@ -8,11 +8,11 @@ use super::input_box::InputBox;
 use super::sample::climb;
 use super::variant::Variant;
 use crate::function::Argument;
-use crate::interval::Interval;
 use crate::language::read::{Signature, TextError};
 use crate::program::{Code, ScalarType};
 use crate::random::Random;
 use crate::setup::Setup;
+use crate::sincos::interval::Interval;
 use crate::states::JointState;
 use crate::verify::truth::Reference;
 

@@ -18,10 +18,10 @@ use super::variant::{Admitted, Variant};
 use super::work::Meter;
 use super::{scale, shape};
 use crate::function::Argument;
-use crate::interval::Interval;
 use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::setup::Setup;
 use crate::sincos::AngleKernel;
+use crate::sincos::interval::Interval;
 use crate::states::JointState;
 use crate::watch::{FunctionWatch, Part};
 use crate::words::{Complaint, complaint};
@@ -36,7 +36,6 @@ const CANDIDATES: usize = 6;
 const PARTS: [f64; 5] = [1.0, 0.5, 0.2, 0.05, 0.01];
 /// An error may be larger than what climbs reach by this part.
 const REACHED: f64 = 1e-3;
-const SUB_BOXES: usize = 256;
 
 /// A function, its box, and what errors are relative to.
 pub struct Budget<'a> {
@@ -162,7 +161,7 @@ impl<'a> Budget<'a> {
         };
         let wider = scalar.of("", ", or choose a wider scalar");
         // Bounds of rounding are of numbers that the scalar holds.
-        if let Some(first) = overflows(&emitted, scalar, sines, &self.limits, SUB_BOXES).first() {
+        if let Some(first) = overflows(&emitted, scalar, &self.limits).first() {
             return Err(ToleranceError::Overflow(complaint(format!(
                 "inside the box {first} in {scalar}, and no error is bounded of what overflows: \
                  bound the box, choose other units{wider}"

@@ -7,10 +7,10 @@ use dalembert_checker::domain::Domain;
 
 use super::input_box::InputBox;
 use super::reference;
-use crate::interval::Interval;
 use crate::program::Program;
 use crate::random::Random;
 use crate::sincos::AngleKernel;
+use crate::sincos::interval::Interval;
 use crate::states::JointState;
 use crate::words::{Complaint, complaint};
 

@@ -7,9 +7,9 @@ use dalembert_model::number::Rounded;
 use dalembert_model::robot::{Joint, JointKind, Limit, Position, Robot};
 
 use crate::function::{Argument, Function};
-use crate::interval::Interval;
-use crate::program::{Input, Program, ScalarType};
+use crate::program::ScalarType;
 use crate::setup::Setup;
+use crate::sincos::interval::Interval;
 use crate::sincos::stated;
 use crate::words::{Complaint, complaint};
 
@@ -139,39 +139,6 @@ impl InputBox {
         };
         ranges.map(range).collect()
     }
-
-    pub(super) fn parts(&self, program: &Program, boxes: usize) -> Vec<InputBox> {
-        let joints: Vec<usize> = program.trig().iter().map(|trig| trig.joint).collect();
-        let mut joints = joints.iter().cycle();
-        let mut all = vec![self.clone()];
-        while all.len() * 2 <= boxes
-            && let Some(&joint) = joints.next()
-        {
-            let halves = |part: InputBox| {
-                part.position[joint].split().map(|half| {
-                    let mut part = part.clone();
-                    part.position[joint] = half;
-                    part
-                })
-            };
-            all = all.into_iter().flat_map(halves).collect();
-        }
-        all
-    }
-
-    /// Returns the values that an input takes.
-    pub fn input(&self, input: Input) -> Interval {
-        match input {
-            Input::Sin(joint) => self.position[joint].sin(),
-            Input::Cos(joint) => self.position[joint].cos(),
-            // Of what reads it no bound is known; this one is true.
-            Input::PerSpeed(_) => Interval::ALL,
-            Input::Entry(argument, joint) => {
-                let range = self.of_argument(argument).get(joint);
-                range.copied().unwrap_or(Interval::ALL)
-            }
-        }
-    }
 }
 
 /// Returns true if a joint may stand anywhere, however many turns: it has no limits. Everything
@@ -199,6 +166,7 @@ fn position(joint: &Joint) -> Option<Interval> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::program::Program;
     use crate::tolerance::scale;
     use dalembert_model::read::parse;
 

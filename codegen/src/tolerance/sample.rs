@@ -2,8 +2,8 @@
 
 use super::input_box::InputBox;
 use crate::function::Argument;
-use crate::interval::Interval;
 use crate::random::Random;
+use crate::sincos::interval::Interval;
 use crate::states::JointState;
 
 /// Returns a state of the box: each coordinate at an end, in the middle or anywhere.

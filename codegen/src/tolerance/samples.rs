@@ -10,9 +10,9 @@ use dalembert_checker::domain::corners;
 use super::input_box::InputBox;
 use super::sample::draw;
 use crate::function::Argument;
-use crate::interval::Interval;
 use crate::program::{Input, Program};
 use crate::random::Random;
+use crate::sincos::interval::Interval;
 
 /// The most velocities whose corners are tried together.
 const CORNERS: usize = 10;

@@ -12,9 +12,9 @@
 use super::input_box::InputBox;
 use super::net::Net;
 use super::samples::Samples;
-use crate::interval::Interval;
 use crate::program::{Input, Pair, Program, ScalarType};
 use crate::sincos::choose::{Candidates, Choice};
+use crate::sincos::interval::Interval;
 use crate::sincos::{self, AngleKernel, Sines};
 use crate::words::{Complaint, complaint};
 

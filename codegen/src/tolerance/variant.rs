@@ -5,12 +5,12 @@ use dalembert_model::scene::Scale;
 
 use super::input_box::{InputBox, turns_freely};
 use super::sample::draw;
-use crate::interval::Interval;
 use crate::language::function;
 use crate::language::read::{Signature, TextError};
 use crate::program::{Code, Library, Program, ScalarType};
 use crate::random::Random;
 use crate::sincos::Sines;
+use crate::sincos::interval::Interval;
 use crate::states::JointState;
 use crate::verify::exact::prove_same;
 
