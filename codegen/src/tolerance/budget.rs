@@ -277,6 +277,7 @@ impl<'a> Budget<'a> {
                 allowances: &allowances,
                 effort,
                 watch,
+                meter,
             };
             found = search::programs(target, from);
         }

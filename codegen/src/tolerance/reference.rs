@@ -89,15 +89,12 @@ impl Reference {
             ratio: 0.0,
             positions: Vec::new(),
         };
-        let written = read(program).ok();
-        let written = written.and_then(|own| self.domain.write(&own, None).ok());
-        let Some(written) = written.filter(|own| own.len() == self.exact.len()) else {
+        let Some(differences) = self.differences(program).ok() else {
             verdict.is_within = false;
             return verdict;
         };
-        for ((own, exact), allowed) in written.iter().zip(&self.exact).zip(allowed) {
-            let difference = own.plus(&exact.negated());
-            let (found, position) = self.domain.decide(&difference, *allowed);
+        for (difference, allowed) in differences.iter().zip(allowed) {
+            let (found, position) = self.domain.decide(difference, *allowed);
             work::count(found.steps as usize / work::UNIT);
             // What is neither shown nor refuted is for the checker, which may take longer.
             verdict.is_within &= found.is_shown || found.is_open && found.reached <= OPEN * allowed;
@@ -141,13 +138,19 @@ impl Reference {
     /// # Errors
     /// A program that the checker refuses.
     pub(super) fn reached(&self, program: &Program) -> Result<Vec<f64>, Complaint> {
+        let differences = self.differences(program)?;
+        let reached = |own| self.domain.decide(own, 0.0).0.reached;
+        Ok(differences.iter().map(reached).collect())
+    }
+
+    /// Writes out what a program, which has the results of the exact one, differs by from that.
+    fn differences(&self, program: &Program) -> Result<Vec<Polynomial>, Complaint> {
         let written = self.domain.write(&read(program)?, None);
         let written = written.map_err(|fault| complaint(fault.to_string()))?;
-        let each = written.iter().zip(&self.exact).map(|(own, exact)| {
-            let difference = own.plus(&exact.negated());
-            self.domain.decide(&difference, 0.0).0.reached
-        });
-        Ok(each.collect())
+        let pairs = written.iter().zip(&self.exact);
+        Ok(pairs
+            .map(|(own, exact)| own.plus(&exact.negated()))
+            .collect())
     }
 
     pub(super) fn domain(&self) -> &Domain {

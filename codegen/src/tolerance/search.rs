@@ -23,6 +23,8 @@ use crate::search::{Effort, search};
 use crate::setup::Setup;
 use crate::watch::{FunctionWatch, Part};
 
+/// The sampled positions, to begin with.
+const POSITIONS: usize = 24;
 /// The parts of the allowances, one after the other.
 const PARTS: [f64; 6] = [0.5, 0.8, 1.0, 1.0, 1.0, 1.0];
 /// The times that the engine decides about a part.
@@ -52,10 +54,8 @@ const POLISH: usize = 8;
 /// The effort of a search: counted, never timed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchEffort {
-    /// The sampled positions.
-    pub positions: usize,
-    /// The smaller models that are started from; none where work is limited.
-    pub models: usize,
+    /// `true` if smaller models are started from, too; not where work is limited.
+    pub has_models: bool,
     /// The times that parts of what went are taken back and chosen anew.
     pub retries: usize,
     /// The times that the best starts are tried again.
@@ -69,8 +69,7 @@ pub struct SearchEffort {
 impl SearchEffort {
     /// For who waits: seconds for a six-joint arm.
     pub const QUICK: SearchEffort = SearchEffort {
-        positions: 24,
-        models: 0,
+        has_models: false,
         retries: 0,
         again: 0,
         simplify: Effort::Quick,
@@ -78,9 +77,8 @@ impl SearchEffort {
     };
     /// For a report on several tolerances.
     pub const REPORT: SearchEffort = SearchEffort {
-        models: 8,
+        has_models: true,
         retries: RETRIES,
-        again: 1,
         ..SearchEffort::QUICK
     };
     /// The most: minutes for a six-joint arm.
@@ -110,14 +108,21 @@ pub(super) struct Target<'a> {
     pub(super) allowances: &'a [f64],
     pub(super) effort: &'a SearchEffort,
     pub(super) watch: FunctionWatch<'a>,
+    pub(super) meter: Meter,
+}
+
+impl Target<'_> {
+    pub(super) fn is_over(&self) -> bool {
+        self.meter.is_over() || self.watch.is_over()
+    }
 }
 
 /// Returns programs within the allowances that are cheaper than the exact one, the cheapest first.
 pub(super) fn programs(target: Target<'_>, from: &[Program]) -> Vec<Program> {
     let effort = target.effort;
-    let mut starts = match effort.models {
-        0 => Vec::new(),
-        _ => reduce::programs(target),
+    let mut starts = match effort.has_models {
+        true => reduce::programs(target),
+        false => Vec::new(),
     };
     starts.push(target.exact.clone());
     starts.sort_by_key(cost);
@@ -125,7 +130,6 @@ pub(super) fn programs(target: Target<'_>, from: &[Program]) -> Vec<Program> {
     starts.splice(0..0, from.iter().cloned());
     let mut run = Run {
         target,
-        meter: Meter::new(effort.work),
         found: Vec::new(),
         rounds: [
             0,
@@ -137,7 +141,7 @@ pub(super) fn programs(target: Target<'_>, from: &[Program]) -> Vec<Program> {
     let mut worse = 0;
     let places: Vec<usize> = (0..starts.len()).collect();
     for places in places.chunks(SIDE_BY_SIDE) {
-        if run.is_over() || worse >= MOST_WORSE {
+        if target.is_over() || worse >= MOST_WORSE {
             break;
         }
         let own: Vec<(&Program, u64)> = places.iter().map(|&place| (&starts[place], 0)).collect();
@@ -150,7 +154,7 @@ pub(super) fn programs(target: Target<'_>, from: &[Program]) -> Vec<Program> {
     }
     ranked.sort_unstable();
     for seed in 1..=effort.again {
-        if run.is_over() || run.found.is_empty() || run.spent > MOST_AGAIN {
+        if target.is_over() || run.found.is_empty() || run.spent > MOST_AGAIN {
             break;
         }
         let best = ranked.iter().take(SIDE_BY_SIDE);
@@ -165,7 +169,6 @@ const SIDE_BY_SIDE: usize = 2;
 
 struct Run<'a> {
     target: Target<'a>,
-    meter: Meter,
     /// The programs within the allowances, the cheapest first.
     found: Vec<Program>,
     rounds: [usize; 2],
@@ -174,10 +177,6 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    fn is_over(&self) -> bool {
-        self.meter.is_over() || self.target.watch.is_over()
-    }
-
     fn least(&self) -> usize {
         self.found.first().map_or(usize::MAX, cost)
     }
@@ -188,11 +187,11 @@ impl Run<'_> {
         let rounds = [self.rounds[0], self.rounds[1].max(self.rounds[0] + 1)];
         self.target.watch.step(Part::Omissions, rounds, best);
         self.rounds[0] += 1;
-        let (target, meter) = (self.target, self.meter);
+        let target = self.target;
         let of = |(start, seed): &(&Program, u64)| {
             // A thread counts its work for itself.
             let own = Meter::new(None);
-            (pruned(target, start, *seed, meter), own.done())
+            (pruned(target, start, *seed), own.done())
         };
         let found: Vec<(Vec<Program>, u64)> = match target.effort.work {
             Some(_) => starts.iter().map(of).collect(),
@@ -213,17 +212,16 @@ impl Run<'_> {
 }
 
 /// Returns the programs within the allowances that one start leads to.
-fn pruned(target: Target<'_>, start: &Program, seed: u64, meter: Meter) -> Vec<Program> {
+fn pruned(target: Target<'_>, start: &Program, seed: u64) -> Vec<Program> {
     let Target {
         exact,
         limits,
         effort,
         ..
     } = target;
-    let mut samples = Samples::new(exact, limits, effort.positions, 7 + seed);
+    let mut samples = Samples::new(exact, limits, POSITIONS, 7 + seed);
     let mut descent = Descent {
         target,
-        meter,
         random: Random::new(0xabcd ^ seed),
         noise: if seed == 0 { 0.0 } else { NOISE },
         share: 1.0,
@@ -233,7 +231,7 @@ fn pruned(target: Target<'_>, start: &Program, seed: u64, meter: Meter) -> Vec<P
         all.push(start.clone());
     }
     for part in PARTS {
-        if descent.is_over() {
+        if target.is_over() {
             break;
         }
         let is_exact = now == *exact;
@@ -241,10 +239,8 @@ fn pruned(target: Target<'_>, start: &Program, seed: u64, meter: Meter) -> Vec<P
             continue;
         }
         let old = samples.positions.len();
-        let old = old.saturating_sub(2 * effort.positions + REFUTING);
-        samples
-            .positions
-            .drain(effort.positions..effort.positions + old);
+        let old = old.saturating_sub(2 * POSITIONS + REFUTING);
+        samples.positions.drain(POSITIONS..POSITIONS + old);
         match descent.descend(&now, &mut samples, part) {
             Some(found) => {
                 let found = simplified(&found, effort.simplify);
@@ -265,7 +261,6 @@ fn pruned(target: Target<'_>, start: &Program, seed: u64, meter: Meter) -> Vec<P
 
 struct Descent<'a> {
     target: Target<'a>,
-    meter: Meter,
     random: Random,
     noise: f64,
     /// The share of what is allowed that errors may use at the samples.
@@ -276,10 +271,6 @@ impl Descent<'_> {
     fn allowances(&self, part: f64) -> Vec<f64> {
         let each = self.target.allowances.iter();
         each.map(|own| part * own).collect()
-    }
-
-    fn is_over(&self) -> bool {
-        self.meter.is_over() || self.target.watch.is_over()
     }
 
     fn judge(&self, program: &Program, part: f64) -> super::reference::Verdict {
@@ -294,9 +285,9 @@ impl Descent<'_> {
         let allowances = self.allowances(part * self.share);
         let mut greedy = Greedy::new(exact, start, allowances, samples.clone(), self.noise);
         let mut history = vec![greedy.net.unedited()];
+        let target = self.target;
+        let is_over = || target.is_over();
         for round in 0..ROUNDS {
-            let (meter, watch) = (self.meter, self.target.watch);
-            let is_over = || meter.is_over() || watch.is_over();
             greedy.drop_all(&mut history, &mut self.random, &is_over);
             if history.len() == 1 && is_exact {
                 return None;
@@ -312,7 +303,7 @@ impl Descent<'_> {
                 };
                 return (cost(&found) < cost(start)).then_some(found);
             }
-            if self.is_over() {
+            if target.is_over() {
                 return None;
             }
             // Samples miss what the engine finds: the more they do, the less may be used there.
@@ -352,10 +343,12 @@ impl Descent<'_> {
         mut program: Program,
     ) -> Program {
         let mut live = Vec::new();
-        let least = self.target.effort.retries;
+        let target = self.target;
+        let is_over = || target.is_over();
+        let least = target.effort.retries;
         let more = least * RETRIED / (1 + cost(&program));
         for round in 0..least + more {
-            if self.is_over() {
+            if target.is_over() {
                 break;
             }
             let mut trial = state.clone();
@@ -368,8 +361,6 @@ impl Descent<'_> {
             greedy.noise = if round % 3 == 0 { 0.0 } else { RETRY_NOISE };
             greedy.polish(&mut trial, 1);
             let mut history = vec![trial];
-            let (meter, watch) = (self.meter, self.target.watch);
-            let is_over = || meter.is_over() || watch.is_over();
             greedy.drop_all(&mut history, &mut self.random, &is_over);
             let Some(mut trial) = history.pop() else {
                 break;
