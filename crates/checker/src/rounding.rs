@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use crate::interval::Interval;
 use crate::load::LOAD;
 use crate::polynomial::SLACK;
-use crate::program::{Operand, argument};
+use crate::program::{Operand, Program, argument};
 use crate::read::{Function, Source};
 use crate::sines::{self, Scalar};
 
@@ -54,6 +54,8 @@ impl<'f> Rounding<'f> {
     pub fn new(function: &'f Function, is_single: bool, ranges: &Ranges) -> Rounding<'f> {
         let scalar = Scalar::new(is_single);
         let mut polynomials = HashMap::new();
+        // Angles of one range mostly have the same polynomials.
+        let mut known: Vec<(&Program<f64>, Interval, usize, f64)> = Vec::new();
         for own in &function.sines {
             let Source::Polynomial(program) = &own.source else {
                 continue;
@@ -61,7 +63,15 @@ impl<'f> Rounding<'f> {
             let angle = entry(ranges, 0, own.joint).unwrap_or(Interval::NOTHING_KNOWN);
             let needed = [true, false].into_iter().zip(own.needs).filter(|own| own.1);
             for (result, (is_sine, _)) in needed.enumerate() {
-                let error = sines::error(program, result, is_sine, angle, scalar);
+                let place = 2 * result + usize::from(is_sine);
+                let is_same = |own: &&(&Program<f64>, Interval, usize, f64)| {
+                    (own.1, own.2) == (angle, place) && own.0 == program
+                };
+                let error = match known.iter().find(is_same) {
+                    Some(known) => known.3,
+                    None => sines::error(program, result, is_sine, angle, scalar),
+                };
+                known.push((program, angle, place, error));
                 polynomials.insert((own.joint, is_sine), error);
             }
         }

@@ -196,6 +196,7 @@ fn words(line: &Line) -> String {
             let of_cost = |cost: &Cost| {
                 let (rounding, units) = (cost.rounding, cost.units);
                 let over = match cost.states {
+                    0 if cost.is_of_whole => "of the largest entry, over the box".to_owned(),
                     0 => "over the box".to_owned(),
                     count => format!("at {count} states"),
                 };

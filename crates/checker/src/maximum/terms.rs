@@ -1,6 +1,6 @@
 //! A polynomial in powers of sines and cosines, as multiples of angles.
 
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 
 use super::corners::{Factor, MOST_VELOCITIES};
 use crate::polynomial::{Key as Powers, MAX_LOADS, Polynomial, Variable, exponent};
@@ -11,6 +11,8 @@ use crate::ring::Ring;
 pub(super) type Key = u128;
 const GROUP: usize = 16;
 const WIDTH: usize = 5;
+/// One above the highest power of a cosine.
+const MOST_POWER: u32 = 16;
 /// The most groups of monomials, and the most joints.
 const MOST_GROUPS: usize = 1 << GROUP;
 /// Terms below this share of the largest one, and of the bound that is wanted if all were so large,
@@ -74,41 +76,54 @@ fn of_power(c: u32, s: u32) -> Vec<(u32, f64)> {
 
 impl Terms {
     pub(super) fn new(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> Terms {
-        let mut sums: BTreeMap<(Powers, Key), f64> = BTreeMap::new();
+        let powers: Vec<[Vec<(u32, f64)>; 2]> = (0..MOST_POWER)
+            .map(|c| [0, 1].map(|s| of_power(c, s)))
+            .collect();
+        let mut known: HashMap<Powers, (f64, f64)> = HashMap::new();
+        let mut all: Vec<((Powers, Key), f64)> = Vec::new();
+        let [mut parts, mut next] = [Vec::new(), Vec::new()];
         let mut mass = 0.0;
         for &(key, value) in &polynomial.terms {
-            let mut parts = vec![(0, value)];
+            parts.clear();
+            parts.push((0, value));
             for joint in 0..ring.angles.len() {
                 let [s, c] = [Variable::Sin, Variable::Cos].map(|own| exponent(key, own, joint));
                 if s + c > 0 {
-                    let powers = of_power(c, s);
-                    let spread = |&(key, value): &(Key, f64)| {
-                        let own = powers.iter().map(move |&(k, part)| {
+                    next.clear();
+                    for &(key, value) in &parts {
+                        let own = powers[c as usize][s as usize].iter();
+                        next.extend(own.map(|&(k, part)| {
                             let bits = Key::from(k | s << 4);
                             (key | bits << shift(joint), value * part)
-                        });
-                        own.collect::<Vec<_>>()
-                    };
-                    parts = parts.iter().flat_map(spread).collect();
+                        }));
+                    }
+                    std::mem::swap(&mut parts, &mut next);
                 }
             }
             let group = key.without_angles();
-            let (middle, radius) = ring.factor(group);
-            for (key, value) in parts {
+            let factor = known.entry(group).or_insert_with(|| ring.factor(group));
+            let (middle, radius) = *factor;
+            for &(key, value) in &parts {
                 mass += value.abs() * (middle.abs() + radius);
                 if middle != 0.0 {
-                    *sums.entry((Powers::default(), key)).or_default() += value * middle;
+                    all.push(((Powers::default(), key), value * middle));
                 }
                 if radius != 0.0 {
-                    *sums.entry((group.marked(), key)).or_default() += value * radius;
+                    all.push(((group.marked(), key), value * radius));
                 }
             }
         }
-        let mut groups: Vec<Powers> = sums.keys().map(|key| key.0).collect();
+        // Stable: sums are taken in the order of the terms on every machine.
+        all.sort_by_key(|own| own.0);
+        let runs = all.chunk_by(|a, b| a.0 == b.0);
+        let sums = runs.map(|run| (run[0].0, run.iter().map(|own| own.1).sum::<f64>()));
+        let sums: Vec<((Powers, Key), f64)> = sums.collect();
+        let mut groups: Vec<Powers> = sums.iter().map(|own| own.0.0).collect();
         groups.dedup();
         // Beyond, the terms of all others count with their magnitudes.
         groups.truncate(MOST_GROUPS);
-        let largest = sums.values().fold(0.0f64, |most, own| most.max(own.abs()));
+        let sizes = sums.iter().map(|own| own.1.abs());
+        let largest = sizes.fold(0.0, f64::max);
         let of_wanted = NEGLIGIBLE_OF_WANTED * wanted.max(0.0) / sums.len() as f64;
         let least = (NEGLIGIBLE * largest).min(of_wanted);
         // Powers of doubles, products and sums of these were rounded.
