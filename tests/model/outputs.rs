@@ -57,10 +57,8 @@ const GOLDEN: [&str; 35] = [
 
 #[test]
 fn golden_list() {
-    let sizes = Sizes {
-        base: 36,
-        ..Sizes::whole(6)
-    };
+    let mut sizes = Sizes::whole(6);
+    sizes.base = 36;
     let said = |function: &Function| {
         let arguments: Vec<&str> = function.arguments().iter().map(|a| a.name()).collect();
         let result = |q: &Quantity| {
@@ -106,21 +104,20 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-fn written(
-    quantity: Quantity,
+fn written<'a>(
     formulation: Formulation,
-    case: &Case,
-    motion: &Motion<Field>,
-    columns: &[Column<Field>],
-) -> Vec<Field> {
+    case: &'a Case,
+    motion: &'a Motion<Field>,
+    columns: &'a [Column<Field>],
+) -> Written<'a, Field> {
     let (arm, at) = (&case.arm, &case.at);
-    quantity.written(&Written {
+    Written {
         formulation,
         arm,
         at,
         motion,
         columns,
-    })
+    }
 }
 
 #[test]
@@ -131,12 +128,10 @@ fn formulations_agree_on_every_quantity() {
         motion.qdd = case.qdd.clone();
         let columns = columns(&case, &mut points);
         for &quantity in Quantity::ALL {
-            let by = |formulation| written(quantity, formulation, &case, &motion, &columns);
+            let by = |own| quantity.written(&written(own, &case, &motion, &columns));
             let expected = by(Formulation::LagrangeEuler);
-            let sizes = Sizes {
-                base: columns.len(),
-                ..Sizes::whole(n)
-            };
+            let mut sizes = Sizes::whole(n);
+            sizes.base = columns.len();
             assert_eq!(expected.len(), quantity.len(sizes), "{quantity:?}");
             assert!(expected.iter().any(|x| *x != Field::ZERO) || n < 6);
             for formulation in Formulation::ALL {
@@ -297,15 +292,10 @@ fn forward_dynamics_solves_the_equations_of_motion() {
             let moves: Vec<bool> = (0..n).map(|i| i >= 4 || bits >> i & 1 == 1).collect();
             let motion = driven(&case, &moves, &mut points);
             for &quantity in Quantity::ALL.iter().filter(|q| q.facts().inverts_inertia) {
-                let recursion = Written {
-                    formulation: Formulation::NewtonEulerLink,
-                    arm: &case.arm,
-                    at: &case.at,
-                    motion: &motion,
-                    columns: &[],
-                };
+                let by = |own| written(own, &case, &motion, &[]);
+                let recursion = by(Formulation::NewtonEulerLink);
                 let found = quantity.written(&recursion);
-                let expected = written(quantity, Formulation::LagrangeEuler, &case, &motion, &[]);
+                let expected = quantity.written(&by(Formulation::LagrangeEuler));
                 assert_eq!(found, expected, "{quantity:?} {moves:?}");
                 let residual = quantity.residual(&recursion, &expected);
                 assert!(residual.iter().all(|x| *x == Field::zero()));

@@ -28,11 +28,9 @@ fn read_and_written_back() {
          [tool]\nxyz = [0, 0, 0.107]\n",
     );
     let (half, eighth) = (Angle::Radians(ratio(1, 2)), Angle::PiTimes(ratio(-1, 4)));
-    let base = Placement {
-        xyz: [ratio(0, 1), ratio(1, 10), ratio(1, 3)],
-        rpy: [Angle::right_angles(2), half, eighth],
-    };
-    assert_eq!(placed.base, Some(base));
+    let xyz = [ratio(0, 1), ratio(1, 10), ratio(1, 3)];
+    let rpy = [Angle::right_angles(2), half, eighth];
+    assert_eq!(placed.base, Some(Placement { xyz, rpy }));
     written(&placed);
     for other in ["", "tool = { xyz = [0, 0, 0.107] }"] {
         assert_ne!(placed.input_hash(), robot(other).input_hash());

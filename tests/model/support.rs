@@ -27,8 +27,7 @@ pub fn reading(text: &str) -> Reading {
 }
 
 pub fn errors(text: &str) -> Vec<Diagnostic> {
-    let errors = parse(text).err();
-    errors.map_or_else(Vec::new, |errors| errors.0)
+    parse(text).err().map_or_else(Vec::new, |errors| errors.0)
 }
 
 pub fn said(text: &str) -> Vec<Diagnostic> {

@@ -130,19 +130,16 @@ impl<'k> Known<'k> {
             || values.any(|(name, own)| are(&lines, name, own));
         let head = lines.first().unwrap_or(&"");
         let why = || format!("it does not follow from the functions and the robot: `{head}`");
-        is_known
-            .then_some(())
-            .ok_or_else(|| Fault::Text(item.line, why()))
+        let fault = || Fault::Text(item.line, why());
+        is_known.then_some(()).ok_or_else(fault)
     }
 
     pub(crate) fn is_box(&self, item: &Found) -> bool {
         let (lines, macros) = (trimmed(item), &item.symbols.macros);
         let head = lines.first().unwrap_or(&"");
         let is_single = head.contains("const float ");
-        let (float, suffix) = match is_single {
-            true => ("float", "F"),
-            false => ("double", ""),
-        };
+        let float = if is_single { "float" } else { "double" };
+        let suffix = if is_single { "F" } else { "" };
         let count = self.setting.joints();
         let (mut ends, mut arguments) = (Ends::default(), Vec::new());
         for (name, ends) in STATE.iter().zip(&mut ends) {
@@ -209,11 +206,8 @@ impl<'k> Known<'k> {
                 Some([low, high]) => {
                     let [own_low, own_high] = self.ranges[place][joint];
                     // Ends are floats inside the range.
-                    let digits = if is_single {
-                        f64::from(f32::EPSILON)
-                    } else {
-                        BOX_SLACK
-                    };
+                    let ulp = f64::from(f32::EPSILON);
+                    let digits = if is_single { ulp } else { BOX_SLACK };
                     let near = |own: f64, other: f64, size: f64| (own - other).abs() <= size;
                     let slack = (digits + BOX_SLACK) * (own_low.abs() + own_high.abs());
                     low <= high && near(low, own_low, slack) && near(high, own_high, slack)

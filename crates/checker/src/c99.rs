@@ -147,9 +147,8 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
             return Err(fault(first));
         }
         let calls = |name: &&str| {
-            ["(", "f("]
-                .iter()
-                .any(|end| found.text.contains(&format!("{name}{end}")))
+            let mut ends = ["(", "f("].iter();
+            ends.any(|end| found.text.contains(&format!("{name}{end}")))
         };
         if !has_math && LIBRARY.iter().any(calls) {
             return Err(Fault::Text(first.0, "math.h is not included".into()));
@@ -186,10 +185,8 @@ pub(crate) fn are_of(found: &Found, function: &str) -> bool {
 
 pub(crate) fn are_values(found: &Found, name: &str, values: &[Exact]) -> bool {
     let is_single = found.module.ends_with("_f32") && found.text.contains("(float pi[");
-    let (kind, end) = match is_single {
-        true => ("float", "F;"),
-        false => ("double", ";"),
-    };
+    let kind = if is_single { "float" } else { "double" };
+    let end = if is_single { "F;" } else { ";" };
     let (header, own, count) = (&found.symbols.macros, found.name, values.len());
     let expected = format!("static inline void {own}({kind} pi[{header}_RESTRICT {count}])");
     let lines = found.text.lines().filter(|line| !line.is_empty());

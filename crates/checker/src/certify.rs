@@ -86,9 +86,7 @@ pub struct Demand<'d> {
 /// A robot file, a claim or a file that this checker does not know; what is wrong with a function
 /// is in its line.
 pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Result<Report, Fault> {
-    let Demand {
-        scene, tolerance, ..
-    } = *demand;
+    let (scene, tolerance) = (demand.scene, demand.tolerance);
     let mut document = Claim::read(claim)?;
     if document.functions.iter().any(|own| own.planned.is_some()) {
         let why = "a plan for searches, and not what is claimed of a file";
@@ -162,20 +160,17 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     };
     let mut lines = Vec::new();
     let modules = |is_such: fn(&Claimed) -> bool| -> HashSet<&str> {
-        let own = items
-            .iter()
-            .filter(|item| whole.claimed(item).is_some_and(is_such));
+        let is_own = |item: &&Found| whole.claimed(item).is_some_and(is_such);
+        let own = items.iter().filter(is_own);
         own.map(|item| item.module).collect()
     };
     let takers = modules(|own| own.arguments.iter().any(|name| name == LOAD));
     let loads = modules(|own| own.function == LOAD);
-    let has_load =
-        |found: &Found| match takers.contains(found.module) == loads.contains(found.module) {
-            true => Ok(()),
-            false => Err(Fault::Claim(
-                "a load without functions that take it, or without the function `load`".into(),
-            )),
-        };
+    let has_load = |found: &Found| {
+        let why = "a load without functions that take it, or without the function `load`";
+        let has_both = takers.contains(found.module) == loads.contains(found.module);
+        has_both.then_some(()).ok_or(Fault::Claim(why.into()))
+    };
     for found in items.iter().filter(|item| !is_beside(item)) {
         seen.known.held.entry(found.module).or_default();
         let result = is_twice(found).and_then(|()| has_load(found));
@@ -301,9 +296,8 @@ impl<'w> Whole<'w> {
         let divides = |own: &Program<Exact>| own.steps.iter().any(|step| step.0 == '/');
         let may_divide = function.fields.iter().any(Field::divides);
         if !may_divide && [&emitted, exact].into_iter().any(divides) {
-            return Err(refused(
-                "it divides, and no result of it asks for that".into(),
-            ));
+            let why = "it divides, and no result of it asks for that";
+            return Err(refused(why.into()));
         }
         let base = claimed.base(&self.constants, self.setting.links())?;
         let head = self.head(claimed, &function, &base, self.is_single(found))?;
@@ -501,9 +495,8 @@ impl<'w> Whole<'w> {
             false => "it does not say where the functions hold",
         };
         let is_known = are || known.is_box(item) || is_payload(item);
-        is_known
-            .then_some(())
-            .ok_or_else(|| Fault::Text(item.line, why.into()))
+        let fault = || Fault::Text(item.line, why.into());
+        is_known.then_some(()).ok_or_else(fault)
     }
 }
 
@@ -529,8 +522,6 @@ fn structure(head: &Head) -> Option<String> {
     let name = head.structure()?;
     let fields = head.fields.iter();
     let fields = fields.map(|(name, shape)| format!("pub {name}: {},\n", head.kind(shape)));
-    Some(format!(
-        "pub struct {name} {{\n{}}}",
-        fields.collect::<String>()
-    ))
+    let fields: String = fields.collect();
+    Some(format!("pub struct {name} {{\n{fields}}}"))
 }

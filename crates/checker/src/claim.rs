@@ -31,17 +31,7 @@ pub const VERSION: u32 = 2;
 pub const MOST_BYTES: usize = 32 << 20;
 /// The most constants, and the most operations of a function.
 const MOST: usize = 1 << 17;
-/// The most functions, and the most angles that constants have sines of.
 const MOST_FUNCTIONS: usize = 1 << 12;
-#[cfg(feature = "certify")]
-const MOST_ANGLES: usize = 1 << 10;
-/// Nanoseconds for a digit and a factor of a constant, and for the sine of an angle.
-#[cfg(feature = "certify")]
-const DIGIT: u64 = 100;
-#[cfg(feature = "certify")]
-const FACTOR: u64 = 500;
-#[cfg(feature = "certify")]
-const ANGLE: u64 = 100_000;
 /// The most results of a function: of 64 joints all h_ikm are 2¹⁸.
 const MOST_RESULTS: usize = 1 << 19;
 /// The most quotients times operations, and times results and quotients: what divides has a degree
@@ -166,10 +156,9 @@ impl Claim {
         let claim = claim.or_else(|error| refuse(error.to_string()))?;
         if claim.claim != VERSION {
             let own = claim.claim;
-            let why = format!(
+            return refuse(format!(
                 "version {own} is not known, {VERSION} is: generate the file and its claim anew"
-            );
-            return refuse(why);
+            ));
         }
         if claim.constants.len() > MOST {
             return refuse(format!("more than {MOST} constants"));
@@ -207,6 +196,12 @@ impl Claim {
     /// The first that is none.
     #[cfg(feature = "certify")]
     pub fn constants(&self, work: &Work) -> Result<Vec<Exact>, Fault> {
+        /// The most angles that constants have sines of.
+        const MOST_ANGLES: usize = 1 << 10;
+        /// Nanoseconds for a digit and a factor of a constant, and for the sine of an angle.
+        const DIGIT: u64 = 100;
+        const FACTOR: u64 = 500;
+        const ANGLE: u64 = 100_000;
         let terms = |text: &String| 1 + text.matches('+').count();
         if self.constants.iter().map(terms).sum::<usize>() > MOST {
             return Err(Fault::Claim(format!("constants of more than {MOST} terms")));
@@ -214,12 +209,8 @@ impl Claim {
         let bytes = self.constants.iter().map(String::len).sum();
         work.spend(bytes, DIGIT)?;
         let read = self.constants.iter().map(|text| {
-            let why = || {
-                Fault::Claim(format!(
-                    "`{text:.40}` is not a constant of at most 400 digits"
-                ))
-            };
-            Exact::read(text).ok_or_else(why)
+            let why = || format!("`{text:.40}` is not a constant of at most 400 digits");
+            Exact::read(text).ok_or_else(|| Fault::Claim(why()))
         });
         let all = read.collect::<Result<Vec<Exact>, Fault>>()?;
         let mut sines = Sines::new();

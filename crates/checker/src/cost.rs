@@ -5,6 +5,7 @@ use crate::fault::Fault;
 use crate::hidden::{self, MOST_RATIO};
 use crate::identity::Points;
 use crate::identity::exact::Exact;
+use crate::identity::number::Draws;
 use crate::identity::setting::Setting;
 use crate::identity::table::{self, Field, length};
 use crate::interval::UNIT;
@@ -105,10 +106,8 @@ impl Subject<'_> {
         let Subject { read, head, .. } = *self;
         let load = self.load.map(literals).unwrap_or_default();
         let of_load = Rounding::new(&load, head.is_single, self.ranges);
-        let (mut rounding, mut ranges) = (
-            Rounding::new(read, head.is_single, self.ranges),
-            self.ranges.clone(),
-        );
+        let mut rounding = Rounding::new(read, head.is_single, self.ranges);
+        let mut ranges = self.ranges.clone();
         if self.load.is_some() {
             rounding.load = of_load.bounds(&ranges, None).results;
             let exact = rounding.load.iter().map(|own| own.exact);
@@ -127,34 +126,37 @@ impl Subject<'_> {
             hidden::check(self.program, self.setting, load, points, self.work)?;
         }
         let bounded = divides.iter().filter(|own| !**own).count();
-        self.work
-            .spend(read.program.steps.len() * (bounded + 4), 20)?;
+        let steps = read.program.steps.len();
+        self.work.spend(steps * (bounded + 4), 20)?;
         let over_box = rounding.bounds(&ranges, None);
         let mut arguments = self.function.arguments.clone();
         // A load is computed from its payload.
         arguments.extend(self.load.and_then(|_| argument("payload")));
         let joints = self.setting.joints();
+        let lengths = head.fields.iter().map(|own| own.1.iter().product());
         let mut seen = Seen {
             sampler: Sampler::new(read, &rounding, joints),
             load: Sampler::new(&load, &of_load, joints),
-            lengths: head
-                .fields
-                .iter()
-                .map(|own| own.1.iter().product())
-                .collect(),
+            lengths: lengths.collect(),
             work: self.work,
             states: 0,
             sizes: vec![0.0; divides.len()],
             errors: vec![0.0; divides.len()],
-            steps: vec![0.0; read.program.steps.len()],
+            steps: vec![0.0; steps],
             near: vec![0; head.fields.len()],
             unbounded: vec![0; head.fields.len()],
             values: Vec::new(),
             loads: Vec::new(),
         };
-        let texts = self.texts;
-        let bodies = (self.body, read.speeds.as_slice());
-        let mut states = States::new(self.ranges, &arguments, bodies, texts, head.is_single);
+        let mut states = States {
+            ranges: self.ranges,
+            places: &arguments,
+            body: self.body,
+            widths: &read.speeds,
+            draws: Draws::new(self.texts),
+            is_single: head.is_single,
+            count: 0,
+        };
         let mut worst: Vec<(f64, State)> = Vec::new();
         for _ in 0..if is_measured { STATES } else { LOOKED_AT } {
             let state = states.next();
@@ -197,10 +199,8 @@ impl Subject<'_> {
             let mut rounding = each.map(relative).fold(0.0, worse);
             let is_of_whole = is_bounded && !(rounding < self.most());
             if is_of_whole {
-                let whole = seen.sizes[entries.clone()]
-                    .iter()
-                    .copied()
-                    .fold(0.0, f64::max);
+                let reached = seen.sizes[entries.clone()].iter().copied();
+                let whole = reached.fold(0.0, f64::max);
                 rounding = entries.map(|k| (k, whole)).map(relative).fold(0.0, worse);
             }
             let unsure = |why: String| Fault::Claim(format!("`{}`: {why}", head.name));
@@ -232,6 +232,7 @@ impl Subject<'_> {
                 };
                 return Err(unsure(format!("rounding of `{name}` {found}")));
             }
+            let measured = seen.states - unbounded;
             costs.push(Cost {
                 name: (*name).to_owned(),
                 is_bounded,
@@ -239,11 +240,7 @@ impl Subject<'_> {
                 rounding: if rounding < 1.0 { rounding } else { f64::NAN },
                 units: rounding / seen.sampler.unit(),
                 is_of_whole,
-                states: if is_bounded {
-                    0
-                } else {
-                    seen.states - unbounded
-                },
+                states: if is_bounded { 0 } else { measured },
             });
         }
         Ok(costs)
@@ -311,10 +308,8 @@ impl Seen<'_> {
         let results: Vec<Near> = self.sampler.results(&self.values).collect();
         for (field, length) in self.lengths.iter().enumerate() {
             let entries = first..first + length;
-            let error = results[entries.clone()]
-                .iter()
-                .map(|own| own.error)
-                .fold(0.0, worse);
+            let errors = results[entries.clone()].iter().map(|own| own.error);
+            let error = errors.fold(0.0, worse);
             let mut size = 0.0f64;
             for k in entries {
                 let least = results[k].value.abs() - results[k].off;
@@ -342,11 +337,8 @@ pub(crate) fn polynomials(read: &read::Function) -> impl Iterator<Item = usize> 
 
 /// Returns the larger one; what is no number counts as larger.
 fn worse(before: f64, own: f64) -> f64 {
-    if own > before || own.is_nan() {
-        own
-    } else {
-        before
-    }
+    let is_worse = own > before || own.is_nan();
+    if is_worse { own } else { before }
 }
 
 pub(crate) fn ranges(setting: &Setting, body: Body) -> Result<Ranges, String> {
@@ -365,6 +357,7 @@ pub(crate) fn ranges(setting: &Setting, body: Body) -> Result<Ranges, String> {
     };
     ARGUMENTS.iter().map(of).collect()
 }
+
 /// Returns the size that each entry is measured by: its own largest value, of a matrix the smallest
 /// of the largest in its row and in its column; where that is zero, the result's.
 fn measures<'s>(seen: &[f64], shapes: impl Iterator<Item = &'s [usize]>) -> Vec<f64> {

@@ -74,10 +74,8 @@ impl Derivatives<'_> {
                 false => half_ulp(scalar.unit, size + inherited) + scalar.least,
             };
             rounded.push(own);
-            known.push(Known {
-                size,
-                error: (inherited + own) * (1.0 + 1e-12),
-            });
+            let error = (inherited + own) * (1.0 + 1e-12);
+            known.push(Known { size, error });
         }
         let bound = |result: &usize| self.bound(*result, &known, &rounded);
         results.iter().map(bound).collect()
@@ -90,11 +88,8 @@ impl Derivatives<'_> {
             (Operand::Constant(literal), Operand::Constant(exact)) => {
                 let [value, radius] = exact.double().unwrap_or([f64::NAN; 2]);
                 let off = (value - literal).abs();
-                let error = if off == 0.0 {
-                    radius
-                } else {
-                    (off + radius) * (1.0 + 1e-12)
-                };
+                let rounded_up = (off + radius) * (1.0 + 1e-12);
+                let error = if off == 0.0 { radius } else { rounded_up };
                 let size = literal.abs() + error;
                 Known { size, error }
             }
@@ -108,10 +103,8 @@ impl Derivatives<'_> {
             _ => {
                 let value = self.written.leaf(own);
                 let size = value.map_or(f64::INFINITY, |value| self.ring.size(&value));
-                Known {
-                    size,
-                    error: self.rounding.load_error(text),
-                }
+                let error = self.rounding.load_error(text);
+                Known { size, error }
             }
         }
     }

@@ -88,10 +88,7 @@ impl Domain {
     /// none had to be looked at.
     pub fn decide(&self, own: &Polynomial, wanted: f64) -> (Decision, Vec<f64>) {
         let found = maximum::decide(own, &self.ring, wanted, PURSE);
-        let position = match found.angles.is_empty() {
-            true => Vec::new(),
-            false => self.ring.positions(&found.angles),
-        };
+        let position = self.ring.positions(&found.angles);
         (found, position)
     }
 

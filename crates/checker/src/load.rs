@@ -25,10 +25,8 @@ pub struct Body {
 
 impl Default for Body {
     fn default() -> Body {
-        Body {
-            mass: [0.0, 5.0],
-            radius: 0.3,
-        }
+        let (mass, radius) = ([0.0, 5.0], 0.3);
+        Body { mass, radius }
     }
 }
 
@@ -64,10 +62,8 @@ impl Body {
             sum += *weight;
         }
         let mean = |f: &dyn Fn([f64; 3]) -> f64| -> f64 {
-            points
-                .iter()
-                .map(|(at, weight)| f(*at) * weight / sum)
-                .sum()
+            let parts = points.iter().map(|(at, weight)| f(*at) * weight / sum);
+            parts.sum()
         };
         let com = [0, 1, 2].map(|k| mean(&|at| at[k]));
         let moment = |i: usize, k: usize| mass * mean(&|at| (at[i] - com[i]) * (at[k] - com[k]));
@@ -98,15 +94,12 @@ impl Setting<'_> {
         let text = literals(load);
         let values = Rounding::new(&text, is_single, &ranges).bounds(&ranges, None);
         let values = values.results;
-        ranges[place] = values
-            .iter()
-            .map(|own| [own.exact.low, own.exact.high])
-            .collect();
+        let entries = values.iter().map(|own| [own.exact.low, own.exact.high]);
+        ranges[place] = entries.collect();
         Ok((ranges, values))
     }
 }
 
-/// Returns the load of a payload that is a point.
 pub(crate) fn load_of_point(
     load: &Program<Exact>,
     mass: f64,

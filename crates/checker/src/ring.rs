@@ -127,11 +127,8 @@ impl Ring {
     /// as it is there.
     pub fn positions(&self, angles: &[f64]) -> Vec<f64> {
         let before = [0.0].into_iter().chain(angles.iter().copied());
-        let each = self
-            .places
-            .iter()
-            .zip(&self.positions)
-            .zip(angles.iter().zip(before));
+        let places = self.places.iter().zip(&self.positions);
+        let each = places.zip(angles.iter().zip(before));
         each.map(|((([low, high], sign), own), (angle, before))| match own {
             [.., Some(_)] => 0.5 * low + 0.5 * high + (0.5 * high - 0.5 * low) * sin_cos(*angle).1,
             [None, ..] => *low,

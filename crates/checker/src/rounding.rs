@@ -22,7 +22,6 @@ pub struct Value {
     rounded: f64,
 }
 
-/// The values of the steps and of the results.
 pub struct Bounds {
     pub steps: Vec<Value>,
     pub results: Vec<Value>,
@@ -139,25 +138,20 @@ impl<'f> Rounding<'f> {
         }
         let outputs = self.function.program.outputs.iter();
         let result = |(negative, own): &(bool, Operand<f64>)| {
-            let value = self.operand(own, &given);
-            let exact = if *negative { -value.exact } else { value.exact };
-            let error = match own {
-                Operand::Step(step) if value.error.is_finite() => {
-                    value.error.min(self.by_derivatives(*step, &given))
-                }
-                _ => value.error,
-            };
-            Value {
-                exact,
-                error,
-                ..value
+            let mut value = self.operand(own, &given);
+            if *negative {
+                value.exact = -value.exact;
             }
+            if let Operand::Step(step) = own
+                && value.error.is_finite()
+            {
+                value.error = value.error.min(self.by_derivatives(*step, &given));
+            }
+            value
         };
         let results = outputs.map(result).collect();
-        Bounds {
-            steps: given.values,
-            results,
-        }
+        let steps = given.values;
+        Bounds { steps, results }
     }
 
     /// Bounds the error of a step by the mean value theorem: each rounding times the largest
@@ -175,9 +169,8 @@ impl<'f> Rounding<'f> {
             }
             sum += slope.magnitude() * given.values[step].rounded;
             let (operation, operands) = &self.function.program.steps[step];
-            let [a, b] = operands
-                .each_ref()
-                .map(|own| self.operand(own, given).all());
+            let all = |own: &Operand<f64>| self.operand(own, given).all();
+            let [a, b] = operands.each_ref().map(all);
             let parts = match operation {
                 '+' => [slope, slope],
                 '-' => [slope, -slope],
@@ -201,11 +194,9 @@ impl<'f> Rounding<'f> {
         for (own, slope) in leaves {
             let error = self.operand(own, given).error;
             // Nothing times what is not known is nothing.
-            sum += if error == 0.0 {
-                0.0
-            } else {
-                slope.magnitude() * error
-            };
+            if error != 0.0 {
+                sum += slope.magnitude() * error;
+            }
         }
         let sum = sum * SLACK;
         if sum.is_nan() { f64::INFINITY } else { sum }

@@ -56,19 +56,16 @@ impl<'f> Sampler<'f> {
             }
         };
         let steps = program.steps.iter();
-        let code: Vec<_> = steps
-            .map(|(operation, operands)| (*operation, operands.each_ref().map(&mut place)))
-            .collect();
+        let code = steps.map(|(operation, both)| (*operation, both.each_ref().map(&mut place)));
+        let code: Vec<_> = code.collect();
         let outputs: Vec<_> = program.outputs.iter().map(|own| place(&own.1)).collect();
         let first = leaves.len();
         let index = |own: Result<usize, usize>| own.unwrap_or_else(|step| first + step);
         let pair = |joint| [true, false].map(|own| rounding.polynomial(joint, own));
+        let code = code.into_iter().map(|(own, both)| (own, both.map(index)));
         Sampler {
+            code: code.collect(),
             leaves,
-            code: code
-                .into_iter()
-                .map(|(own, both)| (own, both.map(index)))
-                .collect(),
             outputs: outputs.into_iter().map(index).collect(),
             speeds: &function.speeds,
             polynomials: (0..joints).map(pair).collect(),
@@ -81,7 +78,6 @@ impl<'f> Sampler<'f> {
         30 * self.leaves.len() as u64 + 8 * self.code.len() as u64 + 100
     }
 
-    /// Computes the values of all leaves and steps.
     pub fn run(&self, state: &State, load: &[Near], values: &mut Vec<Near>) {
         values.clear();
         values.extend(self.leaves.iter().map(|own| self.leaf(own, state, load)));
@@ -104,11 +100,8 @@ impl<'f> Sampler<'f> {
                 _ => {
                     let [x, y] = [a, b].map(|own| own.value.abs() + own.off);
                     let off = a.off * y + b.off * a.value.abs();
-                    (
-                        a.value * b.value,
-                        off,
-                        a.error * (y + b.error) + b.error * x,
-                    )
+                    let error = a.error * (y + b.error) + b.error * x;
+                    (a.value * b.value, off, error)
                 }
             };
             // The slack is what these sums lose in doubles.
@@ -121,12 +114,10 @@ impl<'f> Sampler<'f> {
         }
     }
 
-    /// Returns the results among the values.
     pub fn results<'v>(&'v self, values: &'v [Near]) -> impl Iterator<Item = Near> + 'v {
         self.outputs.iter().map(|place| values[*place])
     }
 
-    /// Returns the values of steps among the values.
     pub fn steps<'v>(&self, values: &'v [Near]) -> &'v [Near] {
         &values[self.leaves.len()..]
     }
@@ -139,21 +130,13 @@ impl<'f> Sampler<'f> {
     fn leaf(&self, own: &Operand<f64>, state: &State, load: &[Near]) -> Near {
         let unit = self.scalar.unit;
         let entry = |place: usize, index: usize| state.get(place)?.get(index).copied();
-        let exactly = |value: f64| Near {
-            value,
-            off: 0.0,
-            error: 0.0,
-        };
+        let near = |value, off, error| Near { value, off, error };
+        let exactly = |value| near(value, 0.0, 0.0);
         let found = match own {
             Operand::Constant(literal) if *literal == 0.0 => Some(Near::default()),
             Operand::Constant(literal) => {
                 let error = self.scalar.rounded(literal.abs(), 0.0);
-                let value = *literal;
-                Some(Near {
-                    value,
-                    off: error,
-                    error,
-                })
+                Some(near(*literal, error, error))
             }
             Operand::Entry(place, index) if argument("load") == Some(*place) => {
                 load.get(*index).copied()
@@ -163,12 +146,9 @@ impl<'f> Sampler<'f> {
                 let (sin, cos) = sin_cos(angle);
                 let polynomial = self.polynomials.get(*joint);
                 let polynomial = polynomial.and_then(|own| own[usize::from(!is_sine)]);
-                Near {
-                    value: if *is_sine { sin } else { cos },
-                    off: SINE_ERROR,
-                    // The library's is within an ulp of at most one.
-                    error: polynomial.unwrap_or(2.0 * unit),
-                }
+                // The library's is within an ulp of at most one.
+                let error = polynomial.unwrap_or(2.0 * unit);
+                near(if *is_sine { sin } else { cos }, SINE_ERROR, error)
             }),
             Operand::Speed(joint) => {
                 let square = self.speeds.iter().find(|own| own.0 == *joint);
@@ -176,19 +156,12 @@ impl<'f> Sampler<'f> {
                 // Four operations, and w² is rounded.
                 both.map(|((_, square), rate)| {
                     let value = 1.0 / (rate * rate + square).sqrt();
-                    Near {
-                        value,
-                        off: 6.0 * unit * value,
-                        error: 6.0 * unit * value,
-                    }
+                    let error = 6.0 * unit * value;
+                    near(value, error, error)
                 })
             }
             Operand::Step(_) => None,
         };
-        found.unwrap_or(Near {
-            value: f64::NAN,
-            off: f64::INFINITY,
-            error: f64::INFINITY,
-        })
+        found.unwrap_or(near(f64::NAN, f64::INFINITY, f64::INFINITY))
     }
 }

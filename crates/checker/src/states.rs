@@ -12,36 +12,19 @@ const SPECIAL: usize = 5;
 const STRIDES: [f64; 3] = [0.2, 0.05, 0.01];
 
 pub(crate) struct States<'s> {
-    ranges: &'s Ranges,
+    pub ranges: &'s Ranges,
     /// The places of the arguments that are read.
-    places: &'s [usize],
-    body: Body,
+    pub places: &'s [usize],
+    pub body: Body,
     /// The squares of the speeds over which friction of joints is smoothed: near to these it bends.
-    widths: &'s [(usize, f64)],
-    draws: Draws,
-    is_single: bool,
-    count: usize,
+    pub widths: &'s [(usize, f64)],
+    pub draws: Draws,
+    pub is_single: bool,
+    /// The number of states that were drawn.
+    pub count: usize,
 }
 
-impl<'s> States<'s> {
-    pub(crate) fn new(
-        ranges: &'s Ranges,
-        places: &'s [usize],
-        (body, widths): (Body, &'s [(usize, f64)]),
-        texts: &[&str],
-        is_single: bool,
-    ) -> States<'s> {
-        States {
-            ranges,
-            places,
-            body,
-            widths,
-            draws: Draws::new(texts),
-            is_single,
-            count: 0,
-        }
-    }
-
+impl States<'_> {
     /// Draws the next state: at zero, in the middle, at the lower and the upper ends of all ranges,
     /// then special ones among random ones.
     pub(crate) fn next(&mut self) -> State {

@@ -91,18 +91,15 @@ type Entry<'s> = (&'s Field, Vec<usize>);
 impl Subject<'_> {
     pub(crate) fn bounded(&self) -> Result<Vec<Bounded>, Fault> {
         let count = self.emitted.outputs.len();
-        unless(
-            self.exact.outputs.len() == count,
-            "two programs of other results",
-        )?;
+        let are_alike = self.exact.outputs.len() == count;
+        unless(are_alike, "two programs of other results")?;
         let fields = self.results();
         unless(fields.len() == count, "results that are not the function's")?;
         let places = &self.function.arguments;
         let (ranges, load) = (self.setting).loaded_box(places, self.is_single, self.load)?;
         let ranges = &ranges;
         let work = self.work;
-        let evaluated = (self.exact.steps.len() + count) * count;
-        work.spend(evaluated, INTERVALS)?;
+        work.spend((self.exact.steps.len() + count) * count, INTERVALS)?;
         let scales = self.scales(&fields, ranges)?;
         let ring = Ring::new(self.setting, ranges, work)?;
         let mut rounding = Rounding::new(self.read, self.is_single, ranges);
@@ -148,16 +145,11 @@ impl Subject<'_> {
         let mut found = Vec::new();
         for (k, (_, joints)) in fields.into_iter().enumerate() {
             let scale = scales[k];
-            let rounding = match self.is_literal(k) {
-                true => 0.0,
-                false => costs[k],
-            };
+            let rounding = if self.is_literal(k) { 0.0 } else { costs[k] };
             // Of a result that is not always zero there is a state where it is not.
             let is_zero = exact[k].terms.is_empty() && exact[k].rest == 0.0;
-            unless(
-                scale > 0.0 || is_zero,
-                "T of zero of a result that is not always zero",
-            )?;
+            let why = "T of zero of a result that is not always zero";
+            unless(scale > 0.0 || is_zero, why)?;
             let tolerated = match scale > 0.0 {
                 true => below(self.held(&joints) * scale),
                 false => ZERO * largest,
@@ -212,7 +204,6 @@ impl Subject<'_> {
         each.fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns T of each result.
     fn scales(&self, results: &[Entry], ranges: &Ranges) -> Result<Vec<f64>, Fault> {
         match self.own.relative_to.as_str() {
             "actuator" => self.actuator(results),
@@ -275,8 +266,7 @@ impl Subject<'_> {
             }
             unless(is_inside, wrong)?;
             let values = at(self.exact, &given).unwrap_or_default();
-            let found = values.get(result);
-            let found = found.ok_or_else(|| Fault::Claim(wrong.into()))?;
+            let found = values.get(result).ok_or(Fault::Claim(wrong.into()))?;
             Ok(found.low.max(-found.high).max(0.0))
         };
         states.iter().enumerate().map(least).collect()
@@ -288,10 +278,8 @@ impl Setting<'_> {
     /// that the file does not limit.
     pub(crate) fn state_box(&self, places: &[usize], is_single: bool) -> Result<Ranges, Fault> {
         let is_bounded = |place: &usize| *place < 3 || Some(*place) == argument(LOAD);
-        unless(
-            places.iter().all(is_bounded),
-            "an argument that no box bounds",
-        )?;
+        let are_bounded = places.iter().all(is_bounded);
+        unless(are_bounded, "an argument that no box bounds")?;
         let of_robot = |why: String| Fault::Robot("limits".into(), why);
         let mut all: Ranges = vec![Vec::new(); ARGUMENTS.len()];
         for place in 0..3 {
@@ -331,15 +319,11 @@ fn is_within(value: f64, [low, high]: [f64; 2]) -> bool {
 }
 
 fn unless(holds: bool, why: &str) -> Result<(), Fault> {
-    holds
-        .then_some(())
-        .ok_or_else(|| Fault::Claim(format!("tolerance: {why}")))
+    let fault = || Fault::Claim(format!("tolerance: {why}"));
+    holds.then_some(()).ok_or_else(fault)
 }
 
 /// Returns a number that a rounded one is not below; zero is exact.
-fn below(value: f64) -> f64 {
-    match value > 0.0 {
-        true => value.next_down(),
-        false => value,
-    }
+fn below(x: f64) -> f64 {
+    if x > 0.0 { x.next_down() } else { x }
 }

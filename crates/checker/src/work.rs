@@ -15,9 +15,8 @@ pub struct Work {
 
 impl Default for Work {
     fn default() -> Work {
-        Work {
-            left: Cell::new(MOST),
-        }
+        let left = Cell::new(MOST);
+        Work { left }
     }
 }
 

@@ -101,7 +101,6 @@ impl<'w> Written<'w> {
         self.steps[index].as_ref()
     }
 
-    /// Returns the value of an operand.
     pub(crate) fn value(&self, own: &Operand<Exact>) -> Result<Polynomial, Fault> {
         let value = match own {
             Operand::Step(step) => self.steps[*step].clone(),

@@ -29,10 +29,7 @@ fn operations_of_intervals_have_the_exact_results() {
     let all = numbers(400);
     for four in all.windows(4) {
         let [a, b, c, d] = [four[0], four[1], four[2], four[3]];
-        let (x, y) = (
-            Interval::new(a.min(b), a.max(b)),
-            Interval::new(c.min(d), c.max(d)),
-        );
+        let [x, y] = [[a, b], [c, d]].map(|[p, q]| Interval::new(p.min(q), p.max(q)));
         for p in [a, b] {
             for q in [c, d] {
                 assert!(has(x + y, &(exact(p) + exact(q))));
@@ -92,11 +89,8 @@ fn products_of_polynomials_are_within_their_rest() {
 fn the_square_of_a_sine_is_one_less_that_of_the_cosine() {
     let [sin, cos] = [Variable::Sin, Variable::Cos].map(|v| Polynomial::variable(v, 3, 1.0));
     let work = &Work::default();
-    let sum = sin
-        .times(&sin, work)
-        .unwrap()
-        .plus(&cos.times(&cos, work).unwrap());
-    assert_eq!(sum, Polynomial::constant(1.0, 0.0));
+    let [one, other] = [sin, cos].map(|own| own.times(&own, work).unwrap());
+    assert_eq!(one.plus(&other), Polynomial::constant(1.0, 0.0));
 }
 
 #[test]
@@ -112,13 +106,9 @@ fn powers_that_there_is_no_room_for_are_refused() {
 
 #[test]
 fn products_of_two_accelerations_loads_or_errors_count_with_their_magnitudes() {
+    use Variable::{Acceleration, EvenError, Load, OddError};
     let work = &Work::default();
-    let ones = [
-        Variable::Acceleration,
-        Variable::EvenError,
-        Variable::OddError,
-        Variable::Load,
-    ];
+    let ones = [Acceleration, EvenError, OddError, Load];
     let variable = |own, index| Polynomial::variable(own, index, 0.5);
     for own in ones {
         for other in ones {

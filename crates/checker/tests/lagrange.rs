@@ -37,14 +37,13 @@ fn torques_are_those_of_lagranges_equation() {
         let state = State::draw(&point, &setting).unwrap();
         let [qd, qdd] = ["qd", "qdd"].map(|own| &state.given[argument(own).unwrap()]);
         let d = value(&arm, &state, "inertia");
-        let slopes: Vec<(Vec<Number>, Number)> = (0..n)
-            .map(|joint| {
-                let moved = state.moving(0, joint, 1);
-                let d = value(&arm, &moved, "inertia").into_iter();
-                let u = value(&arm, &moved, "potential_energy")[0];
-                (d.map(|entry| entry.slope(1)).collect(), u.slope(1))
-            })
-            .collect();
+        let slope = |joint: usize| {
+            let moved = state.moving(0, joint, 1);
+            let d = value(&arm, &moved, "inertia").into_iter();
+            let u = value(&arm, &moved, "potential_energy")[0];
+            (d.map(|entry| entry.slope(1)).collect(), u.slope(1))
+        };
+        let slopes: Vec<(Vec<Number>, Number)> = (0..n).map(slope).collect();
         let torques = value(&arm, &state, "inverse_dynamics");
         for (i, torque) in torques.into_iter().enumerate() {
             let mut expected = slopes[i].1 + arm.joints[i].viscous * qd[i];

@@ -46,12 +46,11 @@ fn polynomials_of_another_angle() {
     let sine = "const double s1 = x1_2;\n";
     let result = "const double t1 = s1 * 0.5;";
     let good = format!("{own}{sine}{other}const double s2 = x2_2;\n{result}");
-    let late = (sine, "");
     let between = format!("{other}{sine}");
     refused(
         &good,
         &[
-            (late.0, late.1, "neither a value nor a literal"),
+            (sine, "", "neither a value nor a literal"),
             (sine, &between, "neither the angle"),
             (sine, "const double s1 = x2_2;\n", "neither the angle"),
             ("x1_2 = x1_1", "x1_2 = x2_1", "neither the angle"),
@@ -87,9 +86,8 @@ fn sines_of_a_list_behind_the_call() {
     let found = read(&late).unwrap_err();
     assert!(found.contains("neither the angle"), "{found}");
     // As many angles as nobody has need no room.
-    let many = good
-        .replace("[1]", "[99999999999]")
-        .replace("sines_1", "sines_99999999999");
+    let many = good.replace("[1]", "[99999999999]");
+    let many = many.replace("sines_1", "sines_99999999999");
     let found = read(&many).unwrap_err();
     assert!(found.contains("as many angles"), "{found}");
 }

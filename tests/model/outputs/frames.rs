@@ -6,10 +6,9 @@ use dalembert_model::equations::frames::NamedFrame;
 fn with_frames(case: &Case, points: &mut Points) -> Arm<Field> {
     let last = case.arm.links.len() - 1;
     let mut arm = case.arm.clone();
-    let mut named = |name: &str, joint: usize| NamedFrame {
-        name: name.to_string(),
-        joint,
-        pose: pose(points),
+    let mut named = |name: &str, joint: usize| {
+        let (name, pose) = (name.to_string(), pose(points));
+        NamedFrame { name, joint, pose }
     };
     arm.frames.named = vec![named("inner", 0), named("outer", last)];
     arm.frames.links = arm.links.iter().map(|_| Some(pose(points))).collect();
@@ -17,12 +16,10 @@ fn with_frames(case: &Case, points: &mut Points) -> Arm<Field> {
 }
 
 fn at_frame(text: &str, arm: &Arm<Field>, case: &Case, motion: &Motion<Field>) -> Vec<Field> {
-    let case = Case {
-        arm: arm.clone(),
-        ..case.clone()
-    };
+    let mut case = case.clone();
+    case.arm = arm.clone();
     let function = Function::parse(text).unwrap();
-    let by = |own| written(function.quantities()[0], own, &case, motion, &[]);
+    let by = |own| function.quantities()[0].written(&written(own, &case, motion, &[]));
     let expected = by(Formulation::LagrangeEuler);
     let length = function.outputs(Sizes::whole(arm.links.len()));
     assert_eq!(expected.len(), length, "{text}");
@@ -134,11 +131,8 @@ fn operational_space_fits_together() {
             let driven = matrix_product(&j, &matrix_product(&d_inv, &loads, n), n);
             let rest: Vec<Field> = driven.iter().zip(&rate).map(|(a, b)| a.sub(b)).collect();
             assert_eq!(of("operational_bias"), matrix_product(&inertia, &rest, m));
-            let torques = matrix_product(&transposed, &motion.wrench[..m], m);
-            let pushed = Motion {
-                tau: torques,
-                ..motion.clone()
-            };
+            let mut pushed = motion.clone();
+            pushed.tau = matrix_product(&transposed, &motion.wrench[..m], m);
             let found = at_frame(&format!("contact_wrench{view}"), &arm, &case, &pushed);
             let squared = matrix_product(&j, &transposed, n);
             let left: Vec<Field> = matrix_product(&squared, &found, m);

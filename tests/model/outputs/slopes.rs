@@ -62,51 +62,34 @@ fn derivatives_are_rates_along_a_motion() {
         let inertia = weighed(&form.inertia(&arm, &at));
         let inverse = weighed(&form.inertia_inverse(&arm, &at, &moves));
         let (q_slopes, v_slopes) = (weighed(&q_slopes), weighed(&v_slopes));
-        for (rates, by_position, by_velocity) in [
-            (torques, (TorqueByPosition, false), Some(TorqueByVelocity)),
-            (
-                accelerations,
-                (AccelerationByPosition, false),
-                Some(AccelerationByVelocity),
-            ),
-            (
-                by_position,
-                (TorqueByPositions, false),
-                Some(TorqueByPositionAndVelocity),
-            ),
-            (
-                by_velocity,
-                (TorqueByPositionAndVelocity, true),
-                Some(TorqueByVelocities),
-            ),
-            (inertia, (TorqueByAccelerationAndPosition, false), None),
-            (
-                q_slopes,
-                (AccelerationByPositions, false),
-                Some(AccelerationByPositionAndVelocity),
-            ),
-            (
-                v_slopes,
-                (AccelerationByPositionAndVelocity, true),
-                Some(AccelerationByVelocities),
-            ),
-            (inverse, (AccelerationByTorqueAndPosition, false), None),
-        ] {
-            let along = |(quantity, transposed): (Quantity, bool), rates: &[Field]| {
-                let form = Formulation::NewtonEulerLink;
-                let entries = written(quantity, form, &case, &motion, &[]);
-                let row = |k: usize| -> Vec<Field> {
-                    let entry = |m: usize| if transposed { m * n + k } else { k * n + m };
-                    (0..n).map(|m| entries[entry(m)]).collect()
-                };
-                (0..n).map(|k| dot(&row(k), rates)).collect::<Vec<Field>>()
-            };
-            let position = along(by_position, &case.qd);
-            let velocity = by_velocity.map(|own| along((own, false), &case.qdd));
-            for k in 0..n {
-                let other = velocity.as_ref().map_or(Field::ZERO, |all| all[k]);
-                assert_eq!(position[k].add(&other), rates[k], "{by_position:?} {k}");
+        let along = |quantity: Quantity, is_transposed: bool, rates: &[Field]| -> Vec<Field> {
+            let form = Formulation::NewtonEulerLink;
+            let entries = quantity.written(&written(form, &case, &motion, &[]));
+            let place = |k: usize, m: usize| if is_transposed { m * n + k } else { k * n + m };
+            let row = |k: usize| (0..n).map(|m| entries[place(k, m)]).collect::<Vec<_>>();
+            (0..n).map(|k| dot(&row(k), rates)).collect()
+        };
+        let first = [torques, accelerations, by_position, by_velocity];
+        let others = [inertia, q_slopes, v_slopes, inverse];
+        let terms: [&[Quantity]; 8] = [
+            &[TorqueByPosition, TorqueByVelocity],
+            &[AccelerationByPosition, AccelerationByVelocity],
+            &[TorqueByPositions, TorqueByPositionAndVelocity],
+            &[TorqueByPositionAndVelocity, TorqueByVelocities],
+            &[TorqueByAccelerationAndPosition],
+            &[AccelerationByPositions, AccelerationByPositionAndVelocity],
+            &[AccelerationByPositionAndVelocity, AccelerationByVelocities],
+            &[AccelerationByTorqueAndPosition],
+        ];
+        for (terms, rates) in terms.iter().zip(first.into_iter().chain(others)) {
+            // What is by velocity already has its slopes by position in its columns.
+            let is_mixed = format!("{:?}", terms[0]).ends_with("PositionAndVelocity");
+            let mut sum = along(terms[0], is_mixed, &case.qd);
+            for quantity in &terms[1..] {
+                let other = along(*quantity, false, &case.qdd);
+                sum = sum.iter().zip(&other).map(|(a, b)| a.add(b)).collect();
             }
+            assert_eq!(sum, rates, "{terms:?}");
         }
     }
 }

@@ -32,6 +32,9 @@ pub struct Arm {
     joints: Vec<Joint>,
 }
 
+/// The places of the six numbers of a symmetric matrix in a file.
+const PLACES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
+
 pub struct Drawn(Points);
 
 impl Drawn {
@@ -64,11 +67,9 @@ impl Drawn {
     fn body(&mut self) -> Body {
         let [a, b, c] = self.triple(0.004);
         let [x, y, z] = self.triple(0.01).map(|x| 0.05 + x);
-        Body {
-            mass: 1.0 + self.number(0.8),
-            com: Vector3::from(self.triple(0.3)),
-            inertia: Matrix3::new(x, a, b, a, y, c, b, c, z),
-        }
+        let (mass, com) = (1.0 + self.number(0.8), Vector3::from(self.triple(0.3)));
+        let inertia = Matrix3::new(x, a, b, a, y, c, b, c, z);
+        Body { mass, com, inertia }
     }
 
     pub fn arm(&mut self, n: usize) -> Arm {
@@ -137,7 +138,6 @@ pub fn file(arm: &Arm) -> String {
     let mut text = format!("name = \"arm\"\ngravity = {gravity:?}\nbase = {base}\ntool = {tool}\n");
     for joint in &arm.joints {
         let kind = ["revolute", "prismatic"][usize::from(joint.slides)];
-        let places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
         let body = &joint.bodies[0];
         text += &format!(
             "[[joint]]\nkind = \"{kind}\"\nplacement = {}\naxis = {:?}\nmass = {:?}\ncom = {:?}\n\
@@ -146,7 +146,7 @@ pub fn file(arm: &Arm) -> String {
             joint.axis,
             body.mass,
             body.com.as_slice(),
-            places.map(|place| body.inertia[place]),
+            PLACES.map(|place| body.inertia[place]),
             joint.viscous,
             joint.armature
         );
@@ -228,10 +228,9 @@ fn parameters(arm: &Arm) -> DVector<f64> {
         for Body { mass, com, inertia } in &joint.bodies {
             let tensor =
                 inertia + *mass * (Matrix3::identity() * com.dot(com) - com * com.transpose());
-            let places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
             let first = com.iter().map(|x| mass * x);
             let own = [*mass].into_iter().chain(first);
-            let own = own.chain(places.map(|place| tensor[place]));
+            let own = own.chain(PLACES.map(|place| tensor[place]));
             sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
         }
         sum
@@ -242,6 +241,7 @@ fn parameters(arm: &Arm) -> DVector<f64> {
 
 /// The worst difference is relative to the largest torque; of poses, in metres.
 pub fn compare(arm: &Arm, robot: &Robot, drawn: &mut Drawn) -> f64 {
+    use Argument::{Acceleration, Position, Velocity};
     let runtime = Reference::<f64>::from_robot(robot);
     let mut worst: f64 = 0.0;
     for _ in 0..4 {
@@ -252,12 +252,8 @@ pub fn compare(arm: &Arm, robot: &Robot, drawn: &mut Drawn) -> f64 {
         let torques = vector(&torques);
         let found = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
         worst = worst.max((found - &torques).amax() / torques.amax());
-        let given = [
-            Argument::Position,
-            Argument::Velocity,
-            Argument::Acceleration,
-        ];
-        let given = given.into_iter().zip([&q, &qd, &qdd].map(Clone::clone));
+        let given = [Position, Velocity, Acceleration].into_iter();
+        let given = given.zip([&q, &qd, &qdd].map(Clone::clone));
         let y = runtime.entries(Quantity::LinkRegressor, &JointVectors::new(given));
         let y = DMatrix::from_row_slice(n, 10 * n, &y.unwrap());
         let pi = parameters(arm);

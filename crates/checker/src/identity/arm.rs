@@ -283,19 +283,14 @@ impl Arm {
             });
         }
         let gravity = scene.gravity.as_ref().unwrap_or(&file.gravity);
-        let mut frames = vec![Frame {
-            name: HAND.into(),
-            row: joints.len().saturating_sub(1),
-            pose: frame.then(&point.placement(file.tool.as_ref())?),
-        }];
+        let (name, row) = (HAND.to_owned(), joints.len().saturating_sub(1));
+        let pose = frame.then(&point.placement(file.tool.as_ref())?);
+        let mut frames = vec![Frame { name, row, pose }];
         for own in &file.frame {
-            let row = file.row(&own.link)?;
+            let (name, row) = (own.name.clone(), file.row(&own.link)?);
             let placed = point.placement(Some(&own.placement()))?;
-            frames.push(Frame {
-                name: own.name.clone(),
-                row,
-                pose: joints[row].link.then(&placed),
-            });
+            let pose = joints[row].link.then(&placed);
+            frames.push(Frame { name, row, pose });
         }
         let locked = (0..setting.joints()).filter(|&own| setting.is_locked(own));
         let mut arm = Arm {
@@ -370,9 +365,8 @@ impl Arm {
 
     pub(super) fn spread(&self, rates: &[Number]) -> Vec<Number> {
         let leaders = self.joints.iter().map(|own| own.leader);
-        leaders
-            .map(|(leader, factor)| rates[leader] * factor)
-            .collect()
+        let spread = leaders.map(|(leader, factor)| rates[leader] * factor);
+        spread.collect()
     }
 
     pub(super) fn gathered(&self, loads: impl IntoIterator<Item = Number>) -> Vec<Number> {

@@ -55,13 +55,10 @@ pub struct Points {
 impl Points {
     /// Returns the points of texts.
     pub fn new(texts: &[&str]) -> Points {
-        Points {
-            draws: Draws::new(texts),
-            all: Vec::new(),
-        }
+        let (draws, all) = (Draws::new(texts), Vec::new());
+        Points { draws, all }
     }
 
-    /// Returns three of them.
     pub(crate) fn three(&mut self) -> Option<&[Point; 3]> {
         self.first(3).first_chunk()
     }

@@ -222,7 +222,6 @@ impl Exact {
         terms.map(Exact::new)
     }
 
-    /// Returns the number of factors of its terms.
     pub(crate) fn factors(&self) -> usize {
         let terms = self.0.terms.iter();
         let factors =
@@ -262,40 +261,34 @@ impl Exact {
         })
     }
 
-    /// Returns true if it is this object, and not another one of the same value.
+    /// Returns a number that clones of this object share, and no other object of the same value.
     pub(crate) fn address(&self) -> usize {
         Arc::as_ptr(&self.0) as usize
     }
 
     fn rounded(&self, known: &mut Sines) -> Option<Rounded> {
         if let Some(own) = self.fraction() {
-            return Some(Rounded {
-                over: own.numer().clone(),
-                slack: BigInt::zero(),
-                under: own.denom().clone(),
-            });
+            let (over, under) = (own.numer().clone(), own.denom().clone());
+            let slack = BigInt::zero();
+            return Some(Rounded { over, slack, under });
         }
-        let (mut sum, mut slack) = (BigInt::zero(), BigInt::one());
+        let (mut over, mut slack) = (BigInt::zero(), BigInt::one());
         for (factor, powers) in &self.0.terms {
             let factor = fixed(factor, PLACES);
             let mut product = factor.clone();
             for (angle, powers) in powers {
-                let own = known
-                    .entry(angle.clone())
-                    .or_insert_with(|| angle.rounded());
+                let own = known.entry(angle.clone());
+                let own = own.or_insert_with(|| angle.rounded());
                 for (value, power) in own.as_ref()?.iter().zip(powers) {
                     (0..*power).for_each(|_| product = (&product * value) >> BITS);
                 }
             }
             // 64 factors at most, each off by 2⁻³⁰⁰, and as many products rounded.
             slack += (factor.abs() >> 280u32) + 128;
-            sum += product;
+            over += product;
         }
-        Some(Rounded {
-            over: sum,
-            slack,
-            under: BigInt::one() << PLACES,
-        })
+        let under = BigInt::one() << PLACES;
+        Some(Rounded { over, slack, under })
     }
 
     /// Compares a literal with the nearest float; between two as near, the even one counts.

@@ -23,17 +23,14 @@ pub(super) fn times(matrix: &Matrix, x: &[Number]) -> Vec<Number> {
 }
 
 pub(super) fn units(n: usize) -> Matrix {
-    let one = |i: usize, k: usize| i64::from(i == k).into();
-    (0..n)
-        .map(|i| (0..n).map(|k| one(i, k)).collect())
-        .collect()
+    let row = |i: usize| (0..n).map(|k| i64::from(i == k).into()).collect();
+    (0..n).map(row).collect()
 }
 
 pub(super) fn transposed(matrix: &Matrix) -> Matrix {
     let length = matrix.first().map_or(0, Vec::len);
-    (0..length)
-        .map(|k| matrix.iter().map(|row| row[k]).collect())
-        .collect()
+    let column = |k: usize| matrix.iter().map(|row| row[k]).collect();
+    (0..length).map(column).collect()
 }
 
 /// Returns M⁻¹ x of each x, by Gauss: M is symmetric, and no pivot is zero but by chance.

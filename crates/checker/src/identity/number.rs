@@ -19,10 +19,8 @@ const LOST: u64 = u64::MAX;
 impl Number {
     /// Creates a residue.
     pub fn new(value: u64, prime: u64) -> Number {
-        Number {
-            prime,
-            parts: [value % prime, 0, 0, 0],
-        }
+        let parts = [value % prime, 0, 0, 0];
+        Number { prime, parts }
     }
 
     /// Returns ε for direction 1, and δ for 2.
@@ -51,10 +49,8 @@ impl Number {
 
     /// Returns a slope, or the mixed one, as a number.
     pub fn slope(self, part: usize) -> Number {
-        Number {
-            parts: [self.parts[part], 0, 0, 0],
-            ..self
-        }
+        let parts = [self.parts[part], 0, 0, 0];
+        Number { parts, ..self }
     }
 
     fn with(self, other: Number, combine: impl Fn(u64, [u64; 4], [u64; 4]) -> [u64; 4]) -> Number {
@@ -63,10 +59,8 @@ impl Number {
             true => own.parts,
             false => from_fn(|part| own.entry(part, prime)),
         };
-        Number {
-            prime,
-            parts: combine(prime, parts(self), parts(other)),
-        }
+        let parts = combine(prime, parts(self), parts(other));
+        Number { prime, parts }
     }
 
     fn power(self, mut exponent: u64) -> Number {
@@ -84,10 +78,8 @@ impl Number {
 
 impl From<i64> for Number {
     fn from(whole: i64) -> Number {
-        Number {
-            prime: 0,
-            parts: [whole as u64, 0, 0, 0],
-        }
+        let (prime, parts) = (0, [whole as u64, 0, 0, 0]);
+        Number { prime, parts }
     }
 }
 
@@ -102,11 +94,8 @@ fn times(prime: u64, a: u64, b: u64) -> u64 {
 
 fn plus(prime: u64, a: u64, b: u64) -> u64 {
     let sum = a.wrapping_add(b);
-    if prime > 0 && sum >= prime {
-        sum - prime
-    } else {
-        sum
-    }
+    let is_over = prime > 0 && sum >= prime;
+    if is_over { sum - prime } else { sum }
 }
 
 impl Add for Number {
@@ -184,11 +173,12 @@ impl Draws {
             hash.update((text.len() as u64).to_le_bytes());
             hash.update(text.as_bytes());
         }
-        Draws {
-            seed: hash.finalize(),
-            count: 0,
-            words: Vec::new(),
-        }
+        Draws::of(hash.finalize())
+    }
+
+    fn of(seed: [u8; 32]) -> Draws {
+        let (count, words) = (0, Vec::new());
+        Draws { seed, count, words }
     }
 
     /// Returns the hash that all follow from, in hexadecimal.
@@ -198,12 +188,7 @@ impl Draws {
 
     /// Returns draws that are independent of all others of these.
     pub fn split(&mut self) -> Draws {
-        let seed = self.next_hash();
-        Draws {
-            seed,
-            count: 0,
-            words: Vec::new(),
-        }
+        Draws::of(self.next_hash())
     }
 
     fn next_hash(&mut self) -> [u8; 32] {

@@ -50,7 +50,6 @@ impl Program<Exact> {
         self.run(|own| leaf(own, point, state), apply, |own: Number| -own)
     }
 
-    /// Returns the residues of its steps.
     pub(crate) fn step_residues(&self, point: &Point, state: &State) -> Option<Vec<Number>> {
         self.values(|own| leaf(own, point, state), apply)
     }

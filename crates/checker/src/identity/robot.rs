@@ -126,10 +126,8 @@ pub(super) struct NamedFrame {
 
 impl NamedFrame {
     pub(super) fn placement(&self) -> Placement {
-        Placement {
-            xyz: self.xyz.clone(),
-            rpy: self.rpy.clone(),
-        }
+        let (xyz, rpy) = (self.xyz.clone(), self.rpy.clone());
+        Placement { xyz, rpy }
     }
 }
 
@@ -233,9 +231,8 @@ fn plain(value: &DeValue) -> Result<Value, String> {
             .map(|(key, value)| Ok((key.get_ref().to_string(), plain(value.get_ref())?)))
             .collect::<Result<_, String>>()?,
         other => {
-            return Err(format!(
-                "robot file: {other:?} is no number, text, list or table"
-            ));
+            let why = format!("robot file: {other:?} is no number, text, list or table");
+            return Err(why);
         }
     })
 }

@@ -17,10 +17,9 @@ impl Search {
         let mut best = 0.0f64;
         let mut top = Vec::new();
         for _ in 0..starts {
-            let start = ranges.iter().map(|[low, high]| {
-                next(&mut seed);
-                low + (high - low) * (seed >> 11) as f64 / (1u64 << 53) as f64
-            });
+            let start = ranges
+                .iter()
+                .map(|[low, high]| low + (high - low) * next(&mut seed));
             let start = start.collect();
             let found = self.climb_from(start);
             if found >= best {
@@ -83,9 +82,9 @@ impl Search {
     }
 }
 
-/// Draws the next number: its upper 53 bits are random.
-pub(super) fn next(seed: &mut u64) {
-    *seed = seed
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
+/// Draws the next number from zero to one, by the upper 53 bits.
+pub(super) fn next(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005);
+    *seed = seed.wrapping_add(1_442_695_040_888_963_407);
+    (*seed >> 11) as f64 / (1u64 << 53) as f64
 }

@@ -24,19 +24,13 @@ const LEAST_LOSS: f64 = 0.2;
 /// Returns true if the matrix is shown to be positive definite; its lower triangle is given row by
 /// row, and how far each entry may be off.
 pub fn is_definite(entries: &[Polynomial], errors: &[f64], ring: &Ring) -> bool {
-    let size = (0..)
-        .find(|n| n * (n + 1) / 2 >= entries.len())
-        .unwrap_or(0);
+    let has_room = |n: &usize| n * (n + 1) / 2 >= entries.len();
+    let size = (0..).find(has_room).unwrap_or(0);
     let diagonal = |i: usize| ring.size(&entries[place(i, i)]);
     // A power of two: exact. The matrix has no units then.
     let unit = |size: f64| 0.5f64.powi((0.5 * size.log2()).round() as i32);
     let units: Vec<f64> = (0..size).map(|i| unit(diagonal(i))).collect();
-    let mut all = Terms {
-        terms: Vec::new(),
-        factors: Vec::new(),
-        velocities: 0,
-        rest: 0.0,
-    };
+    let mut all = Terms::default();
     let [mut off, mut sizes] = [vec![0.0; entries.len()], vec![0.0; entries.len()]];
     for i in 0..size {
         for j in 0..=i {
@@ -123,9 +117,7 @@ impl Search {
         let (mut seed, mut least) = (SEED, largest);
         for _ in 0..SAMPLES {
             for (level, [low, high]) in ranges.iter().enumerate() {
-                next(&mut seed);
-                let part = (seed >> 11) as f64 / (1u64 << 53) as f64;
-                self.fix(level, low + (high - low) * part);
+                self.fix(level, low + (high - low) * next(&mut seed));
             }
             self.put_in_place();
             while least > 1e-12 * largest && !exceeds(self.corner.clone(), size, least) {

@@ -57,7 +57,7 @@ pub fn length(polynomial: &Polynomial, ring: &Ring) -> f64 {
 }
 
 /// The finding about a wanted bound of the largest magnitude.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Decision {
     /// `true` if the bound is shown.
     pub is_shown: bool,
@@ -80,10 +80,7 @@ pub fn decide(polynomial: &Polynomial, ring: &Ring, wanted: f64, purse: u64) -> 
     if search.is_constant() || !plain.is_finite() || plain <= wanted {
         return Decision {
             is_shown: plain <= wanted,
-            is_open: false,
-            reached: 0.0,
-            steps: 0,
-            angles: Vec::new(),
+            ..Decision::default()
         };
     }
     search.steps = purse;

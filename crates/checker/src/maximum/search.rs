@@ -43,14 +43,16 @@ pub(super) enum Shown {
 }
 
 /// The meaning of F behind the last level.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(super) enum Aim {
     /// The magnitude at the worst rates.
+    #[default]
     Magnitude,
     /// A bound of a matrix's magnitude, less its least eigenvalue; it has so many rows.
     Eigenvalue { size: usize, largest: f64 },
 }
 
+#[derive(Default)]
 pub(super) struct Search {
     pub(super) aim: Aim,
     /// The loss in the last cell that is cut, if it is not a part of B.
@@ -81,17 +83,9 @@ impl Search {
         let mut keys: Vec<Key> = terms.iter().map(|term| term.0).collect();
         let mut longest = keys.len() + own.factors.len() + 64;
         let mut search = Search {
-            aim: Aim::Magnitude,
-            least_loss: None,
-            levels: Vec::new(),
             columns: vec![terms.iter().map(|term| term.1).collect()],
-            factors: Vec::new(),
-            slack: 0.0,
-            angles: Vec::new(),
-            top: Vec::new(),
-            above: Vec::new(),
-            steps: 0,
             corner: vec![0.0; 1 << own.velocities],
+            ..Search::default()
         };
         for joint in order(&own.terms, ring.angles.len()) {
             let degree = keys.iter().map(|key| multiple(*key, joint).0).max();
@@ -210,11 +204,8 @@ impl Search {
     pub(super) fn is_at_most(&mut self, most: f64) -> bool {
         if let Aim::Eigenvalue { size, largest } = self.aim {
             self.put_in_place();
-            return exceeds(
-                self.corner.clone(),
-                size,
-                (largest - most).next_up() + self.slack,
-            );
+            let least = (largest - most).next_up() + self.slack;
+            return exceeds(self.corner.clone(), size, least);
         }
         let values = self.values(self.levels.len());
         let plain = values.iter().map(|own| own.abs()).sum::<f64>() + self.slack;

@@ -44,6 +44,7 @@ pub(super) fn group(key: Key) -> usize {
     (key & ((1 << GROUP) - 1)) as usize
 }
 
+#[derive(Default)]
 pub(super) struct Terms {
     pub(super) terms: Vec<(Key, f64)>,
     /// The factor of each group of terms.
@@ -131,9 +132,7 @@ impl Terms {
         let mut terms = Vec::new();
         for ((group, key), value) in sums {
             match groups.binary_search(&group) {
-                Ok(id) if value.abs() > least => {
-                    terms.push((key | id as Key, value));
-                }
+                Ok(id) if value.abs() > least => terms.push((key | id as Key, value)),
                 _ => rest += value.abs(),
             }
         }
@@ -145,9 +144,7 @@ impl Terms {
             rest: rest * (1.0 + 1e-9),
         }
     }
-}
 
-impl Terms {
     /// Returns Σ √(Σ c²), over the phases of each multiple of each group.
     pub(super) fn length(&self) -> f64 {
         let mut terms = self.terms.clone();
@@ -161,16 +158,13 @@ impl Terms {
 
 /// Returns the factor of each group, and the number of velocities whose signs matter.
 fn factors(groups: &[Powers], ring: &Ring) -> (Vec<Factor>, usize) {
+    use Variable::{Acceleration, EvenError, OddError};
     let joints = ring.angles.len();
     // One or two velocities, with nothing else, that are as large backwards as forwards.
     let product = |group: &Powers| -> Option<Vec<usize>> {
         let own = group.unmarked();
         let power = |joint: usize| exponent(own, Variable::Velocity, joint);
-        let others = [
-            Variable::Acceleration,
-            Variable::EvenError,
-            Variable::OddError,
-        ];
+        let others = [Acceleration, EvenError, OddError];
         let is_bare = |joint: usize| others.iter().all(|other| exponent(own, *other, joint) == 0);
         let is_product = own != Powers::default()
             && (0..joints).all(|joint| power(joint) <= 1 && is_bare(joint))

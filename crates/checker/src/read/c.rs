@@ -285,10 +285,8 @@ impl<'r> Reader<'r> {
         if is_told {
             let (f, joints) = (self.suffix(), self.head.joints);
             // Up to here sines need no library.
-            let (largest, end) = match self.head.is_single {
-                true => (100.0, "F"),
-                false => (8192.0, ""),
-            };
+            let largest = if self.head.is_single { 100.0 } else { 8192.0 };
+            let end = if self.head.is_single { "F" } else { "" };
             let most = largest / joints.next_power_of_two() as f64;
             let near = (0..joints).map(|k| format!("(fabs{f}(q_s[{k}]) <= {most:?}{end})"));
             let near = near.collect::<Vec<String>>().join(" && ");

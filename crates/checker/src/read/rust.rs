@@ -20,10 +20,7 @@ impl<'r> Reader<'r> {
         self.statements(false)?;
         let [_, value] = self.returned();
         self.results(&format!("{value} }}"))?;
-        match has_columns {
-            true => self.columns(),
-            false => Ok(()),
-        }
+        if has_columns { self.columns() } else { Ok(()) }
     }
 
     fn rust_head(&self) -> String {
@@ -194,10 +191,8 @@ impl<'r> Reader<'r> {
         let names = commas(head.arguments.iter().map(|own| own.name.to_owned()));
         let sizes = format!("{count}, {n}, {entries}, {k}");
         let is_fused = single.program.steps.iter().any(|step| step.0 == '×') && k > 0;
-        let fused = match is_fused {
-            true => "const FUSED: bool = true;",
-            false => "",
-        };
+        let told = "const FUSED: bool = true;";
+        let fused = if is_fused { told } else { "" };
         self.expect_all(&format!(
             "#[derive(Clone, Copy, Debug)] pub struct {kind};
             impl dalembert_batch::Function<{sizes}> for {kind} {{
