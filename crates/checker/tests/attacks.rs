@@ -47,7 +47,7 @@ t1 r2l pick line 3: not of the grammar: `libm` expected
 t5 r2l pick `libm` expected, not `0.0`
 t6 r2l pick line 4: not of the grammar: `=` expected
 # E of 1e-300 in the claim: none may say what the error is.
-p2E planar2r_a a unknown field
+p2E r2a a unknown field
 # Limits between which nothing is.
 ra ru s the range of `qd` is empty
 ";
