@@ -329,6 +329,30 @@ name = \"joint2\" | name = \"joint3\" | other joints
     }
 }
 
+/// A payload that is a point at the origin of its frame, or nothing, or one that the scene gives in a
+/// tilted frame.
+#[test]
+fn payloads_that_leave_a_result_zero() {
+    let scene = |more: &str| {
+        format!("\n[scene.s]\n{more}\ntolerance = {{ value = 1e-2, relative_to = \"range\" }}\n")
+    };
+    for range in ["mass = [0, 2], radius = 0", "mass = [0, 0], radius = 0.1"] {
+        let robot = source("puma560", "");
+        let (robot, _) = robot.split_once("\n[scene").unwrap_or((&robot, ""));
+        let robot = robot.to_owned() + &scene(&format!("box = {{ payload = {{ {range} }} }}"));
+        let asked = "outputs: gravity; scene: s; parameters: payload; scalar: f64";
+        Certified::of(&robot, Some("s"), asked)[0].is_shown(2, range);
+    }
+    let frame = "payload_frame = { rpy = [0, 0.3, 0] }";
+    let robot = source("planar2r", "").replacen("[[joint]]", &format!("{frame}\n[[joint]]"), 1);
+    let robot = robot
+        + &scene(
+            "velocity = \"zero\"\nacceleration = \"zero\"\npayload = { mass = 1.5, com = [0.01, 0.02, 0.1] }",
+        );
+    let asked = "outputs: gravity; scene: s; scalar: f64";
+    Certified::of(&robot, Some("s"), asked)[0].is_shown(1, frame);
+}
+
 /// The claim has the payload in the last row's frame, to sixteen digits the scene's.
 #[test]
 fn payloads_in_tilted_frames() {

@@ -1,4 +1,4 @@
-//! What is kept of a run: its programs in a plan, for later runs, and the claim about them, with
+//! The programs of a run in a plan, for later runs, and the claim about them, with
 //! which the checker compares their text.
 
 use dalembert_checker::claim::{Claim, Claimed};
@@ -100,5 +100,5 @@ pub fn claim(
         }
     });
     let functions = functions.collect();
-    Ok(document(robot, source, setup, functions, constants))
+    Ok(document(robot, source, setup.scene(), functions, constants))
 }

@@ -4,7 +4,7 @@
 use dalembert_checker::Fault;
 use dalembert_checker::certify::{Demand, certify};
 
-use super::claim::claim_of;
+use super::claim::claim_in;
 use super::reference::source;
 use super::refusals::above;
 use super::variant::{Bound, Variant};
@@ -22,18 +22,21 @@ pub(super) fn bounded(
     tolerance: Option<f64>,
 ) -> Result<Variant, Complaint> {
     let (source, scene) = source(setup);
-    let claim = claim_of(setup.robot(), &source, setup, own).write();
+    let claim = claim_in(setup.robot(), &source, setup, scene.as_ref(), own).write();
     let demand = Demand {
-        scene: scene.as_deref(),
+        scene: scene.as_ref().map(|scene| scene.name.as_str()),
         tolerance,
         worst: None,
     };
     let report = certify(&own.with_load(), &claim, &source, &demand);
     let name = own.emitted.function.name();
-    let line = report.map(|report| report.lines.into_iter().find(|line| line.name == name));
-    let found = line.and_then(|line| {
+    let found = report.and_then(|report| {
+        let lines = report.lines.into_iter();
+        let shown = lines.map(|line| Ok((line.result?, line.name)));
+        let shown = shown.collect::<Result<Vec<_>, Fault>>()?;
+        let found = shown.into_iter().find(|own| own.1 == name);
         let none = || Fault::Claim("there is no function".into());
-        line.ok_or_else(none)?.result
+        Ok(found.ok_or_else(none)?.0)
     });
     let found = found.map_err(|fault| above(own, &fault))?;
     let up = |size: f64, unit: f64| match size == 0.0 {

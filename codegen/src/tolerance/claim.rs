@@ -11,6 +11,17 @@ use crate::setup::Setup;
 
 /// Returns the claim about one text that a tolerance admitted.
 pub fn claim_of(robot: &Robot, source: &str, setup: &Setup, own: &Variant) -> Claim {
+    claim_in(robot, source, setup, setup.scene(), own)
+}
+
+/// Returns the claim in a scene of the source.
+pub(super) fn claim_in(
+    robot: &Robot,
+    source: &str,
+    setup: &Setup,
+    scene: Option<&Scene>,
+    own: &Variant,
+) -> Claim {
     let mut constants = Written::default();
     let load = own.load.iter();
     let load = load.map(|load| of_setup(load, setup, &mut constants));
@@ -19,20 +30,18 @@ pub fn claim_of(robot: &Robot, source: &str, setup: &Setup, own: &Variant) -> Cl
         tolerated: tolerated(own, &mut constants),
         ..of_setup(&own.emitted, setup, &mut constants)
     });
-    document(robot, source, setup, functions, constants)
+    document(robot, source, scene, functions, constants)
 }
 
 pub(crate) fn document(
     robot: &Robot,
     source: &str,
-    setup: &Setup,
+    scene: Option<&Scene>,
     functions: Vec<Claimed>,
     constants: Written,
 ) -> Claim {
     let is_tilted = |own: &Placement| own.rpy.iter().any(|own| own.quarter_turns().is_none());
-    let scene = setup
-        .scene()
-        .filter(|_| robot.payload_frame.as_ref().is_some_and(is_tilted));
+    let scene = scene.filter(|_| robot.payload_frame.as_ref().is_some_and(is_tilted));
     let payload = scene.and_then(|scene| {
         Some(Scene {
             name: scene.name.clone(),

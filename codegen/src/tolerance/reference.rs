@@ -36,7 +36,7 @@ pub(super) struct Verdict {
 }
 
 /// Returns the file of a robot in its scene; gravity, payload and box are in the robot already.
-pub(super) fn source(setup: &Setup) -> (String, Option<String>) {
+pub(super) fn source(setup: &Setup) -> (String, Option<Scene>) {
     let scene = setup.scene().map(|scene| Scene {
         gravity: None,
         payload: None,
@@ -45,7 +45,7 @@ pub(super) fn source(setup: &Setup) -> (String, Option<String>) {
     });
     let table = scene.as_ref().map_or_else(String::new, scene::write);
     let source = format!("{}\n{table}", write(setup.robot()));
-    (source, scene.map(|scene| scene.name))
+    (source, scene)
 }
 
 /// Reads a program as the checker has it.
@@ -170,6 +170,7 @@ pub(crate) fn domain(
     let (source, scene) = source(setup);
     let arguments: Vec<&str> = program.arguments.iter().map(|own| own.name()).collect();
     let load = load.map(read).transpose()?;
-    let domain = Domain::read(&source, scene.as_deref(), &arguments, load.as_ref());
+    let name = scene.as_ref().map(|scene| scene.name.as_str());
+    let domain = Domain::read(&source, name, &arguments, load.as_ref());
     domain.map_err(|fault| complaint(fault.to_string()))
 }

@@ -79,9 +79,12 @@ pub(super) fn above(own: &Variant, fault: &Fault) -> Complaint {
     let name = format!("`{}`: ", own.emitted.function.name());
     let why = why.strip_prefix(&name).unwrap_or(&why);
     let wider = own.scalar.of("", ", or choose a wider scalar");
+    let help = match why.contains("has a bound of") {
+        true => format!("; allow more{wider}"),
+        false => String::new(),
+    };
     complaint(format!(
-        "no variant in {} is shown to be within the tolerance: with nothing left out, {why}; allow \
-         more{wider}",
+        "no variant in {} is shown to be within the tolerance: with nothing left out, {why}{help}",
         own.scalar
     ))
 }

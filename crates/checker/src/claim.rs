@@ -31,6 +31,7 @@ pub const VERSION: u32 = 2;
 pub const MOST_BYTES: usize = 32 << 20;
 /// The most constants, and the most operations of a function.
 const MOST: usize = 1 << 17;
+/// The most functions of a claim.
 const MOST_FUNCTIONS: usize = 1 << 12;
 /// The most results of a function: of 64 joints all h_ikm are 2¹⁸.
 const MOST_RESULTS: usize = 1 << 19;

@@ -71,9 +71,18 @@ impl Interval {
     }
 }
 
+/// Zero, exactly: what it is added to, and finite numbers times it, need no rounding.
+const ZERO: Interval = Interval {
+    low: 0.0,
+    high: 0.0,
+};
+
 impl Add for Interval {
     type Output = Interval;
     fn add(self, other: Interval) -> Interval {
+        if self == ZERO || other == ZERO {
+            return if self == ZERO { other } else { self };
+        }
         Interval::outward(self.low + other.low, self.high + other.high)
     }
 }
@@ -88,6 +97,9 @@ impl Neg for Interval {
 impl Mul for Interval {
     type Output = Interval;
     fn mul(self, other: Interval) -> Interval {
+        if (self == ZERO || other == ZERO) && (self.magnitude() + other.magnitude()).is_finite() {
+            return ZERO;
+        }
         let (a, b) = (self.low * other.low, self.low * other.high);
         let (c, d) = (self.high * other.low, self.high * other.high);
         if [a, b, c, d].iter().any(|x| x.is_nan()) {

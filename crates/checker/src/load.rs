@@ -31,11 +31,27 @@ impl Default for Body {
 }
 
 impl Body {
+    /// Returns bodies beyond what decimals lose in doubles, and numbers in f32.
+    fn outward(self, is_single: bool) -> Body {
+        let up = |x: f64| match is_single {
+            _ if x == 0.0 => x,
+            true => f64::from((x as f32).next_up()),
+            false => x.next_up(),
+        };
+        let [low, high] = self.mass;
+        Body {
+            mass: [(2.0 * low - up(low)).max(0.0), up(high)],
+            radius: up(self.radius),
+        }
+    }
+
     /// Returns the ranges of the ten numbers: mass, centre of mass, and inertia about that as xx,
     /// yy, zz, xy, yz, xz.
     pub(crate) fn ranges(self) -> Vec<[f64; 2]> {
         let Body { mass, radius } = self;
-        let most = mass[1] * radius * radius;
+        // Rounded up: zero stays zero.
+        let up = |x: f64| if x == 0.0 { x } else { x.next_up() };
+        let most = up(up(mass[1] * radius) * radius);
         let symmetric = |most: f64| [-most, most];
         [
             vec![mass],
@@ -90,7 +106,8 @@ impl Setting<'_> {
         else {
             return Ok((ranges, Vec::new()));
         };
-        ranges[payload] = self.body().map_err(of_robot)?.unwrap_or_default().ranges();
+        let body = self.body().map_err(of_robot)?.unwrap_or_default();
+        ranges[payload] = body.outward(is_single).ranges();
         let text = literals(load);
         let values = Rounding::new(&text, is_single, &ranges).bounds(&ranges, None);
         let values = values.results;

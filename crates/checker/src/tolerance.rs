@@ -1,8 +1,8 @@
 //! A function under a tolerance: at every state of the box each result of its text is within the
 //! tolerance, relative to T, of the exact program's.
 //!
-//! The difference of the two programs is a polynomial in sines, cosines and rates, of which all
-//! that both have in common cancels. Its largest magnitude over the box and what rounding costs add
+//! The difference of the two programs is a polynomial in sines, cosines, rates and loads, of which
+//! all that both have in common cancels. Its largest magnitude over the box and what rounding costs add
 //! up. Box and T are not the claim's: the box is the scene's or the limits of the joints, T the
 //! actuators' limit, or what the exact program reaches at a state of the box; there a payload that is an
 //! argument has the largest mass, all of it in a point that the claim names.

@@ -28,7 +28,7 @@
 
 mod arguments;
 #[cfg(feature = "cluster")]
-mod cluster;
+pub mod cluster;
 pub mod commands;
 pub mod dynamics;
 pub mod engine;

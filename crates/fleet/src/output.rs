@@ -55,6 +55,7 @@ impl Drop for Unfinished {
 
 /// Writes a text, whole or not at all.
 pub fn write(name: &Path, text: &str) -> Result<(), Error> {
+    Unfinished::beside(name)?;
     write_whole(name, text).map_err(|why| Error::new(why).at(name.display()))
 }
 

@@ -14,6 +14,7 @@ use std::fs::{self, File};
 use std::io::{self, Write as _};
 use std::path::{Component, Path, PathBuf};
 use std::process;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::Asked;
 
@@ -106,8 +107,10 @@ pub fn refusal<'a>(file: &[u8], edited: &'a str, foreign: &'a str) -> Option<&'a
 /// Those of the system; the file stays as it was.
 pub fn write_whole(path: &Path, text: &str) -> io::Result<()> {
     let mut part = path.as_os_str().to_owned();
-    // Two processes may write the same file.
-    part.push(format!(".{}.part", process::id()));
+    // Two processes, or two threads of one, may write the same file.
+    static WRITES: AtomicUsize = AtomicUsize::new(0);
+    let number = WRITES.fetch_add(1, Ordering::Relaxed);
+    part.push(format!(".{}.{number}.part", process::id()));
     let written = File::create(&part)
         .and_then(|mut file| {
             file.write_all(text.as_bytes())?;

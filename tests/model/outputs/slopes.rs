@@ -82,8 +82,12 @@ fn derivatives_are_rates_along_a_motion() {
             &[AccelerationByTorqueAndPosition],
         ];
         for (terms, rates) in terms.iter().zip(first.into_iter().chain(others)) {
-            // What is by velocity already has its slopes by position in its columns.
-            let is_mixed = format!("{:?}", terms[0]).ends_with("PositionAndVelocity");
+            // Slopes by velocity have their slopes by position in columns.
+            let mixed = [
+                TorqueByPositionAndVelocity,
+                AccelerationByPositionAndVelocity,
+            ];
+            let is_mixed = mixed.contains(&terms[0]);
             let mut sum = along(terms[0], is_mixed, &case.qd);
             for quantity in &terms[1..] {
                 let other = along(*quantity, false, &case.qdd);

@@ -1,4 +1,4 @@
-//! What the aggregates share: names, arguments, and states as bytes; and what fits keep.
+//! Names, arguments and states as bytes, which the aggregates share, and the triangles of fits.
 
 use std::fmt;
 use std::sync::Arc;

@@ -34,8 +34,8 @@ pub fn forward_dynamics<S: Divide>(
 ) -> Vec<S> {
     let frames: Vec<Frame<'_, S>> = arm.steps(at).map(Frame::new).collect();
     let mut velocity = Twist::rest();
-    let moving = frames.iter().zip(qd).map(|(frame, qd)| {
-        let own = frame.along(qd);
+    let moving = frames.iter().enumerate().map(|(i, frame)| {
+        let own = frame.along(&qd[i]);
         let moved = |before: Twist<S>| (before.with(&own), before.cross(&own));
         let (next, drift) = frame.outward(&velocity, moved);
         velocity = next;

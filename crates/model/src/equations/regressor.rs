@@ -50,12 +50,12 @@ impl LinkParameter {
     pub fn name(self) -> &'static str {
         match self {
             LinkParameter::Mass => "m",
-            LinkParameter::First(axis) => ["mx", "my", "mz"][axis],
+            LinkParameter::First(axis) => ["mx", "my", "mz"][axis.min(2)],
             LinkParameter::Tensor(row, column) => [
                 ["Ixx", "Ixy", "Ixz"],
                 ["Ixy", "Iyy", "Iyz"],
                 ["Ixz", "Iyz", "Izz"],
-            ][row][column],
+            ][row.min(2)][column.min(2)],
         }
     }
 

@@ -38,7 +38,8 @@ impl Argument {
     /// The number of arguments.
     pub const COUNT: usize = 12;
 
-    /// Every argument, in the order of signatures.
+    /// Every argument, in the order of signatures; [`Argument::STATE`] and [`Argument::JOINTS`] are its
+    /// beginning.
     pub const ALL: [Argument; Argument::COUNT] = [
         Argument::Position,
         Argument::Velocity,

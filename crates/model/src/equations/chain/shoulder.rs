@@ -1,6 +1,6 @@
 //! Forward dynamics of a chain whose first three joints or more turn about axes that meet.
 //!
-//! Of I ω̇ + N ÿ = μ − p and Nᵀ ω̇ + D ÿ = τ − b, with I the inertia of all links beyond about the
+//! In I ω̇ + N ÿ = μ − p and Nᵀ ω̇ + D ÿ = τ − b, with I the inertia of all links beyond about the
 //! point and N the moments about it of their unit accelerations, in the axes of the first link
 //! beyond, ÿ is eliminated; what is left is an articulated body that only turns.
 
