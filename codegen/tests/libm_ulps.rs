@@ -1,4 +1,4 @@
-//! What every bound takes for granted of libm: sine and cosine are within one ulp, here of the
+//! Every bound takes this for granted of libm: sine and cosine are within one ulp, here of the
 //! version that is locked. Samples, not a proof; hard cases among them.
 
 use dalembert_codegen::workspace::Random;

@@ -29,7 +29,7 @@ pub struct GeneratedFunction {
     pub source: Source,
     /// The robot's parameters that it takes as arguments, if it does.
     pub parameters: Option<ParametersKey>,
-    /// Whether it is the plan's, and nothing was searched for.
+    /// `true` if it is the plan's, and nothing was searched for.
     pub planned: bool,
     /// The final program with exact constants: what is emitted.
     pub program: Program,

@@ -1,6 +1,5 @@
 //! What a tolerance left of a function, in the words of its documentation.
 
-use dalembert_checker::certify::Body;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scale;
 
@@ -97,17 +96,9 @@ fn states(variant: &Variant, setup: &Setup) -> Vec<String> {
 }
 
 fn payloads_of(setup: &Setup) -> String {
-    let given = setup.robot().payload_range.as_ref();
-    let Body { mass, radius } = payloads(setup);
-    let [low, high] = mass;
-    let default = if given.is_none() {
-        " (no range is given)"
-    } else {
-        ""
-    };
-    format!(
-        "Payloads: {low} to {high} kg, all of it within {radius} m of the origin of its frame{default}."
-    )
+    let is_default = setup.robot().payload_range.is_none();
+    let default = ["", " (no range is given)"][usize::from(is_default)];
+    format!("Payloads: {}{default}.", payloads(setup))
 }
 
 /// Says what T is: a sentence for each kind of output.

@@ -1,4 +1,4 @@
-//! What a scalar cannot hold: constants out of its range, overflow inside the robot's limits.
+//! Constants out of a scalar's range, and overflow inside the robot's limits.
 
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;

@@ -65,7 +65,7 @@ pub(crate) fn tolerated(first: &Variant, constants: &mut Written) -> Option<Tole
     let is_given = |own: &Argument| program.arguments.contains(own);
     let reached = first.reached.iter().map(|at| {
         let given = Argument::STATE.iter().filter(|own| is_given(own));
-        // Of the payload, which is a point, where that is.
+        // A payload is a point there.
         let point = at.payload.iter().skip(1).take(3);
         let given = given.flat_map(|own| at.entries(*own)).chain(point);
         given.copied().collect()

@@ -88,7 +88,7 @@ impl Variant {
     }
 
     /// Returns its text, behind that of the function that makes its load.
-    pub fn with_load(&self) -> String {
+    pub(super) fn with_load(&self) -> String {
         match &self.load {
             Some(load) => self.load_text(load) + "\n" + &self.text,
             None => self.text.clone(),

@@ -15,8 +15,7 @@ use crate::identity::number::Draws;
 use crate::identity::setting::Setting;
 use crate::identity::table::{Field, Function, functions, length};
 use crate::identity::{Base, Points, Statement, aligned, check, robot};
-use crate::load::LOAD;
-use crate::program::{ARGUMENTS, Operand, Program, argument};
+use crate::program::{ARGUMENTS, LOAD, Operand, Program, argument};
 use crate::read::{self, Argument, Head, Source, Text, TextError};
 use crate::rounding::Ranges;
 use crate::sines;
@@ -24,7 +23,7 @@ use crate::tolerance;
 use crate::work::Work;
 
 pub use crate::cost::{Cost, RATE, Shown};
-pub use crate::load::Body;
+pub use crate::payload::Body;
 pub use crate::tolerance::Bounded;
 
 /// The most times that a function of a claim stands in a file: once for each scalar is usual.

@@ -3,11 +3,11 @@
 use crate::fault::Fault;
 use crate::identity::exact::Exact;
 use crate::identity::robot;
-use crate::load::{LOAD, load_of_point};
+use crate::load::load_of_point;
 pub use crate::maximum::corners;
 use crate::maximum::{self, Decision};
 use crate::polynomial::Polynomial;
-use crate::program::{Program, argument};
+use crate::program::{LOAD, Program, argument};
 use crate::ring::Ring;
 use crate::work::Work;
 use crate::written::Written;
@@ -20,7 +20,7 @@ pub struct Domain {
     ring: Ring,
     /// The ranges of the load's numbers.
     load: Vec<[f64; 2]>,
-    /// The same states without any payload, where there may be one.
+    /// These states without a payload, where there may be one.
     bare: Option<Box<Domain>>,
 }
 
@@ -65,7 +65,7 @@ impl Domain {
         &self.load
     }
 
-    /// Returns the same states without a payload.
+    /// Returns these states without a payload.
     pub fn without_payload(&self) -> &Domain {
         self.bare.as_deref().unwrap_or(self)
     }

@@ -80,8 +80,11 @@ const ZERO: Interval = Interval {
 impl Add for Interval {
     type Output = Interval;
     fn add(self, other: Interval) -> Interval {
-        if self == ZERO || other == ZERO {
-            return if self == ZERO { other } else { self };
+        if self == ZERO {
+            return other;
+        }
+        if other == ZERO {
+            return self;
         }
         Interval::outward(self.low + other.low, self.high + other.high)
     }

@@ -16,6 +16,9 @@ pub const ARGUMENTS: [(&str, char); 12] = [
     ("multiplier", 'n'),
 ];
 
+/// The function that makes a load, and the argument that takes it.
+pub(crate) const LOAD: &str = "load";
+
 /// Returns the place of an argument.
 pub fn argument(name: &str) -> Option<usize> {
     ARGUMENTS.iter().position(|own| own.0 == name)

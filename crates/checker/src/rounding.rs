@@ -5,9 +5,8 @@
 use std::collections::HashMap;
 
 use crate::interval::Interval;
-use crate::load::LOAD;
 use crate::polynomial::SLACK;
-use crate::program::{Operand, Program, argument};
+use crate::program::{LOAD, Operand, Program, argument};
 use crate::read::{Function, Source};
 use crate::sines::{self, Scalar};
 

@@ -1,7 +1,7 @@
 //! States at which a function is tried: special ones, random ones, and where climbs end.
 
 use crate::identity::number::Draws;
-use crate::load::Body;
+use crate::payload::Body;
 use crate::program::{ARGUMENTS, argument};
 use crate::rounding::Ranges;
 use crate::sample::State;

@@ -14,10 +14,11 @@ use crate::identity::exact::Exact;
 use crate::identity::setting::Setting;
 use crate::identity::table::{Field, Function};
 use crate::interval::{FARTHEST, Interval};
-use crate::load::{Body, LOAD, load_of_point};
+use crate::load::load_of_point;
 use crate::maximum::{self, length};
+use crate::payload::Body;
 use crate::polynomial::SLACK;
-use crate::program::{ARGUMENTS, Operand, Program, argument};
+use crate::program::{ARGUMENTS, LOAD, Operand, Program, argument};
 use crate::read;
 use crate::ring::Ring;
 use crate::rounding::{Ranges, Rounding};
@@ -236,8 +237,8 @@ impl Subject<'_> {
         own.ok_or_else(|| Fault::Claim(why.into()))
     }
 
-    /// Returns what the exact program reaches at the claim's state of each result: positions, rates, and
-    /// the point where a payload is.
+    /// Returns T, which the exact program reaches at the claim's state of each result: positions, rates,
+    /// and the point where a payload is.
     fn reached(&self, ranges: &Ranges) -> Result<Vec<f64>, Fault> {
         let (states, count) = (&self.own.reached, self.setting.joints());
         let of_robot = |why| Fault::Robot("limits".into(), why);

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use dalembert_checker::certify::{Body, Bounded, Cost, Demand, Line, RATE, Shown, certify};
+use dalembert_checker::certify::{Bounded, Cost, Demand, Line, RATE, Shown, certify};
 use dalembert_checker::file::MOST_BYTES;
 use dalembert_codegen::workspace::{bound_of, input_hash};
 use dalembert_import::ChainArgs;
@@ -120,16 +120,9 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
             format!("Joints without limits: velocities and accelerations up to {RATE} (SI).");
         report.line(rates);
     }
-    if let Some((Body { mass, radius }, is_default)) = found.payloads {
-        let [low, high] = mass;
-        let default = if is_default {
-            " (no range is given)"
-        } else {
-            ""
-        };
-        report.line(format!(
-            "Payloads: {low} to {high} kg, all of it within {radius} m of its frame's origin{default}."
-        ));
+    if let Some((body, is_default)) = found.payloads {
+        let default = ["", " (no range is given)"][usize::from(is_default)];
+        report.line(format!("Payloads: {body}{default}."));
     }
     let mut table = Table::new("module|function|rounding|units|states|bounded|why|passed");
     let mut module = "";

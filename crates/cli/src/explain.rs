@@ -8,7 +8,6 @@ use dalembert_codegen::{Function, GenerateError, Program, Request, ScalarType};
 use dalembert_import::ChainArgs;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
-use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 
 use crate::args::Options;
@@ -77,10 +76,7 @@ pub fn explain(robot: &Robot, request: &Request) -> Result<Vec<Explanation>, Gen
         });
     }
     let programs: Vec<&Program> = programs.iter().collect();
-    let takes_payload = setup.has(RuntimeParameter::Payload);
-    let load = takes_payload.then(|| steps::exact(&job, Function::Load));
-    let load = load.transpose()?.map(|(_, program)| program);
-    let admitted = admitted(&job, &programs, load.as_ref())?;
+    let admitted = admitted(&job, &programs, None)?;
     for (explanation, admitted) in explanations.iter_mut().zip(admitted.iter().flatten()) {
         explanation.rows.extend(steps::tolerated(admitted)?);
     }

@@ -70,23 +70,10 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
     let targets = targets.transpose()?;
     let setup = request.setup(&source.robot).map_err(GenerateError::from)?;
     let functions = source.generate(context, &mut request)?.functions;
-    let (loads, functions): (Vec<_>, Vec<_>) = (functions.into_iter())
-        .map(|own| own.program)
-        .partition(|own| own.function == Function::Load);
-    let load = loads.first();
-    let exact = functions.into_iter().next();
+    let exact = functions.into_iter().next().map(|own| own.program);
     let mut exact = exact.ok_or_else(|| Failure::from(GenerateError::empty()))?;
     let relative_to = relative_to(args, scene.as_ref());
-    let climb = |exact: &Program| {
-        climb(
-            args,
-            &request,
-            (&setup, load),
-            exact,
-            relative_to,
-            &tolerances,
-        )
-    };
+    let climb = |exact: &Program| climb(args, &request, &setup, exact, relative_to, &tolerances);
     let mut points = climb(&exact)?;
     // What a tolerance led to may be exact, and cheaper than what the exact search found.
     if let Some(better) = better(&setup, &exact, &points) {
@@ -122,7 +109,7 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
                 point.tolerance
             );
             done.files
-                .push((code, sealed(Comment::Line, &writer, &own.with_load())));
+                .push((code, sealed(Comment::Line, &writer, &own.text)));
             let text = claim_of(&source.robot, &source.robot_file, &setup, own).write();
             done.files.push((claim, text));
         }
@@ -167,7 +154,7 @@ fn exact_request(
 fn climb(
     args: &TradeoffArgs,
     request: &Request,
-    (setup, load): (&Setup, Option<&Program>),
+    setup: &Setup,
     exact: &Program,
     relative_to: Scale,
     tolerances: &[f64],
@@ -178,7 +165,7 @@ fn climb(
             args.robot.display()
         ))
     };
-    let budget = Budget::new(setup, exact, load, relative_to).map_err(refused)?;
+    let budget = Budget::new(setup, exact, None, relative_to).map_err(refused)?;
     // Every tolerance and the exact program: searched for, then falsified.
     terminal::bar().set_length(2 * (1 + tolerances.len() as u64));
     let ladder = Ladder::new(args.samples as usize, request.effort, &budget);

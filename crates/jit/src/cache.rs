@@ -28,7 +28,7 @@ const GENERATOR: &str = concat!("entry 2 of ", env!("DALEMBERT_SOURCES"));
 /// Larger files are none of ours.
 const MAX_BYTES: u64 = 1 << 28;
 
-/// What is kept of a loaded arm.
+/// The parts of a loaded arm that are kept.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Entry {
     pub(crate) robot: String,

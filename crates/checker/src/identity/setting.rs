@@ -8,7 +8,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::exact::{Angle, Exact, number};
 use super::robot::{File, OneOrEach, Row, Scene, number_of};
-use crate::load::Body;
+use crate::payload::Body;
 use crate::program::{ARGUMENTS, Operand};
 
 const MOST_JOINTS: usize = 64;

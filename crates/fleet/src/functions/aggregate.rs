@@ -140,7 +140,7 @@ impl Reader<'_> {
 /// Fewer states than in other pieces: of each there is a whole regressor.
 const FEW: usize = 128;
 
-/// What identification keeps: the triangles of all joints, read by [`Triangles::from_bytes`].
+/// The triangles of all joints, which identification keeps, read by [`Triangles::from_bytes`].
 #[derive(Debug)]
 struct Parameters {
     kept: Triangles,

@@ -153,7 +153,7 @@ impl<'a> Mjcf<'a, '_, '_> {
         let class = self.class_of(node, "class", 0);
         let force = self.force_range(node, class, "forcerange", "forcelimited");
         let force = match force {
-            // What a motor is told is its force.
+            // A motor is told its force.
             None if node.has_tag_name("motor") => {
                 self.force_range(node, class, "ctrlrange", "ctrllimited")
             }

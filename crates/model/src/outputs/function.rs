@@ -124,7 +124,7 @@ impl Function {
         Argument::ALL.into_iter().filter(read).collect()
     }
 
-    /// Returns whether arms with followers have it: nothing of links, and no second derivatives.
+    /// Returns true if arms with followers have it: nothing of links, and no second derivatives.
     pub fn takes_followers(self) -> bool {
         let mut quantities = self.quantities().iter();
         let is_second = self.arguments().contains(&Argument::Multiplier);

@@ -229,7 +229,7 @@ fn taken_back<S: Scalar>(mut matrix: Vec<Vec<S>>) -> Vec<Vec<S>> {
 ///
 /// A joint about z that is given the torque τ turns with ω̇_z = w_z + q̈, w being what the
 /// joints before bring along, so that D q̈ = τ − p_z − (I w)_z with D = I_zz + A, A its rotor.
-/// What the joints before feel is I′ w + p′ with I′ = I − I_z I_zᵀ/D and p′ = p + I_z (τ − p_z)/D.
+/// The joints before feel I′ w + p′ with I′ = I − I_z I_zᵀ/D and p′ = p + I_z (τ − p_z)/D.
 struct Hinged<S> {
     inertia: Inertia<S>,
     moment: Vector<S>,
