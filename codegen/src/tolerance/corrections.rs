@@ -4,7 +4,7 @@
 //! all rows put together, with random signs, into few (a count sketch) are what they are but for some
 //! per cent, if there are so many of these for each constant.
 
-use super::greedy::Greedy;
+use super::greedy::{Greedy, is_zero};
 use super::linear::{Factor, dot};
 use super::net::{Arg, State, Value};
 use crate::program::Operation;
@@ -40,6 +40,8 @@ pub(super) struct Frame {
     pub(super) adjoints: Vec<Vec<f64>>,
     pub(super) unknowns: Vec<Unknown>,
     columns: Vec<Vec<f64>>,
+    /// The results that each constant changes.
+    reached: Vec<Vec<usize>>,
     pub(super) weights: Vec<f64>,
     /// For ranking, and for corrections.
     pub(super) coarse: Sketched,
@@ -134,10 +136,9 @@ impl Greedy<'_> {
                 kept.push(std::mem::take(&mut adjoints));
             }
         }
-        let is_something = |column: &Vec<f64>| column.iter().any(|x| *x != 0.0);
         let mut each = columns.iter();
-        unknowns.retain(|_| each.next().is_some_and(is_something));
-        columns.retain(is_something);
+        unknowns.retain(|_| each.next().is_some_and(|own| !is_zero(own)));
+        columns.retain(|own| !is_zero(own));
         columns.iter_mut().for_each(|column| self.scale(column));
         columns
     }
@@ -162,7 +163,13 @@ impl Greedy<'_> {
                 factor,
             }
         };
+        let reached = |column: &Vec<f64>| {
+            let results = column.chunks_exact(self.samples.len()).enumerate();
+            let results = results.filter(|own| !is_zero(own.1));
+            results.map(|own| own.0).collect()
+        };
         Frame {
+            reached: columns.iter().map(reached).collect(),
             coarse: sketched(SKETCH),
             fine: sketched(self.sketch_size(unknowns.len())),
             values,
@@ -207,10 +214,14 @@ impl Greedy<'_> {
             pairs.for_each(|(change, own)| *change -= x * own);
         }
         gone.iter().for_each(|&k| change[k] = 0.0);
-        for (column, x) in frame.columns.iter().zip(&change) {
+        let m = self.samples.len();
+        for ((column, reached), x) in frame.columns.iter().zip(&frame.reached).zip(&change) {
             if *x != 0.0 {
-                let pairs = rows.iter_mut().zip(column);
-                pairs.for_each(|(row, own)| *row -= x * own);
+                for &result in reached {
+                    let rows = rows[result * m..][..m].iter_mut();
+                    let pairs = rows.zip(&column[result * m..][..m]);
+                    pairs.for_each(|(row, own)| *row -= x * own);
+                }
             }
         }
         let (sum, worst) = self.summed(&self.samples.blocks(&rows));

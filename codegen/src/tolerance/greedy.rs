@@ -94,12 +94,14 @@ impl<'a> Greedy<'a> {
 
     /// Turns differences at the samples into rows.
     pub(super) fn scale(&self, rows: &mut [f64]) {
+        let results = rows.chunks_exact_mut(self.samples.len()).enumerate();
+        results.for_each(|(result, rows)| self.scale_result(result, rows));
+    }
+
+    fn scale_result(&self, result: usize, rows: &mut [f64]) {
         self.samples.coefficients(rows);
-        let results = rows.chunks_exact_mut(self.samples.len());
-        for (rows, allowance) in results.zip(&self.allowances) {
-            let by = 1.0 / allowance.max(1e-30);
-            rows.iter_mut().for_each(|x| *x *= by);
-        }
+        let by = 1.0 / self.allowances[result].max(1e-30);
+        rows.iter_mut().for_each(|x| *x *= by);
     }
 
     pub(super) fn worst(&self, state: &State) -> f64 {
@@ -117,16 +119,27 @@ impl<'a> Greedy<'a> {
     }
 
     pub(super) fn sketch(&self, rows: &[f64], weights: &[f64], size: usize) -> Vec<f64> {
-        let (mut out, block) = (vec![0.0; size], self.samples.block());
-        let blocks = rows.chunks_exact(block);
-        let blocks = blocks.zip(self.buckets.chunks_exact(block)).zip(weights);
-        for ((rows, buckets), weight) in blocks {
+        let mut out = vec![0.0; size];
+        let results = rows.chunks_exact(self.samples.len()).enumerate();
+        results.for_each(|(result, rows)| self.sketch_result(result, rows, weights, &mut out));
+        out
+    }
+
+    /// Adds the rows of one result; there are many that it does not depend on.
+    fn sketch_result(&self, result: usize, rows: &[f64], weights: &[f64], out: &mut [f64]) {
+        if is_zero(rows) {
+            return;
+        }
+        let (block, size) = (self.samples.block(), out.len());
+        let weights = &weights[result * self.samples.positions.len()..];
+        let buckets = &self.buckets[result * rows.len()..][..rows.len()];
+        for ((rows, buckets), weight) in rows.chunks(block).zip(buckets.chunks(block)).zip(weights)
+        {
             for (x, (bucket, sign)) in rows.iter().zip(buckets) {
                 // The upper bits of a product of 32 by 32.
                 out[(bucket * size) >> 32] += weight * sign * x;
             }
         }
-        out
     }
 
     fn blur(&self, random: &mut Random) -> f64 {
@@ -148,7 +161,7 @@ impl<'a> Greedy<'a> {
         let before = Self::squares(coarse, &base, &[]);
         // The squares of errors that are allowed come to no more than this.
         let most = dot(&frame.weights, &frame.weights);
-        let (mut ranked, mut live) = (Vec::new(), Vec::new());
+        let (mut ranked, mut live, mut part) = (Vec::new(), Vec::new(), Vec::new());
         for &(node, value) in all {
             let kept = state.edits[node].replace(value);
             let price = self.net.price(state, &mut live);
@@ -157,19 +170,24 @@ impl<'a> Greedy<'a> {
                 continue;
             }
             let own = &frame.values[node * m..][..m];
-            let mut rows = Vec::with_capacity(self.truth.len());
-            for adjoint in &frame.adjoints {
-                let pairs = adjoint[node * m..][..m].iter().zip(own);
+            let mut rows = vec![0.0; coarse.size];
+            for (result, adjoint) in frame.adjoints.iter().enumerate() {
+                let adjoint = &adjoint[node * m..][..m];
+                if is_zero(adjoint) {
+                    continue;
+                }
+                let pairs = adjoint.iter().zip(own);
+                part.clear();
                 match value {
-                    Value::Constant(c) => rows.extend(pairs.map(|(a, x)| a * (c - x))),
+                    Value::Constant(c) => part.extend(pairs.map(|(a, x)| a * (c - x))),
                     Value::Times(c, other) => {
                         let others = &frame.values[other * m..];
-                        rows.extend(pairs.zip(others).map(|((a, x), y)| a * (c * y - x)));
+                        part.extend(pairs.zip(others).map(|((a, x), y)| a * (c * y - x)));
                     }
                 }
+                self.scale_result(result, &mut part);
+                self.sketch_result(result, &part, &frame.weights, &mut rows);
             }
-            self.scale(&mut rows);
-            let mut rows = self.sketch(&rows, &frame.weights, coarse.size);
             rows.iter_mut().zip(&base).for_each(|(x, own)| *x += own);
             let gone = Self::gone(frame, &live, Some(node));
             let growth = Self::squares(coarse, &rows, &gone) - before;
@@ -388,4 +406,8 @@ impl<'a> Greedy<'a> {
             }
         }
     }
+}
+
+pub(super) fn is_zero(rows: &[f64]) -> bool {
+    rows.iter().all(|x| *x == 0.0)
 }

@@ -306,8 +306,9 @@ impl Descent<'_> {
             if target.is_over() {
                 return None;
             }
-            // Samples miss what the engine finds: the more they do, the less may be used there.
-            if round >= BOLD {
+            // Samples miss what the engine finds: the more they do, the less may be used there. At once,
+            // where it finds nothing, but cannot show that either.
+            if round >= BOLD || verdict.is_open {
                 let ratio = libm::pow(verdict.ratio.clamp(LEAST_RATIO, MOST_RATIO), CAUTION);
                 self.share = (self.share / ratio).max(LEAST_SHARE);
             }

@@ -4,6 +4,8 @@
 //! are where all are −1 or 1. The sign of a product is the parity of a set of velocities: a Walsh
 //! transform gives the sum at all corners.
 
+use super::terms::{Key, group, multiple, without_group, without_phases};
+
 /// The most velocities whose corners are tried: beyond, each product counts by itself.
 pub(super) const MOST_VELOCITIES: usize = 12;
 
@@ -16,21 +18,150 @@ pub(super) enum Factor {
     Other,
 }
 
+/// The comparisons side by side.
+const SIDE: usize = 8;
+/// The largest table.
+const MOST_PLACES: usize = 1 << 18;
+
 /// Returns the least and the largest value at all corners; the sums are by set, and are lost.
 pub fn corners(sums: &mut [f64]) -> [f64; 2] {
-    // By places: where half is one, an iterator over pairs takes longer than its sum.
-    let mut half = 1;
+    // The first two sets at once: loops of one and of two take longer than their sums.
+    let mut done = 1;
+    if sums.len() >= 4 {
+        for own in sums.chunks_exact_mut(4) {
+            let x = [own[0] + own[1], own[0] - own[1]];
+            let y = [own[2] + own[3], own[2] - own[3]];
+            (own[0], own[1]) = (x[0] + y[0], x[1] + y[1]);
+            (own[2], own[3]) = (x[0] - y[0], x[1] - y[1]);
+        }
+        done = 4;
+    }
+    transform(sums, done);
+    // Side by side: one chain of comparisons takes as long as all sums.
+    let [mut low, mut high] = [[f64::INFINITY; SIDE], [f64::NEG_INFINITY; SIDE]];
+    for own in sums.chunks(SIDE) {
+        for (k, x) in own.iter().enumerate() {
+            low[k] = if *x < low[k] { *x } else { low[k] };
+            high[k] = if *x > high[k] { *x } else { high[k] };
+        }
+    }
+    let low = low.into_iter().fold(f64::INFINITY, f64::min);
+    [low, high.into_iter().fold(f64::NEG_INFINITY, f64::max)]
+}
+
+/// Turns rows of so many sums by set into sums at corners.
+fn transform(sums: &mut [f64], mut half: usize) {
     while half < sums.len() {
-        for from in (0..sums.len()).step_by(2 * half) {
-            for k in from..from + half {
-                let (x, y) = (sums[k], sums[k + half]);
-                (sums[k], sums[k + half]) = (x + y, x - y);
+        for own in sums.chunks_exact_mut(2 * half) {
+            let (left, right) = own.split_at_mut(half);
+            for (x, y) in left.iter_mut().zip(right) {
+                (*x, *y) = (*x + *y, *x - *y);
             }
         }
         half *= 2;
     }
-    sums.iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], own| {
-            [low.min(*own), high.max(*own)]
+}
+
+/// The places of a level's values: a row for each set of velocities, a column for each multiple of the
+/// angles and phase.
+pub(super) struct Table {
+    width: usize,
+    rows: usize,
+    at: Vec<u32>,
+    /// The end of each run of columns that differ by phases, and the square of the level's multiple.
+    runs: Vec<(u32, f64)>,
+    /// The runs of values of other factors, which count by themselves.
+    others: Vec<(u32, u32, f64)>,
+}
+
+impl Table {
+    /// Returns the table of these terms by a joint's angle, if it is not too large.
+    pub(super) fn new(
+        keys: &[Key],
+        factors: &[Factor],
+        joint: usize,
+        velocities: usize,
+    ) -> Option<Table> {
+        let class = |key: &Key| (without_phases(without_group(*key)), without_group(*key));
+        let is_other = |key: &Key| factors[group(*key)] == Factor::Other;
+        let mut columns: Vec<(Key, Key)> = keys
+            .iter()
+            .filter(|key| !is_other(key))
+            .map(class)
+            .collect();
+        columns.sort_unstable();
+        columns.dedup();
+        let (width, rows) = (columns.len(), 1 << velocities);
+        if velocities == 0 || width == 0 || width * rows > MOST_PLACES {
+            return None;
+        }
+        let square = |key: Key| f64::from(multiple(key, joint).0).powi(2);
+        let place = |key: &Key| {
+            let row = match factors[group(*key)] {
+                Factor::One => 0,
+                Factor::Place(set) => set,
+                Factor::Other => return u32::MAX,
+            };
+            let column = columns.binary_search(&class(key)).unwrap_or(0);
+            row * width as u32 + column as u32
+        };
+        let mut end = 0;
+        let runs = columns.chunk_by(|a, b| a.0 == b.0).map(|run| {
+            end += run.len() as u32;
+            (end, square(run[0].1))
+        });
+        let mut end = 0;
+        let same = |a: &Key, b: &Key| without_phases(*a) == without_phases(*b);
+        let others = keys.chunk_by(same).filter_map(|run| {
+            let from = end;
+            end += run.len() as u32;
+            is_other(&run[0]).then_some((from, end, square(run[0])))
+        });
+        Some(Table {
+            width,
+            rows,
+            at: keys.iter().map(place).collect(),
+            runs: runs.collect(),
+            others: others.collect(),
         })
+    }
+
+    /// Returns bounds of F and of its second derivative by the level's angle, by lengths over phases at
+    /// each corner; and the sums that it took.
+    pub(super) fn bound(&self, values: &[f64], sums: &mut Vec<f64>) -> (f64, f64, u64) {
+        let (width, rows) = (self.width, self.rows);
+        sums.clear();
+        sums.resize(width * rows, 0.0);
+        for (value, at) in values.iter().zip(&self.at) {
+            if let Some(sum) = sums.get_mut(*at as usize) {
+                *sum += value;
+            }
+        }
+        transform(sums, width);
+        let [mut most, mut bend] = [0.0f64; 2];
+        for row in sums.chunks_exact(width) {
+            let ([mut own, mut bent], mut from) = ([0.0f64; 2], 0);
+            for &(end, square) in &self.runs {
+                let length = length(&row[from..end as usize]);
+                own += length;
+                bent += length * square;
+                from = end as usize;
+            }
+            (most, bend) = (most.max(own), bend.max(bent));
+        }
+        for &(from, end, square) in &self.others {
+            let length = length(&values[from as usize..end as usize]);
+            most += length;
+            bend += length * square;
+        }
+        (most, bend, (width * rows) as u64)
+    }
+}
+
+/// Returns the largest value over the phases of a multiple.
+pub(super) fn length(run: &[f64]) -> f64 {
+    match run {
+        [one] => one.abs(),
+        _ => run.iter().map(|own| own * own).sum::<f64>().sqrt(),
+    }
 }

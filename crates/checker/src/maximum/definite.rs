@@ -76,7 +76,7 @@ impl Search {
     pub(super) fn crude_matrix(&mut self, level: usize, size: usize, t: f64) -> (bool, f64) {
         let own = &self.levels[level];
         let column = &self.columns[level];
-        let values = &column[column.len() - own.moves.len()..];
+        let values = &column[column.len() - own.parts.len()..];
         let [mut lengths, mut bends] = [vec![0.0; self.corner.len()], vec![0.0; self.corner.len()]];
         let (mut from, mut next) = (0, own.constants.iter().peekable());
         self.corner.fill(0.0);

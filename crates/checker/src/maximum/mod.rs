@@ -18,7 +18,8 @@
 //! F(c) is shown to be small by the same means over the other angles. Cells where that fails are
 //! cut in three; a point where F is above B refutes it. Sums of sines and cosines of multiples
 //! (`terms`) are bounded by Σ √(Σ c²), over the phases of each multiple; so is W, times the square
-//! of the multiple. The same shows that a matrix is positive definite (`definite`).
+//! of the multiple: at first monomial by monomial, and where that does not do, at each corner of the
+//! velocities. The same shows that a matrix is positive definite (`definite`).
 //!
 //! A climb (`climb`) finds what F reaches, and from where a bound was refuted it goes on.
 

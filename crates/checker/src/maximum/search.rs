@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::corners::{Factor, corners};
+use super::corners::{Factor, Table, corners, length};
 use super::definite::exceeds;
 use super::terms::{Key, Terms, bits, group, multiple, without_phases};
 use crate::interval::sin_cos;
@@ -14,8 +14,6 @@ const LANES: usize = 8;
 const FIRST_LOSS: f64 = 0.08;
 const LEAST_LOSS: f64 = 0.003;
 const MOST_CELLS: f64 = 64.0;
-/// The levels, from the last, at which constants are put in their worst corner together.
-const MEANS: usize = 9;
 
 /// One angle's turn: what its multiples are multiplied with, and where that is added to.
 pub(super) struct Level {
@@ -24,12 +22,14 @@ pub(super) struct Level {
     pub(super) degree: f64,
     /// The multiples and phases that there are.
     bases: Vec<(u32, bool)>,
-    /// The base of each value, and its place among those of the next level.
-    pub(super) moves: Vec<[u32; 2]>,
+    /// The values that add up to each one of the next level, with their bases, and the end of each sum.
+    pub(super) parts: Vec<(u32, u32)>,
+    ends: Vec<u32>,
     /// The end of each run of values that differ by phases, the square of its multiple, and its group.
     pub(super) runs: Vec<(u32, f64, u32)>,
     /// The values that depend on no angle that is left, with their factors.
     pub(super) constants: Vec<(u32, Factor)>,
+    table: Option<Table>,
 }
 
 /// The finding about one B.
@@ -72,6 +72,7 @@ pub(super) struct Search {
     pub(super) above: Vec<f64>,
     pub(super) steps: u64,
     pub(super) corner: Vec<f64>,
+    table: Vec<f64>,
 }
 
 impl Search {
@@ -111,20 +112,27 @@ impl Search {
                 keys.iter().map(|key| multiple(*key, joint)).collect();
             bases.sort_unstable();
             bases.dedup();
-            let moved = |key: &Key| {
+            let moved = |(key, at): (&Key, u32)| {
                 let base = bases.binary_search(&multiple(*key, joint));
-                let to = place(key & !bits(joint));
-                let to = next.binary_search_by_key(&to, |key| place(*key));
-                [base.unwrap_or(0) as u32, to.unwrap_or(0) as u32]
+                (place(key & !bits(joint)), at, base.unwrap_or(0) as u32)
             };
+            let mut moves: Vec<((Key, Key), u32, u32)> = keys.iter().zip(0..).map(moved).collect();
+            moves.sort_unstable();
+            let mut end = 0;
+            let ends = moves.chunk_by(|a, b| a.0 == b.0).map(|own| {
+                end += own.len() as u32;
+                end
+            });
             search.levels.push(Level {
                 joint,
                 range: ring.angles[joint],
                 degree: f64::from(degree),
-                moves: keys.iter().map(moved).collect(),
+                ends: ends.collect(),
+                parts: moves.iter().map(|own| (own.1, own.2)).collect(),
                 bases,
                 runs,
                 constants,
+                table: Table::new(&keys, &own.factors, joint, own.velocities),
             });
             search.columns.push(Vec::new());
             // Sines are 1e-15 off, multiples so many times as much.
@@ -151,7 +159,7 @@ impl Search {
 
     fn len(&self, level: usize) -> usize {
         let own = self.levels.get(level);
-        own.map_or(self.factors.len(), |own| own.moves.len())
+        own.map_or(self.factors.len(), |own| own.parts.len())
     }
 
     fn values(&self, level: usize) -> &[f64] {
@@ -160,43 +168,35 @@ impl Search {
     }
 
     /// Returns bounds of F and of its second derivative by the level's angle, which is not put in.
-    fn crude(&mut self, level: usize) -> (f64, f64) {
+    fn crude(&self, level: usize) -> (f64, f64) {
         let own = &self.levels[level];
         let column = &self.columns[level];
-        let values = &column[column.len() - own.moves.len()..];
+        let values = &column[column.len() - own.parts.len()..];
         let (mut most, mut bend) = (self.slack, own.degree.powi(2) * self.slack);
         let mut from = 0;
         for &(end, square, _) in &own.runs {
-            let run = &values[from..end as usize];
-            let length = match run {
-                [one] => one.abs(),
-                _ => run.iter().map(|own| own * own).sum::<f64>().sqrt(),
-            };
+            let length = length(&values[from..end as usize]);
             most += length;
             bend += length * square;
             from = end as usize;
         }
-        if level + MEANS >= self.levels.len() && !own.constants.is_empty() {
-            let (mut sum, mut apart) = (0.0f64, 0.0);
-            self.corner.fill(0.0);
-            for &(at, factor) in &own.constants {
-                let value = values[at as usize];
-                match factor {
-                    Factor::One => sum += value,
-                    Factor::Other => {}
-                    Factor::Place(set) => {
-                        self.corner[set as usize] += value;
-                        apart += value.abs();
-                    }
-                }
-            }
-            if apart > 0.0 {
-                let [low, high] = corners(&mut self.corner);
-                let together = (sum + high).max(-(sum + low));
-                most += (together - sum.abs() - apart).min(0.0);
-            }
-        }
         (most * (1.0 + 1e-9), bend * (1.0 + 1e-9))
+    }
+
+    /// Returns true if F is at most so much whatever the angles are that are not put in, by its bounds at
+    /// corners; and the smaller bound of the second derivative.
+    fn at_corners(&mut self, level: usize, most: f64, bend: f64) -> (bool, f64) {
+        let own = &self.levels[level];
+        let Some(table) = &own.table else {
+            return (false, bend);
+        };
+        let column = &self.columns[level];
+        let values = &column[column.len() - own.parts.len()..];
+        let (bound, bent, steps) = table.bound(values, &mut self.table);
+        self.steps = self.steps.saturating_sub(steps);
+        let bent = bent + own.degree.powi(2) * self.slack;
+        let is_small = (bound + self.slack) * (1.0 + 1e-9) <= most;
+        (is_small, bend.min(bent * (1.0 + 1e-9)))
     }
 
     /// Returns true if F is at most so much where all angles are put in: at first by magnitudes, then at the
@@ -257,20 +257,27 @@ impl Search {
                 row[lane] = if is_sine { s } else { c };
             }
         }
-        let count = self.len(level + 1);
         let own = &self.levels[level];
-        let mut sums = vec![[0.0; W]; count];
         let (before, behind) = self.columns.split_at_mut(level + 1);
         let column = &before[level];
-        let values = &column[column.len() - own.moves.len()..];
-        for (value, &[base, to]) in values.iter().zip(&own.moves) {
-            let (row, sum) = (&rows[base as usize & 31], &mut sums[to as usize]);
-            for lane in 0..W {
-                sum[lane] += value * row[lane];
+        let values = &column[column.len() - own.parts.len()..];
+        let next = &mut behind[0];
+        let (start, count) = (next.len(), own.ends.len());
+        next.resize(start + count * angles.len(), 0.0);
+        let next = &mut next[start..];
+        let mut from = 0;
+        for (to, end) in own.ends.iter().enumerate() {
+            let mut sums = [0.0; W];
+            for &(at, base) in &own.parts[from..*end as usize] {
+                let (value, row) = (values[at as usize], &rows[base as usize & 31]);
+                for lane in 0..W {
+                    sums[lane] += value * row[lane];
+                }
             }
-        }
-        for lane in 0..angles.len() {
-            behind[0].extend(sums.iter().map(|sum| sum[lane]));
+            from = *end as usize;
+            for lane in 0..angles.len() {
+                next[lane * count + to] = sums[lane];
+            }
         }
     }
 
@@ -304,7 +311,10 @@ impl Search {
         let (is_small, bend) = match self.aim {
             Aim::Magnitude => {
                 let (crude, bend) = self.crude(level);
-                (crude <= most, bend)
+                match crude <= most {
+                    true => (true, bend),
+                    false => self.at_corners(level, most, bend),
+                }
             }
             Aim::Eigenvalue { size, largest } => self.crude_matrix(level, size, largest - most),
         };
@@ -314,7 +324,7 @@ impl Search {
         if self.steps == 0 {
             return Shown::Unknown;
         }
-        if !(most > 0.0) {
+        if !(most > 0.0) || level > 0 && self.is_above(level, most) {
             return Shown::Refuted;
         }
         let Level { degree, range, .. } = self.levels[level];
@@ -354,10 +364,7 @@ impl Search {
             // One part in 10¹² for the roundings of all this.
             let enough = most - lost * (1.0 + 1e-12) - 1e-12 * most;
             self.angles[level] = middle;
-            let found = match self.is_above(level + 1, enough) {
-                true => Shown::Refuted,
-                false => self.shows(level + 1, enough),
-            };
+            let found = self.shows(level + 1, enough);
             let length = self.columns[level + 1].len() - self.len(level + 1);
             self.columns[level + 1].truncate(length);
             match found {
@@ -378,7 +385,7 @@ impl Search {
 
     /// Tries the angles that refuted the last B: mostly they refute this one, too.
     fn is_above(&mut self, level: usize, most: f64) -> bool {
-        if level == self.levels.len() || self.above.is_empty() {
+        if self.above.is_empty() {
             return false;
         }
         for next in level..self.levels.len() {

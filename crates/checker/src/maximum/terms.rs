@@ -44,6 +44,10 @@ pub(super) fn group(key: Key) -> usize {
     (key & ((1 << GROUP) - 1)) as usize
 }
 
+pub(super) fn without_group(key: Key) -> Key {
+    key >> GROUP << GROUP
+}
+
 #[derive(Default)]
 pub(super) struct Terms {
     pub(super) terms: Vec<(Key, f64)>,
