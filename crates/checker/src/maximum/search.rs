@@ -14,6 +14,8 @@ const LANES: usize = 8;
 const FIRST_LOSS: f64 = 0.08;
 const LEAST_LOSS: f64 = 0.003;
 const MOST_CELLS: f64 = 64.0;
+/// Below, no sum of terms is infinite, and so none is lost among the largest ones as not a number.
+const LARGE: f64 = 1e300;
 
 /// One angle's turn: what its multiples are multiplied with, and where that is added to.
 pub(super) struct Level {
@@ -141,7 +143,10 @@ impl Search {
         }
         search.factors = keys.iter().map(|key| own.factors[group(*key)]).collect();
         search.angles = vec![0.0; search.levels.len()];
-        search.slack = (own.rest + mass * longest as f64 * f64::EPSILON) * (1.0 + 1e-9);
+        search.slack = match mass < LARGE {
+            true => (own.rest + mass * longest as f64 * f64::EPSILON) * (1.0 + 1e-9),
+            false => f64::INFINITY,
+        };
         search
     }
 
