@@ -30,7 +30,8 @@ pub(crate) struct Reference {
 pub(super) struct Verdict {
     /// `true` if every result is shown to be as near as is allowed, or seems to be.
     pub(super) is_within: bool,
-    /// The largest error that was found, relative to what is allowed, or what can be shown of that.
+    /// The largest error that was found, relative to what is allowed; where the work did not do, to
+    /// [`OPEN`] of that.
     pub(super) ratio: f64,
     /// `true` if no error was found that is not allowed.
     pub(super) is_open: bool,

@@ -4,7 +4,7 @@
 //! are where all are −1 or 1. The sign of a product is the parity of a set of velocities: a Walsh
 //! transform gives the sum at all corners.
 
-use super::terms::{Key, group, multiple, without_group, without_phases};
+use super::terms::{Key, Terms, group, multiple, without_group, without_phases};
 
 /// The most velocities whose corners are tried: beyond, each product counts by itself.
 pub(super) const MOST_VELOCITIES: usize = 12;
@@ -22,6 +22,7 @@ pub(super) enum Factor {
 const SIDE: usize = 8;
 /// The largest table.
 const MOST_PLACES: usize = 1 << 18;
+const ASIDE: u32 = u32::MAX;
 
 /// Returns the least and the largest value at all corners; the sums are by set, and are lost.
 pub fn corners(sums: &mut [f64]) -> [f64; 2] {
@@ -67,21 +68,28 @@ fn transform(sums: &mut [f64], mut half: usize) {
 pub(super) struct Table {
     width: usize,
     rows: usize,
+    /// The place of each value; [`ASIDE`] for those that count by themselves.
     at: Vec<u32>,
     /// The end of each run of columns that differ by phases, and the square of the level's multiple.
     runs: Vec<(u32, f64)>,
-    /// The runs of values of other factors, which count by themselves.
+    /// The runs of values that count by themselves.
     others: Vec<(u32, u32, f64)>,
 }
 
 impl Table {
-    /// Returns the table of these terms by a joint's angle, if it is not too large.
+    /// Returns the table of these terms by a joint's angle, if it is not too large; a run has its end, the
+    /// square of its multiple and its group.
     pub(super) fn new(
         keys: &[Key],
-        factors: &[Factor],
+        level: &[(u32, f64, u32)],
+        terms: &Terms,
         joint: usize,
-        velocities: usize,
     ) -> Option<Table> {
+        let Terms {
+            factors,
+            velocities,
+            ..
+        } = terms;
         let class = |key: &Key| (without_phases(without_group(*key)), without_group(*key));
         let is_other = |key: &Key| factors[group(*key)] == Factor::Other;
         let mut columns: Vec<(Key, Key)> = keys
@@ -91,16 +99,15 @@ impl Table {
             .collect();
         columns.sort_unstable();
         columns.dedup();
-        let (width, rows) = (columns.len(), 1 << velocities);
-        if velocities == 0 || width == 0 || width * rows > MOST_PLACES {
+        let (width, rows) = (columns.len(), 1 << *velocities);
+        if *velocities == 0 || width == 0 || width * rows > MOST_PLACES {
             return None;
         }
-        let square = |key: Key| f64::from(multiple(key, joint).0).powi(2);
         let place = |key: &Key| {
             let row = match factors[group(*key)] {
                 Factor::One => 0,
                 Factor::Place(set) => set,
-                Factor::Other => return u32::MAX,
+                Factor::Other => return ASIDE,
             };
             let column = columns.binary_search(&class(key)).unwrap_or(0);
             row * width as u32 + column as u32
@@ -108,15 +115,14 @@ impl Table {
         let mut end = 0;
         let runs = columns.chunk_by(|a, b| a.0 == b.0).map(|run| {
             end += run.len() as u32;
-            (end, square(run[0].1))
+            (end, f64::from(multiple(run[0].1, joint).0).powi(2))
         });
-        let mut end = 0;
-        let same = |a: &Key, b: &Key| without_phases(*a) == without_phases(*b);
-        let others = keys.chunk_by(same).filter_map(|run| {
-            let from = end;
-            end += run.len() as u32;
-            is_other(&run[0]).then_some((from, end, square(run[0])))
+        let mut from = 0;
+        let others = level.iter().map(|&(end, square, group)| {
+            let run = (std::mem::replace(&mut from, end), end, square);
+            (factors[group as usize], run)
         });
+        let others = others.filter(|own| own.0 == Factor::Other).map(|own| own.1);
         Some(Table {
             width,
             rows,
@@ -127,8 +133,8 @@ impl Table {
     }
 
     /// Returns bounds of F and of its second derivative by the level's angle, by lengths over phases at
-    /// each corner; and the sums that it took.
-    pub(super) fn bound(&self, values: &[f64], sums: &mut Vec<f64>) -> (f64, f64, u64) {
+    /// each corner.
+    pub(super) fn bound(&self, values: &[f64], sums: &mut Vec<f64>) -> (f64, f64) {
         let (width, rows) = (self.width, self.rows);
         sums.clear();
         sums.resize(width * rows, 0.0);
@@ -154,7 +160,7 @@ impl Table {
             most += length;
             bend += length * square;
         }
-        (most, bend, (width * rows) as u64)
+        (most, bend)
     }
 }
 

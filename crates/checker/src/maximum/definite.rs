@@ -82,7 +82,7 @@ impl Search {
         self.corner.fill(0.0);
         for &(end, square, entry) in &own.runs {
             let run = &values[from..end as usize];
-            if next.next_if(|own| own.0 as usize == from).is_some() {
+            if next.next_if(|own| **own as usize == from).is_some() {
                 self.corner[entry as usize] += run[0];
             } else {
                 let length = run.iter().map(|own| own * own).sum::<f64>().sqrt();

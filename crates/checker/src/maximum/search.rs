@@ -14,8 +14,8 @@ const LANES: usize = 8;
 const FIRST_LOSS: f64 = 0.08;
 const LEAST_LOSS: f64 = 0.003;
 const MOST_CELLS: f64 = 64.0;
-/// Below, no sum of terms is infinite, and so none is lost among the largest ones as not a number.
-const LARGE: f64 = 1e300;
+/// Below, no sum of terms is infinite: a difference of two that are would be lost as not a number.
+const MOST_MASS: f64 = 1e300;
 
 /// One angle's turn: what its multiples are multiplied with, and where that is added to.
 pub(super) struct Level {
@@ -29,8 +29,8 @@ pub(super) struct Level {
     ends: Vec<u32>,
     /// The end of each run of values that differ by phases, the square of its multiple, and its group.
     pub(super) runs: Vec<(u32, f64, u32)>,
-    /// The values that depend on no angle that is left, with their factors.
-    pub(super) constants: Vec<(u32, Factor)>,
+    /// The values that depend on no angle that is left.
+    pub(super) constants: Vec<u32>,
     table: Option<Table>,
 }
 
@@ -74,7 +74,8 @@ pub(super) struct Search {
     pub(super) above: Vec<f64>,
     pub(super) steps: u64,
     pub(super) corner: Vec<f64>,
-    table: Vec<f64>,
+    /// The sums of a table.
+    sums: Vec<f64>,
 }
 
 impl Search {
@@ -98,7 +99,7 @@ impl Search {
             }
             let is_constant = |key: Key| without_phases(key) >> 16 == 0;
             let constants = keys.iter().zip(0..).filter(|(key, _)| is_constant(**key));
-            let constants = constants.map(|(key, place)| (place, own.factors[group(*key)]));
+            let constants = constants.map(|(_, at)| at).collect();
             let mut end = 0;
             let same = |a: &Key, b: &Key| without_phases(*a) == without_phases(*b);
             let runs = keys.chunk_by(same).map(|run| {
@@ -106,10 +107,7 @@ impl Search {
                 let square = f64::from(multiple(run[0], joint).0).powi(2);
                 (end, square, group(run[0]) as u32)
             });
-            let (constants, runs) = (constants.collect(), runs.collect());
-            let mut next: Vec<Key> = keys.iter().map(|key| key & !bits(joint)).collect();
-            next.sort_unstable_by_key(|key| place(*key));
-            next.dedup();
+            let runs: Vec<(u32, f64, u32)> = runs.collect();
             let mut bases: Vec<(u32, bool)> =
                 keys.iter().map(|key| multiple(*key, joint)).collect();
             bases.sort_unstable();
@@ -121,20 +119,21 @@ impl Search {
             let mut moves: Vec<((Key, Key), u32, u32)> = keys.iter().zip(0..).map(moved).collect();
             moves.sort_unstable();
             let mut end = 0;
-            let ends = moves.chunk_by(|a, b| a.0 == b.0).map(|own| {
+            let sums = moves.chunk_by(|a, b| a.0 == b.0).map(|own| {
                 end += own.len() as u32;
-                end
+                (end, own[0].0.1)
             });
+            let (ends, next) = sums.unzip();
             search.levels.push(Level {
                 joint,
                 range: ring.angles[joint],
                 degree: f64::from(degree),
-                ends: ends.collect(),
+                ends,
                 parts: moves.iter().map(|own| (own.1, own.2)).collect(),
                 bases,
-                runs,
                 constants,
-                table: Table::new(&keys, &own.factors, joint, own.velocities),
+                table: Table::new(&keys, &runs, own, joint),
+                runs,
             });
             search.columns.push(Vec::new());
             // Sines are 1e-15 off, multiples so many times as much.
@@ -143,7 +142,7 @@ impl Search {
         }
         search.factors = keys.iter().map(|key| own.factors[group(*key)]).collect();
         search.angles = vec![0.0; search.levels.len()];
-        search.slack = match mass < LARGE {
+        search.slack = match mass < MOST_MASS {
             true => (own.rest + mass * longest as f64 * f64::EPSILON) * (1.0 + 1e-9),
             false => f64::INFINITY,
         };
@@ -175,8 +174,7 @@ impl Search {
     /// Returns bounds of F and of its second derivative by the level's angle, which is not put in.
     fn crude(&self, level: usize) -> (f64, f64) {
         let own = &self.levels[level];
-        let column = &self.columns[level];
-        let values = &column[column.len() - own.parts.len()..];
+        let values = self.values(level);
         let (mut most, mut bend) = (self.slack, own.degree.powi(2) * self.slack);
         let mut from = 0;
         for &(end, square, _) in &own.runs {
@@ -195,10 +193,10 @@ impl Search {
         let Some(table) = &own.table else {
             return (false, bend);
         };
-        let column = &self.columns[level];
-        let values = &column[column.len() - own.parts.len()..];
-        let (bound, bent, steps) = table.bound(values, &mut self.table);
-        self.steps = self.steps.saturating_sub(steps);
+        let mut sums = std::mem::take(&mut self.sums);
+        let (bound, bent) = table.bound(self.values(level), &mut sums);
+        self.steps = self.steps.saturating_sub(sums.len() as u64);
+        self.sums = sums;
         let bent = bent + own.degree.powi(2) * self.slack;
         let is_small = (bound + self.slack) * (1.0 + 1e-9) <= most;
         (is_small, bend.min(bent * (1.0 + 1e-9)))
