@@ -125,7 +125,7 @@ impl<'a> Greedy<'a> {
         out
     }
 
-    /// Adds the rows of one result; there are many that it does not depend on.
+    /// Adds the rows of one result to a sketch. Most values reach few results: the other rows are zero.
     fn sketch_result(&self, result: usize, rows: &[f64], weights: &[f64], out: &mut [f64]) {
         if is_zero(rows) {
             return;

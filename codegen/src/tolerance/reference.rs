@@ -13,8 +13,8 @@ use crate::setup::Setup;
 use crate::sincos::AngleKernel;
 use crate::words::{Complaint, complaint};
 
-/// Where the engine's work does not do, errors that climbs reach may be this part of what is allowed: the
-/// checker, which may take longer, mostly shows these.
+/// If the engine runs out of work, climbs may reach this part of the allowed error: the checker, which may
+/// take longer, mostly shows such a program.
 const OPEN: f64 = 0.8;
 /// A state whose error is at least this part of what is allowed joins the samples.
 const LARGE: f64 = 0.97;
@@ -30,10 +30,10 @@ pub(crate) struct Reference {
 pub(super) struct Verdict {
     /// `true` if every result is shown to be as near as is allowed, or seems to be.
     pub(super) is_within: bool,
-    /// The largest error that was found, relative to what is allowed; where the work did not do, to
+    /// The largest error that was found, relative to the allowed one; if the engine ran out of work, to
     /// [`OPEN`] of that.
     pub(super) ratio: f64,
-    /// `true` if no error was found that is not allowed.
+    /// `true` if no error above the allowed one was found.
     pub(super) is_open: bool,
     /// Positions where results are about as far off as they may be, or further.
     pub(super) positions: Vec<Vec<f64>>,

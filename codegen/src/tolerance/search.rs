@@ -306,8 +306,8 @@ impl Descent<'_> {
             if target.is_over() {
                 return None;
             }
-            // Samples miss what the engine finds: the more they do, the less may be used there. At once,
-            // where it finds nothing, but cannot show that either.
+            // Samples miss errors that the engine finds: the more they miss, the less may be used there.
+            // If the engine can neither refute nor show, more samples do not help.
             if round >= BOLD || verdict.is_open {
                 let ratio = libm::pow(verdict.ratio.clamp(LEAST_RATIO, MOST_RATIO), CAUTION);
                 self.share = (self.share / ratio).max(LEAST_SHARE);

@@ -18,7 +18,7 @@ pub(super) enum Factor {
     Other,
 }
 
-/// The comparisons side by side.
+/// The chains of comparisons.
 const SIDE: usize = 8;
 /// The largest table.
 const MOST_PLACES: usize = 1 << 18;
@@ -26,7 +26,7 @@ const ASIDE: u32 = u32::MAX;
 
 /// Returns the least and the largest value at all corners; the sums are by set, and are lost.
 pub fn corners(sums: &mut [f64]) -> [f64; 2] {
-    // The first two sets at once: loops of one and of two take longer than their sums.
+    // Two steps at once: loops over one and over two values take longer than the sums.
     let mut done = 1;
     if sums.len() >= 4 {
         for own in sums.chunks_exact_mut(4) {
@@ -38,7 +38,7 @@ pub fn corners(sums: &mut [f64]) -> [f64; 2] {
         done = 4;
     }
     transform(sums, done);
-    // Side by side: one chain of comparisons takes as long as all sums.
+    // Eight chains: one chain of comparisons takes as long as all sums.
     let [mut low, mut high] = [[f64::INFINITY; SIDE], [f64::NEG_INFINITY; SIDE]];
     for own in sums.chunks(SIDE) {
         for (k, x) in own.iter().enumerate() {
@@ -77,8 +77,8 @@ pub(super) struct Table {
 }
 
 impl Table {
-    /// Returns the table of these terms by a joint's angle, if it is not too large; a run has its end, the
-    /// square of its multiple and its group.
+    /// Returns the table of a level's terms, if it is not too large. A run has its end, the square of the
+    /// joint's multiple and its group.
     pub(super) fn new(
         keys: &[Key],
         level: &[(u32, f64, u32)],

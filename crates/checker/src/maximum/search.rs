@@ -14,7 +14,7 @@ const LANES: usize = 8;
 const FIRST_LOSS: f64 = 0.08;
 const LEAST_LOSS: f64 = 0.003;
 const MOST_CELLS: f64 = 64.0;
-/// Below, no sum of terms is infinite: a difference of two that are would be lost as not a number.
+/// Below this no sum of terms is infinite. Infinite sums would leave NaN, which a maximum ignores.
 const MOST_MASS: f64 = 1e300;
 
 /// One angle's turn: what its multiples are multiplied with, and where that is added to.
@@ -186,8 +186,8 @@ impl Search {
         (most * (1.0 + 1e-9), bend * (1.0 + 1e-9))
     }
 
-    /// Returns true if F is at most so much whatever the angles are that are not put in, by its bounds at
-    /// corners; and the smaller bound of the second derivative.
+    /// Bounds F over all angles that are not put in, corner by corner. Returns true if it is at most so
+    /// much, and the smaller bound of the second derivative.
     fn at_corners(&mut self, level: usize, most: f64, bend: f64) -> (bool, f64) {
         let own = &self.levels[level];
         let Some(table) = &own.table else {
