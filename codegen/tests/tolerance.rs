@@ -318,6 +318,15 @@ fn a_cheaper_inertia_is_positive_definite() {
     }
 }
 
+/// The engine does not show it of seven joints that turn far: links that are bodies do.
+#[test]
+fn an_inertia_of_seven_joints_is_positive_definite() {
+    let subject = inertia(support::robot("panda"));
+    let budget = subject.budget();
+    let allowed = budget.all_allowed(1e-4);
+    let _ = budget.unedited(&[ScalarType::F64], &allowed).unwrap();
+}
+
 /// Without some of its terms D is singular somewhere.
 #[test]
 fn a_singular_d_is_refused() {

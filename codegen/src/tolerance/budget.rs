@@ -18,7 +18,7 @@ use super::variant::{Admitted, Variant};
 use super::work::Meter;
 use super::{scale, shape};
 use crate::function::Argument;
-use crate::program::{Library, Program, ScalarType, has_inertia};
+use crate::program::{Library, Program, ScalarType};
 use crate::setup::Setup;
 use crate::sincos::AngleKernel;
 use crate::sincos::interval::Interval;
@@ -134,7 +134,7 @@ impl<'a> Budget<'a> {
 
     fn definite(&self) -> Result<(), ToleranceError> {
         let none = vec![0.0; self.scales.len()];
-        if !has_inertia(self.exact) || self.reference.is_definite(self.exact, &[], None, &none) {
+        if self.reference.is_definite(self.exact, &[], None, &none) {
             return Ok(());
         }
         let why = definite::complaint_about(self.exact, &self.limits);
@@ -191,7 +191,7 @@ impl<'a> Budget<'a> {
         let found = bounded(self.setup, &draft.printed(), allowed.one);
         let found = found.map_err(ToleranceError::Above)?;
         let is_changed = found.emitted != *self.exact || !sines.is_empty();
-        if has_inertia(program) && is_changed {
+        if is_changed {
             let each = found.bounds.iter().zip(&found.scales);
             let rounding: Vec<f64> = each.map(|(own, scale)| own.rounding * scale).collect();
             let (reference, all) = (&self.reference, found.errors());
@@ -268,7 +268,7 @@ impl<'a> Budget<'a> {
         let scalars: Vec<ScalarType> = exact.variants.iter().map(|own| own.scalar).collect();
         let allowances = self.allowances(&exact, allowed);
         let mut found = Vec::new();
-        if allowances.iter().any(|own| *own > 0.0) {
+        if allowances.iter().any(|own| *own > 0.0) && self.reference.has_others(&allowances) {
             let target = Target {
                 setup: self.setup,
                 exact: self.exact,

@@ -20,6 +20,15 @@ const SAMPLES: usize = 64;
 /// beyond what doubles lose.
 const CERTAIN: f64 = 1e-6;
 
+/// Returns the place of D among the results, if it is there and its two halves are the same values.
+pub(super) fn symmetric(program: &Program) -> Option<usize> {
+    let (n, first) = (program.rows.len(), start(program)?);
+    let outputs = &program.dag.outputs[first..][..n * n];
+    let mut entries = (0..n).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let is_symmetric = entries.all(|(i, j)| outputs[i * n + j] == outputs[j * n + i]);
+    is_symmetric.then_some(first)
+}
+
 /// Returns true if D is shown to be positive definite, with these sines, where each result may be so far
 /// off beside.
 pub(crate) fn is_definite(
@@ -29,7 +38,7 @@ pub(crate) fn is_definite(
     off: Option<&[f64]>,
 ) -> bool {
     let n = program.rows.len();
-    let Some(first) = start(program) else {
+    let Some(first) = symmetric(program) else {
         return false;
     };
     let entry = |i: usize, j: usize| first + i * n + j;
@@ -49,16 +58,13 @@ pub(crate) fn is_definite(
     let Some(written) = written.and_then(|own| domain.write(&own, errors).ok()) else {
         return false;
     };
-    let is_symmetric = |own: &(usize, usize)| {
-        program.dag.outputs[entry(own.0, own.1)] == program.dag.outputs[entry(own.1, own.0)]
-    };
     let lower: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
     let off = |own: usize| off.map_or(0.0, |off| off[own]);
     let entries = lower.iter().map(|&(i, j)| written[entry(i, j)].clone());
     let entries: Vec<_> = entries.collect();
     let errors = lower.iter().map(|&(i, j)| off(entry(i, j)).next_up());
     let errors: Vec<f64> = errors.collect();
-    lower.iter().all(is_symmetric) && domain.is_definite(&entries, &errors)
+    domain.is_definite(&entries, &errors)
 }
 
 /// Returns why D of an exact program is not positive definite, or cannot be shown to be.
@@ -92,34 +98,40 @@ fn negative(program: &Program, limits: &InputBox) -> Option<usize> {
     positions.find_map(|q| {
         let d = code.run_at(&JointState::at_rest(q));
         let d = (0..n).map(|i| (0..n).map(|j| d[entry(i, j)]).collect());
-        negative_pivot(d.collect())
+        let why = eliminated(d.collect()).err()?;
+        why.is_negative.then_some(why.row)
     })
 }
 
-/// Eliminates from the last row on: D of the joints from the returned one on is not positive
-/// definite.
-fn negative_pivot(mut d: Vec<Vec<f64>>) -> Option<usize> {
+/// A matrix that is not seen to be positive definite.
+pub(super) struct NotDefinite {
+    /// The submatrix from this row on is not.
+    row: usize,
+    /// `true` if that is certain.
+    is_negative: bool,
+}
+
+/// Eliminates a symmetric matrix from the last row on.
+pub(super) fn eliminated(mut d: Vec<Vec<f64>>) -> Result<(), NotDefinite> {
     let n = d.len();
     let mut sizes: Vec<f64> = (0..n).map(|i| d[i][i].abs()).collect();
-    for last in (0..n).rev() {
-        let pivot = d[last][last];
-        let certain = CERTAIN * sizes[last];
-        if pivot < -certain {
-            return Some(last);
-        }
+    for row in (0..n).rev() {
+        let pivot = d[row][row];
+        let certain = CERTAIN * sizes[row];
         if pivot.is_nan() || pivot <= certain {
-            return None;
+            let is_negative = pivot < -certain;
+            return Err(NotDefinite { row, is_negative });
         }
-        let row = d[last].clone();
-        for (i, above) in d.iter_mut().enumerate().take(last) {
-            let factor = above[last] / pivot;
-            sizes[i] += (factor * row[i]).abs();
-            for (entry, subtracted) in above.iter_mut().zip(&row).take(last) {
+        let last = d[row].clone();
+        for (i, above) in d.iter_mut().enumerate().take(row) {
+            let factor = above[row] / pivot;
+            sizes[i] += (factor * last[i]).abs();
+            for (entry, subtracted) in above.iter_mut().zip(&last).take(row) {
                 *entry -= factor * subtracted;
             }
         }
     }
-    None
+    Ok(())
 }
 
 fn middle(limits: &InputBox) -> Vec<f64> {

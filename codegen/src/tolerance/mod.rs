@@ -9,7 +9,8 @@
 //! - `net`: an edited program at many samples; `samples`: positions and motions; `linear`: least squares
 //! - [`sines`]: polynomials for sines, as exact as a tolerance needs
 //! - `reference`, `bounded`: the engine's decision about a program, and the checker's about its text;
-//!   `claim`: the document for that; [`definite`]: whether D stays positive definite
+//!   `claim`: the document for that; [`definite`]: whether D stays positive definite;
+//!   `turning`: a bound of D from below
 //! - [`variant`]: the outcome; [`attempt`]: states that try to refute it
 //! - [`overflow`]: steps that may overflow
 //! - `shape`: a plan's variant fits the scene; `work`: work counted, for who cannot wait
@@ -36,5 +37,6 @@ pub(crate) mod scale;
 pub(crate) mod search;
 mod shape;
 mod sines;
+mod turning;
 pub(crate) mod variant;
 pub(crate) mod work;

@@ -1,10 +1,13 @@
 //! The exact program of a function over its box, as the checker sees it.
 
+use std::sync::OnceLock;
+
 use dalembert_checker::domain::Domain;
 use dalembert_checker::polynomial::Polynomial;
 use dalembert_model::robot::write;
 use dalembert_model::scene::{self, Scene};
 
+use super::turning::Turning;
 use super::{definite, work};
 use crate::claim::{Written, claimed};
 use crate::function::Argument;
@@ -22,8 +25,10 @@ const LARGE: f64 = 0.97;
 pub(crate) struct Reference {
     domain: Domain,
     exact: Vec<Polynomial>,
-    /// The exact program, if its D depends on a payload.
-    loaded: Option<Program>,
+    /// The exact program, if it has D.
+    inertia: Option<Program>,
+    is_shown: OnceLock<bool>,
+    turning: Option<Turning>,
 }
 
 /// The engine's finding about a program.
@@ -77,12 +82,14 @@ impl Reference {
     ) -> Result<Reference, Complaint> {
         let refused = |fault: dalembert_checker::Fault| complaint(fault.to_string());
         let domain = domain(setup, exact, load)?;
-        let is_definite = has_inertia(exact).then(|| exact.clone());
+        let inertia = has_inertia(exact).then(|| exact.clone());
         let exact = domain.write(&read(exact)?, None).map_err(refused)?;
         Ok(Reference {
             domain,
             exact,
-            loaded: is_definite.filter(|own| own.arguments.contains(&Argument::Load)),
+            inertia,
+            is_shown: OnceLock::new(),
+            turning: Turning::new(setup.robot()),
         })
     }
 
@@ -114,14 +121,20 @@ impl Reference {
             }
         }
         // With a payload all errors count, which the checker bounds.
-        if verdict.is_within && has_inertia(program) && self.loaded.is_none() {
-            verdict.is_within = definite::is_definite(&self.domain, program, &[], None);
+        if verdict.is_within && !self.is_loaded() {
+            verdict.is_within = self.is_definite(program, &[], None, allowed);
         }
         verdict
     }
 
-    /// Returns true if D of a program is shown to be positive definite, with these sines. Its entries
-    /// have errors of rounding, if they are known; all errors together are at most these.
+    fn is_loaded(&self) -> bool {
+        let mut exact = self.inertia.iter();
+        exact.any(|own| own.arguments.contains(&Argument::Load))
+    }
+
+    /// Returns true if D of a program is shown to be positive definite, with these sines, or the function
+    /// has no D. Its entries have errors of rounding, if they are known; all errors together are at most
+    /// these.
     ///
     /// A payload only adds to D, but the box of its numbers has some that no body has: so it is the exact
     /// D without a payload that counts, with all errors.
@@ -132,13 +145,46 @@ impl Reference {
         rounding: Option<&[f64]>,
         all: &[f64],
     ) -> bool {
-        match &self.loaded {
-            Some(exact) => {
-                let domain = self.domain.without_payload();
-                definite::is_definite(domain, exact, &[], Some(all))
-            }
-            None => definite::is_definite(&self.domain, program, sines, rounding),
+        let Some(exact) = &self.inertia else {
+            return true;
+        };
+        let Some(first) = definite::symmetric(program) else {
+            return false;
+        };
+        if self.is_borne(&program.rows, &all[first..]) {
+            return true;
         }
+        let domain = self.domain.without_payload();
+        let engine = |program, sines, off| definite::is_definite(domain, program, sines, off);
+        self.is_shown(exact)
+            && match self.is_loaded() {
+                true => engine(exact, &[], Some(all)),
+                false => program == exact && sines.is_empty() || engine(program, sines, rounding),
+            }
+    }
+
+    /// Returns true if other programs may have a D of which [`is_definite`](Self::is_definite) is shown.
+    pub(super) fn has_others(&self, allowed: &[f64]) -> bool {
+        let half: Vec<f64> = allowed.iter().map(|own| 0.5 * own).collect();
+        self.inertia.as_ref().is_none_or(|exact| {
+            let first = definite::symmetric(exact);
+            first.is_some_and(|first| self.is_borne(&exact.rows, &half[first..]))
+                || self.is_shown(exact)
+        })
+    }
+
+    /// Returns true if the engine shows that the exact D is positive definite: otherwise it shows it of
+    /// no other.
+    fn is_shown(&self, exact: &Program) -> bool {
+        let domain = self.domain.without_payload();
+        let own = || definite::is_definite(domain, exact, &[], None);
+        *self.is_shown.get_or_init(own)
+    }
+
+    fn is_borne(&self, rows: &[usize], errors: &[f64]) -> bool {
+        let errors = |i: usize, j: usize| errors[i * rows.len() + j];
+        let turning = self.turning.as_ref();
+        turning.is_some_and(|own| own.bears(rows, errors))
     }
 
     /// Returns about how far off the results of a program are at most, in real numbers.

@@ -13,7 +13,7 @@ use super::terms::{Key, Terms, group};
 use crate::polynomial::Polynomial;
 use crate::ring::Ring;
 
-const PURSE: u64 = 20_000_000_000;
+const PURSE: u64 = 2_000_000_000;
 const SAMPLES: usize = 200;
 const SEED: u64 = 0xde7;
 /// The part of the least eigenvalue of the samples that is shown.

@@ -1,0 +1,108 @@
+//! D bounded from below by how the links turn, wherever the joints are.
+//!
+//! With ω_i the angular velocity of link i, λ_i at most its moments about axes through its centre of
+//! mass, and a_i armatures, q̇ᵀD q̇ ≥ Σ λ_i |ω_i|² + Σ a_i q̇_i², where |q̇_i| = |ω_i − ω_(i−1)| ≤ |ω_i| +
+//! |ω_(i−1)|. So D with entries that are off by e at most is positive definite if diag(a) − e is, or
+//! diag(λ) − Bᵀe′B, where B has ones at (i, i) and (i, i−1), and e′ is e of which a is taken off, down
+//! to zero.
+
+use dalembert_model::number::{Rational, Rounded};
+use dalembert_model::robot::{Defect, Joint, JointKind, Robot};
+use num_traits::{Signed, Zero};
+
+use super::definite::eliminated;
+
+/// What moments lose at most as they are rounded.
+const SLACK: f64 = 1.0 - 1e-9;
+
+pub(super) struct Turning {
+    kinds: Vec<JointKind>,
+    moments: Vec<f64>,
+    armatures: Vec<f64>,
+}
+
+impl Turning {
+    /// Returns none if a link is not a body.
+    pub(super) fn new(robot: &Robot) -> Option<Turning> {
+        let is_body = |own: &Joint| {
+            let defect = own.inertia.defect(&own.mass);
+            defect != Some(Defect::NegativeMoment) && !own.mass.is_negative()
+        };
+        let own = robot.joints.iter();
+        robot.joints.iter().all(is_body).then(|| Turning {
+            kinds: own.clone().map(|own| own.kind).collect(),
+            moments: own.clone().map(least_moment).collect(),
+            armatures: own
+                .map(|own| f64::nearest_rational(&own.armature) * SLACK)
+                .collect(),
+        })
+    }
+
+    /// Returns true if D of these joints is positive definite with errors of at most so much.
+    pub(super) fn bears(&self, rows: &[usize], errors: impl Fn(usize, usize) -> f64) -> bool {
+        let square = |entry: &dyn Fn(usize, usize) -> f64| {
+            let row = |i: usize| (0..rows.len()).map(|j| entry(i, j)).collect();
+            (0..rows.len()).map(row).collect::<Vec<Vec<f64>>>()
+        };
+        let armature = |i: usize, j: usize| match i == j {
+            true => self.armatures[rows[i]],
+            false => 0.0,
+        };
+        if eliminated(square(&|i, j| armature(i, j) - errors(i, j))).is_ok() {
+            return true;
+        }
+        if rows
+            .iter()
+            .any(|own| self.kinds[*own] != JointKind::Revolute)
+        {
+            return false;
+        }
+        // Links behind a joint that stands still turn with those before it.
+        let moment = |i: usize| {
+            let end = rows.get(i + 1).copied().unwrap_or(self.moments.len());
+            self.moments[rows[i]..end].iter().sum::<f64>() * SLACK
+        };
+        let left = square(&|i, j| match errors(i, j) - armature(i, j) {
+            off if off <= 0.0 => 0.0,
+            off => off,
+        });
+        let below = |i: usize, j: usize| left.get(i).and_then(|row| row.get(j)).unwrap_or(&0.0);
+        eliminated(square(&|i, j| {
+            let off = left[i][j] + below(i + 1, j) + below(i, j + 1) + below(i + 1, j + 1);
+            if i == j { moment(i) - off } else { -off }
+        }))
+        .is_ok()
+    }
+}
+
+/// Returns a bound from below: λ₁ = det/(λ₂λ₃), and λ₂λ₃ ≤ (½ tr)².
+fn least_moment(joint: &Joint) -> f64 {
+    let [[a, d, e], [_, b, f], [_, _, c]] = joint.inertia.rows();
+    let two = || Rational::from_integer(2.into());
+    let det = &a * &b * &c + two() * &d * &e * &f - &a * &f * &f - &b * &e * &e - &c * &d * &d;
+    let half = (a + b + c) / two();
+    match half.is_zero() {
+        true => 0.0,
+        false => f64::nearest_rational(&(det / (&half * &half))) * SLACK,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dalembert_model::read::parse;
+
+    /// λ is 0.13 of each link: two bear a fifth of that, one bears all.
+    #[test]
+    fn errors_are_borne_up_to_what_links_turn_with() {
+        let head = "name = \"r\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n";
+        let joint = "[[joint]]\nkind = \"revolute\"\nmass = 1\ncom = [0, 0, 0]\n\
+            inertia = [0.3, 0.3, 0.3, 0, 0, 0]\n";
+        let robot = parse(&format!("{head}{joint}{joint}")).unwrap().robot;
+        let turning = Turning::new(&robot).unwrap();
+        let all = |most: f64| move |_, _| most;
+        assert!(turning.bears(&[0, 1], all(0.0)) && turning.bears(&[0, 1], all(0.02)));
+        assert!(!turning.bears(&[0, 1], all(0.07)) && turning.bears(&[1], all(0.1)));
+        assert!(!turning.bears(&[1], all(0.31)) && !turning.bears(&[1], all(f64::NAN)));
+    }
+}
