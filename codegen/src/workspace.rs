@@ -44,7 +44,7 @@ pub use crate::tolerance::{
     input_box::InputBox,
     sample::{climb, draw},
     search::SearchEffort,
-    variant::{Admitted, Bound, Variant},
+    variant::{Admitted, Variant},
 };
 pub use crate::verify::{
     exact::{Disproof, Proof, prove, prove_same},

@@ -77,6 +77,18 @@ impl Certified {
         }
     }
 
+    /// Each row: what a claim has, what stands there instead, and words of the refusal.
+    #[track_caller]
+    fn refuses_claims(&self, table: &str) {
+        for [from, to, words] in rows(table) {
+            assert!(self.claim.contains(&from), "{from}: {}", self.claim);
+            let mut other = self.clone();
+            other.claim = self.claim.replacen(&from, &to, 1);
+            let why = other.refusal().unwrap();
+            assert!(why.contains(&words), "{why}");
+        }
+    }
+
     pub fn report(&self) -> Result<Report, Fault> {
         let scene = self.scene.as_deref();
         let demand = Demand {
@@ -314,19 +326,13 @@ viscous = 0.4  | viscous = 0.4000000000000000001 | gravity kinetic_energy
 fn rows_that_are_not_those_of_the_robot_file() {
     let own = &Certified::all("open_manipulator", "", "gravity; scalar: f64")[0];
     own.is_shown(1, "placed");
-    for [from, to, words] in rows(
+    own.refuses_claims(
         r#"
 mass = 0.0984       | mass = 0.0985       | mass of joint 1: [0.0984
 velocity = 4.8      | viscous = 1         | aligned
 name = \"joint2\" | name = \"joint3\" | other joints
 "#,
-    ) {
-        assert!(own.claim.contains(&from), "{from}: {}", own.claim);
-        let mut other = own.clone();
-        other.claim = own.claim.replacen(&from, &to, 1);
-        let why = other.refusal().unwrap();
-        assert!(why.contains(&words), "{why}");
-    }
+    );
 }
 
 /// A payload that is a point at the origin of its frame, or nothing, or one that the scene gives in a
@@ -362,18 +368,12 @@ fn payloads_in_tilted_frames() {
     let asked = "outputs: inverse_dynamics; scene: s; scalar: f64";
     let own = &Certified::of(&robot, Some("s"), asked)[0];
     own.is_shown(1, "tilted");
-    for [from, to, words] in rows(
+    own.refuses_claims(
         "
 payload = { mass = 1.5 | payload = { mass = 1.4 | mass of the payload: [1.5] in the file, [1.4] claimed
 [scene.s] | [scene.t] | result 1 is not that of the robot
 ",
-    ) {
-        assert!(own.claim.contains(&from), "{from}: {}", own.claim);
-        let mut other = own.clone();
-        other.claim = own.claim.replacen(&from, &to, 1);
-        let why = other.refusal().unwrap();
-        assert!(why.contains(&words), "{why}");
-    }
+    );
 }
 
 /// A function is bounded over the bodies of the range, and T is what one of them reaches.

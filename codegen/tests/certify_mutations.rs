@@ -189,7 +189,7 @@ fn is_true(own: &Certified, results: &[Bounded]) -> bool {
         let size = largest(&truth).max(1.0);
         found.len() == truth.len()
             && (0..truth.len()).all(|i| {
-                let allowed = results[i].bound();
+                let allowed = results[i].bound.total();
                 (found[i] - truth[i]).abs() <= allowed * (1.0 + 1e-9) + 1e-12 * size
             })
     })
@@ -264,7 +264,8 @@ fn honest_variants_are_shown_and_the_judge_can_tell() {
         assert!(is_true(&own, &results));
         let mut lie = results.clone();
         for own in &mut lie {
-            (own.real, own.rounding) = (1e-3 * own.real, 1e-3 * own.rounding);
+            own.bound.real *= 1e-3;
+            own.bound.rounding *= 1e-3;
         }
         assert!(!is_true(&own, &lie));
         let mut lie = own.with(&own.text.replacen(" + ", " - ", 1));

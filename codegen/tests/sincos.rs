@@ -4,8 +4,9 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 use core::ops::Range;
 
+use dalembert_checker::certify::Bound;
 use dalembert_codegen::workspace::{
-    AngleKernel, Bound, Candidates, Code, Dag, Edge, Input, Interval, Library, Node, Signature,
+    AngleKernel, Candidates, Code, Dag, Edge, Input, Interval, Library, Node, Signature,
     write_function,
 };
 use dalembert_codegen::{Function, Program, ScalarType};

@@ -7,7 +7,7 @@ use dalembert_checker::certify::{Demand, certify};
 use super::claim::claim_in;
 use super::reference::source;
 use super::refusals::above;
-use super::variant::{Bound, Variant};
+use super::variant::Variant;
 use crate::setup::Setup;
 use crate::words::Complaint;
 
@@ -39,16 +39,8 @@ pub(super) fn bounded(
         Ok(found.ok_or_else(none)?.0)
     });
     let found = found.map_err(|fault| above(own, &fault))?;
-    let up = |size: f64, unit: f64| match size == 0.0 {
-        true => 0.0,
-        false => (size / unit).next_up(),
-    };
-    let bounds = found.results.iter().map(|own| Bound {
-        real: up(own.real, own.unit()),
-        rounding: up(own.rounding, own.unit()),
-    });
     Ok(Variant {
-        bounds: bounds.collect(),
+        bounds: found.results.iter().map(|own| own.relative()).collect(),
         scales: found.results.iter().map(|own| own.scale).collect(),
         ..own.clone()
     })

@@ -1,5 +1,6 @@
 //! A program in the place of an exact one, as it is printed in a scalar, with its bounds.
 
+use dalembert_checker::certify::Bound;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scale;
 
@@ -13,23 +14,6 @@ use crate::sincos::Sines;
 use crate::sincos::interval::Interval;
 use crate::states::JointState;
 use crate::verify::exact::prove_same;
-
-/// A bound of |emitted code in its scalar − full model| / T over the box.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Bound {
-    /// The part of what differs in real numbers: what was left out, and polynomials for sines.
-    pub real: f64,
-    /// The part of operations, constants, and sines that are called.
-    pub rounding: f64,
-}
-
-impl Bound {
-    /// Returns E
-    pub fn total(self) -> f64 {
-        let sum = self.real + self.rounding;
-        if sum == 0.0 { 0.0 } else { sum.next_up() }
-    }
-}
 
 /// A function under a tolerance, in one scalar.
 #[derive(Clone, Debug, PartialEq)]

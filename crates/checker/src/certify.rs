@@ -24,7 +24,7 @@ use crate::work::Work;
 
 pub use crate::cost::{Cost, RATE, Shown};
 pub use crate::payload::Body;
-pub use crate::tolerance::Bounded;
+pub use crate::tolerance::{Bound, Bounded};
 
 /// The most times that a function of a claim stands in a file: once for each scalar is usual.
 const MOST_TIMES: usize = 4;
@@ -352,8 +352,9 @@ impl<'w> Whole<'w> {
         };
         let mut all = results.iter().zip(1..);
         if let Some((own, place)) = all.find(|(own, _)| !own.is_shown()) {
-            let [bound, most] = [own.bound(), own.tolerated].map(|size| size / own.unit());
+            let (own, most) = (own.relative(), own.tolerated / own.unit());
             let of = ["rounding", "approximation"][usize::from(own.real > own.rounding)];
+            let bound = own.total();
             let why = format!("result {place} has a bound of {bound:.1e} T, over {most:.1e}: {of}");
             return Err(refused(why));
         }

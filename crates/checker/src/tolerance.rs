@@ -37,27 +37,45 @@ const SHARE: f64 = 1.0 / 16.0;
 const ZERO: f64 = 1e-12;
 const MOST_RATE: f64 = 1e30;
 
-/// The findings about one result, in its own unit.
+/// A bound of |text in its scalar − exact program| over the box.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bound {
+    /// The part of what differs in real numbers: parts that were left out, and polynomials for sines.
+    pub real: f64,
+    /// The part of operations, constants, and sines that are called.
+    pub rounding: f64,
+}
+
+impl Bound {
+    /// Returns the bound of both.
+    pub fn total(self) -> f64 {
+        above(self.real + self.rounding)
+    }
+}
+
+/// The findings about one result, in its unit.
 #[derive(Clone, Debug)]
 pub struct Bounded {
+    /// The name of what it is an entry of: `tau`, `d`.
+    pub field: String,
     /// Its joints, from zero: of an entry of D its row and its column.
     pub joints: Vec<usize>,
     /// T: the size that errors are relative to.
     pub scale: f64,
-    /// A bound of what the text differs from the exact program in real numbers: parts that were left
-    /// out, and polynomials for sines.
-    pub real: f64,
-    /// A bound of what rounding costs.
-    pub rounding: f64,
+    /// The bound of its error.
+    pub bound: Bound,
     /// The user's tolerance times T.
     pub tolerated: f64,
 }
 
 impl Bounded {
-    /// Returns the bound of both.
-    pub fn bound(&self) -> f64 {
-        let sum = self.real + self.rounding;
-        if sum == 0.0 { 0.0 } else { sum.next_up() }
+    /// Returns the bound relative to T, E; as it is if T is zero.
+    pub fn relative(&self) -> Bound {
+        let Bound { real, rounding } = self.bound;
+        Bound {
+            real: above(real / self.unit()),
+            rounding: above(rounding / self.unit()),
+        }
     }
 
     /// Returns the unit of relative errors: T, or one if T is zero.
@@ -67,7 +85,7 @@ impl Bounded {
 
     /// Returns true if the tolerance is shown.
     pub fn is_shown(&self) -> bool {
-        self.bound() <= self.tolerated
+        self.bound.total() <= self.tolerated
     }
 }
 
@@ -144,7 +162,7 @@ impl Subject<'_> {
         let (emitted, exact) = (&emitted.outputs, &exact.outputs);
         let largest = scales.iter().copied().fold(0.0, f64::max);
         let mut found = Vec::new();
-        for (k, (_, joints)) in fields.into_iter().enumerate() {
+        for (k, (field, joints)) in fields.into_iter().enumerate() {
             let scale = scales[k];
             let rounding = if self.is_literal(k) { 0.0 } else { costs[k] };
             // Of a result that is not always zero there is a state where it is not.
@@ -158,10 +176,13 @@ impl Subject<'_> {
             let difference = emitted[k].plus(&exact[k].negated());
             let wanted = (tolerated - rounding).next_down().next_down();
             found.push(Bounded {
+                field: field.name.clone(),
                 joints,
                 scale,
-                real: maximum::largest(&difference, &ring, wanted, work),
-                rounding,
+                bound: Bound {
+                    real: maximum::largest(&difference, &ring, wanted, work),
+                    rounding,
+                },
                 tolerated,
             });
         }
@@ -322,6 +343,10 @@ fn is_within(value: f64, [low, high]: [f64; 2]) -> bool {
 fn unless(holds: bool, why: &str) -> Result<(), Fault> {
     let fault = || Fault::Claim(format!("tolerance: {why}"));
     holds.then_some(()).ok_or_else(fault)
+}
+
+fn above(size: f64) -> f64 {
+    if size == 0.0 { 0.0 } else { size.next_up() }
 }
 
 /// Returns a number that a rounded one is not below; zero is exact.

@@ -117,7 +117,7 @@ fn a_tolerance_that_is_not_the_scenes() {
 #[test]
 fn nothing_of_nothing() {
     let results = found("nothing", ["zero", "s"], None).unwrap();
-    assert!(results[0].scale == 0.0 && results[0].bound() == 0.0);
+    assert!(results[0].scale == 0.0 && results[0].bound.total() == 0.0);
 }
 
 /// The multiples of 2⁶¹ − 1 are what is refused: without them the variants are shown.

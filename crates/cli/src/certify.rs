@@ -58,22 +58,21 @@ pub(crate) fn run(args: &CertifyArgs, context: &Context) -> Outcome {
     Ok(done)
 }
 
-const RESULTS: &str = "joint|T|real|rounding|E|.tolerance";
+const RESULTS: &str = "result|joint|T|real|rounding|E|.tolerance";
 
 /// Values are relative to T; absolute if T is zero.
 fn row(own: &Bounded) -> Vec<Cell> {
-    let cell = |x: f64| {
-        let relative = x / own.unit();
-        Cell::of(bound_of(relative, 4), relative)
-    };
+    let cell = |x: f64| Cell::of(bound_of(x, 4), x);
+    let bound = own.relative();
     // An entry of D has two: its row and its column.
     let joints = own.joints.iter().map(|joint| (joint + 1).to_string());
     cells![
+        own.field.clone(),
         joints.collect::<Vec<_>>().join(", "),
         Cell::of(bound_of(own.scale, 5), own.scale),
-        cell(own.real),
-        cell(own.rounding),
-        cell(own.bound()),
+        cell(bound.real),
+        cell(bound.rounding),
+        cell(bound.total()),
         Cell::json(own.tolerated / own.unit()),
     ]
 }
