@@ -182,7 +182,8 @@ impl Reference {
     }
 
     fn is_borne(&self, rows: &[usize], errors: &[f64]) -> bool {
-        let errors = |i: usize, j: usize| errors[i * rows.len() + j];
+        // Both halves are the same values: either bound holds.
+        let errors = |i: usize, j: usize| errors[i.max(j) * rows.len() + i.min(j)];
         let turning = self.turning.as_ref();
         turning.is_some_and(|own| own.bears(rows, errors))
     }
