@@ -192,8 +192,7 @@ impl<'a> Budget<'a> {
         let found = found.map_err(ToleranceError::Above)?;
         let is_changed = found.emitted != *self.exact || !sines.is_empty();
         if is_changed {
-            let each = found.bounds.iter().zip(&found.scales);
-            let rounding: Vec<f64> = each.map(|(own, scale)| own.rounding * scale).collect();
+            let rounding = found.in_units(|bound| bound.rounding);
             let (reference, all) = (&self.reference, found.errors());
             if !reference.is_definite(program, sines, Some(&rounding), &all) {
                 let why = complaint("with its errors D cannot be shown to be positive definite");

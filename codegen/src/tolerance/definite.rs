@@ -1,7 +1,7 @@
 //! D stays positive definite: forward dynamics divides by it.
 //!
 //! The entries of the *emitted* code are meant: its exact values, the errors of its sines, and what
-//! rounding may add to each. The engine shows it, by the same means as a bound.
+//! rounding may add to each. The engine shows it, by the same means as a bound, where `turning` does not.
 
 use dalembert_checker::domain::Domain;
 
@@ -16,8 +16,8 @@ use crate::words::{Complaint, complaint};
 
 const SAMPLES: usize = 64;
 
-/// A pivot is negative for certain if it is so by this part of what it was subtracted from, far
-/// beyond what doubles lose.
+/// A pivot is positive or negative for certain if it is so by this part of what it was subtracted
+/// from, far beyond what doubles lose.
 const CERTAIN: f64 = 1e-6;
 
 /// Returns the place of D among the results, if it is there and its two halves are the same values.
@@ -78,7 +78,7 @@ pub(super) fn complaint_about(program: &Program, limits: &InputBox) -> Complaint
         ),
         None => {
             "D could not be shown to be positive definite over the box: a link has no inertia, or \
-             almost none beside the others; or the box is too large"
+             almost none beside the others, or none about an axis; or the box is too large"
                 .into()
         }
     })

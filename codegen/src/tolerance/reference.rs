@@ -7,6 +7,7 @@ use dalembert_checker::polynomial::Polynomial;
 use dalembert_model::robot::write;
 use dalembert_model::scene::{self, Scene};
 
+use super::search::PARTS;
 use super::turning::Turning;
 use super::{definite, work};
 use crate::claim::{Written, claimed};
@@ -129,7 +130,7 @@ impl Reference {
 
     fn is_loaded(&self) -> bool {
         let mut exact = self.inertia.iter();
-        exact.any(|own| own.arguments.contains(&Argument::Load))
+        exact.any(|exact| exact.arguments.contains(&Argument::Load))
     }
 
     /// Returns true if D of a program is shown to be positive definite, with these sines, or the function
@@ -156,36 +157,38 @@ impl Reference {
         }
         let domain = self.domain.without_payload();
         let engine = |program, sines, off| definite::is_definite(domain, program, sines, off);
-        self.is_shown(exact)
+        self.is_shown()
             && match self.is_loaded() {
                 true => engine(exact, &[], Some(all)),
                 false => program == exact && sines.is_empty() || engine(program, sines, rounding),
             }
     }
 
-    /// Returns true if other programs may have a D of which [`is_definite`](Self::is_definite) is shown.
+    /// Returns true if D of a program that the search finds may be shown to be positive definite, or the
+    /// function has no D.
     pub(super) fn has_others(&self, allowed: &[f64]) -> bool {
-        let half: Vec<f64> = allowed.iter().map(|own| 0.5 * own).collect();
+        let least: Vec<f64> = allowed.iter().map(|most| PARTS[0] * most).collect();
         self.inertia.as_ref().is_none_or(|exact| {
             let first = definite::symmetric(exact);
-            first.is_some_and(|first| self.is_borne(&exact.rows, &half[first..]))
-                || self.is_shown(exact)
+            first.is_some_and(|first| self.is_borne(&exact.rows, &least[first..]))
+                || self.is_shown()
         })
     }
 
     /// Returns true if the engine shows that the exact D is positive definite: otherwise it shows it of
     /// no other.
-    fn is_shown(&self, exact: &Program) -> bool {
+    fn is_shown(&self) -> bool {
         let domain = self.domain.without_payload();
-        let own = || definite::is_definite(domain, exact, &[], None);
-        *self.is_shown.get_or_init(own)
+        let shows = |exact| definite::is_definite(domain, exact, &[], None);
+        let decide = || self.inertia.as_ref().is_some_and(shows);
+        *self.is_shown.get_or_init(decide)
     }
 
     fn is_borne(&self, rows: &[usize], errors: &[f64]) -> bool {
         // Both halves are the same values: either bound holds.
         let errors = |i: usize, j: usize| errors[i.max(j) * rows.len() + i.min(j)];
         let turning = self.turning.as_ref();
-        turning.is_some_and(|own| own.bears(rows, errors))
+        turning.is_some_and(|turning| turning.bears(rows, errors))
     }
 
     /// Returns about how far off the results of a program are at most, in real numbers.

@@ -26,7 +26,7 @@ use crate::watch::{FunctionWatch, Part};
 /// The sampled positions, to begin with.
 const POSITIONS: usize = 24;
 /// The parts of the allowances, one after the other.
-const PARTS: [f64; 6] = [0.5, 0.8, 1.0, 1.0, 1.0, 1.0];
+pub(super) const PARTS: [f64; 6] = [0.5, 0.8, 1.0, 1.0, 1.0, 1.0];
 /// The times that the engine decides about a part.
 const ROUNDS: usize = 10;
 /// In so many rounds all may be used at the samples; then with this power of the excess, which counts

@@ -1,10 +1,10 @@
 //! D bounded from below by how the links turn, wherever the joints are.
 //!
 //! With ω_i the angular velocity of link i, λ_i at most its moments about axes through its centre of
-//! mass, and a_i armatures, q̇ᵀD q̇ ≥ Σ λ_i |ω_i|² + Σ a_i q̇_i², where |q̇_i| = |ω_i − ω_(i−1)| ≤ |ω_i| +
-//! |ω_(i−1)|. So D with entries that are off by e at most is positive definite if diag(a) − e is, or
-//! diag(λ) − Bᵀe′B, where B has ones at (i, i) and (i, i−1), and e′ is e of which a is taken off, down
-//! to zero.
+//! mass, and a_i armatures, q̇ᵀD q̇ ≥ Σ λ_i |ω_i|² + Σ a_i q̇_i². A joint that turns has |q̇_i| =
+//! |ω_i − ω_(i−1)| ≤ |ω_i| + |ω_(i−1)|. So D with entries that are off by e at most is positive definite
+//! if diag(a) − e is, or, where all joints turn, diag(λ) − Bᵀe′B, where B has ones at (i, i) and
+//! (i, i−1), and e′ is e of which a is taken off, down to zero.
 
 use dalembert_model::number::{Rational, Rounded};
 use dalembert_model::robot::{Defect, Joint, JointKind, Robot};
@@ -12,7 +12,7 @@ use num_traits::{Signed, Zero};
 
 use super::definite::eliminated;
 
-/// What moments lose at most as they are rounded.
+/// The loss of moments and sums that are rounded, many times over.
 const SLACK: f64 = 1.0 - 1e-9;
 
 pub(super) struct Turning {
@@ -22,45 +22,47 @@ pub(super) struct Turning {
 }
 
 impl Turning {
-    /// Returns none if a link is not a body.
+    /// Returns none if a mass or a moment is negative, or if joints follow others.
     pub(super) fn new(robot: &Robot) -> Option<Turning> {
-        let is_body = |own: &Joint| {
-            let defect = own.inertia.defect(&own.mass);
-            defect != Some(Defect::NegativeMoment) && !own.mass.is_negative()
+        let is_body = |joint: &Joint| {
+            let defect = joint.inertia.defect(&joint.mass);
+            defect != Some(Defect::NegativeMoment) && !joint.mass.is_negative()
         };
-        let own = robot.joints.iter();
-        robot.joints.iter().all(is_body).then(|| Turning {
-            kinds: own.clone().map(|own| own.kind).collect(),
-            moments: own.clone().map(least_moment).collect(),
-            armatures: own
-                .map(|own| f64::nearest_rational(&own.armature) * SLACK)
-                .collect(),
+        let joints = || robot.joints.iter();
+        let armature = |joint: &Joint| f64::nearest_rational(&joint.armature) * SLACK;
+        (joints().all(is_body) && robot.followers.is_empty()).then(|| Turning {
+            kinds: joints().map(|joint| joint.kind).collect(),
+            moments: joints().map(least_moment).collect(),
+            armatures: joints().map(armature).collect(),
         })
     }
 
     /// Returns true if D of these joints is positive definite with errors of at most so much.
     pub(super) fn bears(&self, rows: &[usize], errors: impl Fn(usize, usize) -> f64) -> bool {
+        // From the base on: rows are in any order.
+        let mut order: Vec<usize> = (0..rows.len()).collect();
+        order.sort_by_key(|place| rows[*place]);
+        let joints: Vec<usize> = order.iter().map(|place| rows[*place]).collect();
+        let errors = |i: usize, j: usize| errors(order[i], order[j]);
         let square = |entry: &dyn Fn(usize, usize) -> f64| {
-            let row = |i: usize| (0..rows.len()).map(|j| entry(i, j)).collect();
-            (0..rows.len()).map(row).collect::<Vec<Vec<f64>>>()
+            let row = |i: usize| (0..joints.len()).map(|j| entry(i, j)).collect();
+            (0..joints.len()).map(row).collect::<Vec<Vec<f64>>>()
         };
         let armature = |i: usize, j: usize| match i == j {
-            true => self.armatures[rows[i]],
+            true => self.armatures[joints[i]],
             false => 0.0,
         };
         if eliminated(square(&|i, j| armature(i, j) - errors(i, j))).is_ok() {
             return true;
         }
-        if rows
-            .iter()
-            .any(|own| self.kinds[*own] != JointKind::Revolute)
-        {
+        let slides = |joint: &usize| self.kinds[*joint] != JointKind::Revolute;
+        if joints.iter().any(slides) {
             return false;
         }
         // Links behind a joint that stands still turn with those before it.
         let moment = |i: usize| {
-            let end = rows.get(i + 1).copied().unwrap_or(self.moments.len());
-            self.moments[rows[i]..end].iter().sum::<f64>() * SLACK
+            let end = joints.get(i + 1).copied().unwrap_or(self.moments.len());
+            self.moments[joints[i]..end].iter().sum::<f64>() * SLACK
         };
         let left = square(&|i, j| match errors(i, j) - armature(i, j) {
             off if off <= 0.0 => 0.0,
@@ -103,6 +105,10 @@ mod tests {
         let all = |most: f64| move |_, _| most;
         assert!(turning.bears(&[0, 1], all(0.0)) && turning.bears(&[0, 1], all(0.02)));
         assert!(!turning.bears(&[0, 1], all(0.07)) && turning.bears(&[1], all(0.1)));
+        // The errors of each row go with its joint.
+        let one = |place: usize| move |i, j| if i == place && j == place { 0.1 } else { 0.0 };
+        let bears = |rows: [usize; 2], place| turning.bears(&rows, one(place));
+        assert!(bears([0, 1], 0) && bears([1, 0], 1) && !bears([0, 1], 1) && !bears([1, 0], 0));
         assert!(!turning.bears(&[1], all(0.31)) && !turning.bears(&[1], all(f64::NAN)));
     }
 }

@@ -111,11 +111,18 @@ impl Variant {
 
     /// Returns E·T of each result.
     pub(crate) fn errors(&self) -> Vec<f64> {
+        self.in_units(Bound::total)
+    }
+
+    /// Returns a part of the bounds in the results' units.
+    pub(super) fn in_units(&self, part: impl Fn(Bound) -> f64) -> Vec<f64> {
         let pairs = self.bounds.iter().zip(&self.scales);
         // Up: the product of two doubles is one of the two next to it.
-        pairs
-            .map(|(bound, scale)| (bound.total() * scale).next_up())
-            .collect()
+        let size = |(bound, scale): (&Bound, &f64)| match *scale == 0.0 {
+            true => part(*bound),
+            false => (part(*bound) * scale).next_up(),
+        };
+        pairs.map(size).collect()
     }
 }
 

@@ -71,6 +71,11 @@ impl Interval {
     }
 }
 
+/// Rounds up; zero is exact.
+pub(crate) fn up(x: f64) -> f64 {
+    if x == 0.0 { x } else { x.next_up() }
+}
+
 /// Zero, exactly: what it is added to, and finite numbers times it, need no rounding.
 const ZERO: Interval = Interval {
     low: 0.0,

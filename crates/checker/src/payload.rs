@@ -5,6 +5,7 @@
 //! negative. ½ is a little more here, since moments that are rounded, as those of a thin plate, are
 //! a body's as well.
 
+use crate::interval::up;
 use std::fmt;
 
 /// The points of which a body is made: fewer have no inertia about some axis.
@@ -93,11 +94,6 @@ impl fmt::Display for Body {
         let place = "of the origin of its frame";
         write!(f, "{low} to {high} kg, all of it within {radius} m {place}")
     }
-}
-
-/// Rounds up; zero is exact.
-fn up(x: f64) -> f64 {
-    if x == 0.0 { x } else { x.next_up() }
 }
 
 const NUMBERS: [&str; 10] = ["mass", "x", "y", "z", "xx", "yy", "zz", "xy", "yz", "xz"];

@@ -13,7 +13,7 @@ use crate::fault::Fault;
 use crate::identity::exact::Exact;
 use crate::identity::setting::Setting;
 use crate::identity::table::{Field, Function};
-use crate::interval::{FARTHEST, Interval};
+use crate::interval::{FARTHEST, Interval, up};
 use crate::load::load_of_point;
 use crate::maximum::{self, length};
 use crate::payload::Body;
@@ -49,7 +49,7 @@ pub struct Bound {
 impl Bound {
     /// Returns the bound of both.
     pub fn total(self) -> f64 {
-        above(self.real + self.rounding)
+        up(self.real + self.rounding)
     }
 }
 
@@ -73,8 +73,8 @@ impl Bounded {
     pub fn relative(&self) -> Bound {
         let Bound { real, rounding } = self.bound;
         Bound {
-            real: above(real / self.unit()),
-            rounding: above(rounding / self.unit()),
+            real: up(real / self.unit()),
+            rounding: up(rounding / self.unit()),
         }
     }
 
@@ -343,10 +343,6 @@ fn is_within(value: f64, [low, high]: [f64; 2]) -> bool {
 fn unless(holds: bool, why: &str) -> Result<(), Fault> {
     let fault = || Fault::Claim(format!("tolerance: {why}"));
     holds.then_some(()).ok_or_else(fault)
-}
-
-fn above(size: f64) -> f64 {
-    if size == 0.0 { 0.0 } else { size.next_up() }
 }
 
 /// Returns a number that a rounded one is not below; zero is exact.
