@@ -1,7 +1,8 @@
 //! D stays positive definite: forward dynamics divides by it.
 //!
 //! The entries of the *emitted* code are meant: its exact values, the errors of its sines, and what
-//! rounding may add to each. The engine shows it, by the same means as a bound, where `turning` does not.
+//! rounding may add to each. Where `turning` does not show it, the engine does, by the same means as a
+//! bound.
 
 use dalembert_checker::domain::Domain;
 

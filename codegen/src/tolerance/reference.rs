@@ -149,17 +149,14 @@ impl Reference {
         let Some(exact) = &self.inertia else {
             return true;
         };
-        let Some(first) = definite::symmetric(program) else {
-            return false;
-        };
-        if self.is_borne(&program.rows, &all[first..]) {
+        if self.is_borne(program, all) {
             return true;
         }
         let domain = self.domain.without_payload();
         let engine = |program, sines, off| definite::is_definite(domain, program, sines, off);
         self.is_shown()
             && match self.is_loaded() {
-                true => engine(exact, &[], Some(all)),
+                true => definite::symmetric(program).is_some() && engine(exact, &[], Some(all)),
                 false => program == exact && sines.is_empty() || engine(program, sines, rounding),
             }
     }
@@ -168,11 +165,8 @@ impl Reference {
     /// function has no D.
     pub(super) fn has_others(&self, allowed: &[f64]) -> bool {
         let least: Vec<f64> = allowed.iter().map(|most| PARTS[0] * most).collect();
-        self.inertia.as_ref().is_none_or(|exact| {
-            let first = definite::symmetric(exact);
-            first.is_some_and(|first| self.is_borne(&exact.rows, &least[first..]))
-                || self.is_shown()
-        })
+        let is_borne = |exact| self.is_borne(exact, &least);
+        self.inertia.as_ref().is_none_or(is_borne) || self.is_shown()
     }
 
     /// Returns true if the engine shows that the exact D is positive definite: otherwise it shows it of
@@ -184,11 +178,15 @@ impl Reference {
         *self.is_shown.get_or_init(decide)
     }
 
-    fn is_borne(&self, rows: &[usize], errors: &[f64]) -> bool {
+    fn is_borne(&self, program: &Program, errors: &[f64]) -> bool {
+        let Some((turning, first)) = self.turning.as_ref().zip(definite::symmetric(program)) else {
+            return false;
+        };
+        let n = program.rows.len();
         // Both halves are the same values: either bound holds.
-        let errors = |i: usize, j: usize| errors[i.max(j) * rows.len() + i.min(j)];
-        let turning = self.turning.as_ref();
-        turning.is_some_and(|turning| turning.bears(rows, errors))
+        turning.bears(&program.rows, |i, j| {
+            errors[first + i.max(j) * n + i.min(j)]
+        })
     }
 
     /// Returns about how far off the results of a program are at most, in real numbers.

@@ -84,7 +84,8 @@ impl Domain {
         Ok(written.outputs)
     }
 
-    /// Decides whether a magnitude is at most `wanted`, and returns a position, if any, where it is large.
+    /// Decides whether a magnitude is at most `wanted`, and returns a position where it is large, if one
+    /// was looked at.
     pub fn decide(&self, own: &Polynomial, wanted: f64) -> (Decision, Vec<f64>) {
         let found = maximum::decide(own, &self.ring, wanted, PURSE);
         let position = self.ring.positions(&found.angles);

@@ -5,8 +5,9 @@
 //! negative. ½ is a little more here, since moments that are rounded, as those of a thin plate, are
 //! a body's as well.
 
-use crate::interval::up;
 use std::fmt;
+
+use crate::interval::up;
 
 /// The points of which a body is made: fewer have no inertia about some axis.
 const POINTS: usize = 5;

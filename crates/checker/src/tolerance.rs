@@ -56,7 +56,7 @@ impl Bound {
 /// The findings about one result, in its unit.
 #[derive(Clone, Debug)]
 pub struct Bounded {
-    /// The name of what it is an entry of: `tau`, `d`.
+    /// The name of the vector or matrix of which it is an entry: `tau`, `d`.
     pub field: String,
     /// Its joints, from zero: of an entry of D its row and its column.
     pub joints: Vec<usize>,
