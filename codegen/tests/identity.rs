@@ -20,15 +20,15 @@ struct Shown {
 impl Shown {
     fn check(&self, program: &Straight<Exact>) -> Result<(), String> {
         let file = robot::read(&self.source)?;
+        let setting = file.setting(None)?;
         let statement = Statement {
-            setting: &file.setting(None)?,
             function: &self.function,
             program,
             base: &self.base,
             load: None,
         };
         let text = format!("{program:?}");
-        check(statement, &mut Points::new(&[&self.source, &text]))
+        check(statement, &mut Points::new(&setting, &[&self.source, &text]))
     }
 }
 

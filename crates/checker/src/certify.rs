@@ -145,7 +145,7 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     let load = load.map_or(0, |own| own.outputs.len());
     let mut seen = Seen {
         identities: HashMap::new(),
-        points: Points::new(&[&whole.seed]),
+        points: Points::new(&setting, &[&whole.seed]),
         known: Known::new(&setting, &whole.ranges, load),
     };
     let mut heads = HashSet::new();
@@ -208,7 +208,7 @@ type Identity = (Option<Result<(), Fault>>, usize);
 struct Seen<'w> {
     /// The finding about each function of the claim, since both scalars have one program.
     identities: HashMap<&'w str, Identity>,
-    points: Points,
+    points: Points<'w>,
     known: Known<'w>,
 }
 
@@ -318,7 +318,6 @@ impl<'w> Whole<'w> {
                 return Ok(());
             }
             let statement = Statement {
-                setting: self.setting,
                 function: &function,
                 program: exact,
                 base: &base,

@@ -1,6 +1,8 @@
 //! The cost of rounding in a function, result by result: a bound over the box where a result does
 //! not divide, else the largest bound at states.
 
+use std::array::from_fn;
+
 use crate::fault::Fault;
 use crate::hidden::{self, MOST_RATIO};
 use crate::identity::Points;
@@ -14,7 +16,7 @@ use crate::payload::Body;
 use crate::program::{ARGUMENTS, LOAD, Operand, Program, argument};
 use crate::read::{self, Head, Source};
 use crate::rounding::{Bounds, Ranges, Rounding};
-use crate::sample::{Near, Sampler, State};
+use crate::sample::{Lanes, Near, Sampler, State};
 use crate::states::States;
 use crate::tolerance::Bounded;
 use crate::work::Work;
@@ -29,6 +31,8 @@ const DAMPING: [f64; 2] = [1e-3, 1e-1];
 /// others is.
 const STATES: usize = 1000;
 const LOOKED_AT: usize = 100;
+/// The states that are looked at together.
+const AT_ONCE: usize = 4;
 /// The largest cost that is shown where the user allows no more: in f64, seven digits of sixteen; in
 /// f32, and of polynomials for sines, all but two.
 const MOST_DOUBLE: f64 = (1u64 << 24) as f64 * UNIT;
@@ -146,8 +150,6 @@ impl Subject<'_> {
             steps: vec![0.0; steps],
             near: vec![0; head.fields.len()],
             unbounded: vec![0; head.fields.len()],
-            values: Vec::new(),
-            loads: Vec::new(),
         };
         let mut states = States {
             ranges: self.ranges,
@@ -159,26 +161,18 @@ impl Subject<'_> {
             count: 0,
         };
         let mut worst: Vec<(f64, State)> = Vec::new();
-        for _ in 0..if is_measured { STATES } else { LOOKED_AT } {
-            let state = states.next();
-            let height = seen.look(&state, &divides)?;
-            worst.push((height, state));
+        for _ in 0..if is_measured { STATES } else { LOOKED_AT } / AT_ONCE {
+            let drawn: [State; AT_ONCE] = from_fn(|_| states.next());
+            let heights = seen.look(drawn.each_ref(), &divides)?;
+            worst.extend(heights.into_iter().zip(drawn));
         }
         // Climbs lead to states that nobody drew.
         let (drawn, near) = (seen.states, seen.near.clone());
         if is_measured {
             self.steps_are_seen(&over_box, &has_quotients, &seen.steps)?;
             worst.sort_by(|a, b| b.0.total_cmp(&a.0));
-            for (_, state) in worst.into_iter().take(CLIMBS) {
-                let mut fault = Ok(());
-                states.climb(state, CLIMBED, |state| match seen.look(state, &divides) {
-                    Ok(height) => height,
-                    Err(why) => {
-                        fault = Err(why);
-                        f64::NEG_INFINITY
-                    }
-                });
-                fault?;
+            for (height, state) in worst.into_iter().take(CLIMBS) {
+                states.climb((height, state), CLIMBED, |both| seen.look(both, &divides))?;
             }
         }
         let shapes = head.fields.iter().map(|own| own.1.as_slice());
@@ -290,34 +284,44 @@ struct Seen<'s> {
     near: Vec<usize>,
     /// At how many states it has no bound.
     unbounded: Vec<usize>,
-    values: Vec<Near>,
-    loads: Vec<Near>,
 }
 
 impl Seen<'_> {
-    /// Looks at a state; returns the largest error of what divides, relative to its result there.
-    fn look(&mut self, state: &State, divides: &[bool]) -> Result<f64, Fault> {
-        self.work.spend(1, self.sampler.work() + self.load.work())?;
-        self.states += 1;
-        self.load.run(state, &[], &mut self.loads);
-        let load: Vec<Near> = self.load.results(&self.loads).collect();
-        self.sampler.run(state, &load, &mut self.values);
-        for (most, own) in self.steps.iter_mut().zip(self.sampler.steps(&self.values)) {
-            *most = most.max(own.value.abs());
+    /// Looks at states; returns the largest error of what divides, relative to its result there.
+    fn look<const L: usize>(
+        &mut self,
+        states: [&State; L],
+        divides: &[bool],
+    ) -> Result<[f64; L], Fault> {
+        self.work.spend(L, self.sampler.work() + self.load.work())?;
+        let loads = self.load.run(states, &[]);
+        let load: Vec<Lanes<L>> = self.load.results(&loads).collect();
+        let values = self.sampler.run(states, &load);
+        for (most, step) in self.steps.iter_mut().zip(self.sampler.steps(&values)) {
+            *most = most.max(step.magnitude());
         }
+        let results: Vec<Lanes<L>> = self.sampler.results(&values).collect();
+        Ok(from_fn(|lane| {
+            self.states += 1;
+            self.height(|k| results[k].at(lane), divides)
+        }))
+    }
+
+    /// Looks at the results at a state.
+    fn height(&mut self, result: impl Fn(usize) -> Near, divides: &[bool]) -> f64 {
         let (mut height, mut first) = (0.0f64, 0);
-        let results: Vec<Near> = self.sampler.results(&self.values).collect();
         for (field, length) in self.lengths.iter().enumerate() {
             let entries = first..first + length;
-            let errors = results[entries.clone()].iter().map(|own| own.error);
+            let errors = entries.clone().map(|k| result(k).error);
             let error = errors.fold(0.0, worse);
             let mut size = 0.0f64;
             for k in entries {
-                let least = results[k].value.abs() - results[k].off;
+                let near = result(k);
+                let least = near.value.abs() - near.off;
                 self.sizes[k] = self.sizes[k].max(least);
                 size = size.max(least);
                 if error.is_finite() {
-                    self.errors[k] = self.errors[k].max(results[k].error);
+                    self.errors[k] = self.errors[k].max(near.error);
                 }
             }
             self.unbounded[field] += usize::from(!error.is_finite());
@@ -327,7 +331,7 @@ impl Seen<'_> {
             }
             first += length;
         }
-        Ok(height)
+        height
     }
 }
 

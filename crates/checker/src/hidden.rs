@@ -69,7 +69,13 @@ pub(crate) fn check(
     let mut known = HashSet::new();
     let mut is_new = |both: [Number; 2]| {
         let [a, b] = both.map(|own| own.value(point.prime).unwrap_or_default());
-        let minus = |own: u64| if own == 0 { 0 } else { point.prime - own };
+        let minus = |own: u64| {
+            if own == 0 {
+                0
+            } else {
+                point.prime.value() - own
+            }
+        };
         let opposite = [minus(a), minus(b)];
         known.insert(opposite.min([a, b]))
     };

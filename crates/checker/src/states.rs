@@ -1,5 +1,6 @@
 //! States at which a function is tried: special ones, random ones, and where climbs end.
 
+use crate::fault::Fault;
 use crate::identity::number::Draws;
 use crate::payload::Body;
 use crate::program::{ARGUMENTS, argument};
@@ -77,16 +78,15 @@ impl States<'_> {
         state
     }
 
-    /// Climbs from a state to where something is larger, entry by entry, with so many tries. A body
-    /// stays as it is.
+    /// Climbs from a state, and its height, to where something is larger, entry by entry and both
+    /// ways, with so many tries. A body stays as it is.
     pub(crate) fn climb(
         &self,
-        mut state: State,
+        (mut highest, mut state): (f64, State),
         mut tries: usize,
-        mut height: impl FnMut(&State) -> f64,
-    ) -> State {
+        mut heights: impl FnMut([&State; 2]) -> Result<[f64; 2], Fault>,
+    ) -> Result<(), Fault> {
         let payload = argument("payload");
-        let mut highest = height(&state);
         for stride in STRIDES {
             let mut has_moved = true;
             while has_moved {
@@ -96,24 +96,25 @@ impl States<'_> {
                         let Some([low, high]) = self.ranges[place].get(index).copied() else {
                             continue;
                         };
-                        for way in [-stride, stride] {
-                            if tries == 0 {
-                                return state;
-                            }
-                            tries -= 1;
+                        if tries < 2 {
+                            return Ok(());
+                        }
+                        tries -= 2;
+                        let both = [-stride, stride].map(|way| {
                             let mut next = state.clone();
-                            let own = &mut next[place][index];
-                            *own = (*own + way * (high - low)).clamp(low, high);
-                            let next = self.rounded(next);
-                            let own = height(&next);
-                            if own > highest {
-                                (state, highest, has_moved) = (next, own, true);
+                            let entry = &mut next[place][index];
+                            *entry = (*entry + way * (high - low)).clamp(low, high);
+                            self.rounded(next)
+                        });
+                        for (height, next) in heights(both.each_ref())?.into_iter().zip(both) {
+                            if height > highest {
+                                (state, highest, has_moved) = (next, height, true);
                             }
                         }
                     }
                 }
             }
         }
-        state
+        Ok(())
     }
 }

@@ -73,8 +73,8 @@ fn refused(
     let one = || Exact::read("1").unwrap();
     let combination =
         |own: &&[usize]| -> Combination { own.iter().map(|column| (*column, one())).collect() };
+    let setting = file.setting(Some(scene)).unwrap();
     let statement = Statement {
-        setting: &file.setting(Some(scene)).unwrap(),
         function: &Function::named("x", &words(arguments), &words(results)).unwrap(),
         program: &Program {
             steps: Vec::new(),
@@ -86,7 +86,7 @@ fn refused(
         },
         load: None,
     };
-    check(statement, &mut Points::new(&["no program"])).unwrap_err()
+    check(statement, &mut Points::new(&setting, &["no program"])).unwrap_err()
 }
 
 /// Each of these is refused, and none is a panic.

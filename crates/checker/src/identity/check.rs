@@ -34,8 +34,6 @@ pub struct Base {
 /// A function, the program that it is claimed to be, and what both are over.
 #[derive(Clone, Copy)]
 pub struct Statement<'s> {
-    /// The robot in its scene.
-    pub setting: &'s Setting<'s>,
     /// The function.
     pub function: &'s Function,
     /// The program that it is claimed to be.
@@ -46,17 +44,23 @@ pub struct Statement<'s> {
     pub load: Option<&'s Program<Exact>>,
 }
 
-/// Points of prime fields that follow from texts which have all that is claimed.
-pub struct Points {
+/// Points of prime fields that follow from texts which have all that is claimed, and the robot there.
+pub struct Points<'s> {
+    setting: &'s Setting<'s>,
     draws: Draws,
     all: Vec<Point>,
+    arms: Vec<Arm>,
 }
 
-impl Points {
-    /// Returns the points of texts.
-    pub fn new(texts: &[&str]) -> Points {
-        let (draws, all) = (Draws::new(texts), Vec::new());
-        Points { draws, all }
+impl<'s> Points<'s> {
+    /// Returns the points of texts about a robot.
+    pub fn new(setting: &'s Setting<'s>, texts: &[&str]) -> Points<'s> {
+        Points {
+            setting,
+            draws: Draws::new(texts),
+            all: Vec::new(),
+            arms: Vec::new(),
+        }
     }
 
     pub(crate) fn three(&mut self) -> Option<&[Point; 3]> {
@@ -69,6 +73,14 @@ impl Points {
         }
         &self.all[..count]
     }
+
+    fn with_arms(&mut self, count: usize) -> Result<impl Iterator<Item = (&Point, &Arm)>, String> {
+        self.first(count);
+        for point in self.all[..count].iter().skip(self.arms.len()) {
+            self.arms.push(Arm::read(self.setting, point)?);
+        }
+        Ok(self.all.iter().zip(&self.arms).take(count))
+    }
 }
 
 /// Checks a function's program against a robot, at so many of the points as its degree asks for.
@@ -79,8 +91,9 @@ pub fn check(own: Statement, points: &mut Points) -> Result<(), String> {
     // Own formulas are quotients of polynomials of a degree below 200 n²: D's entries are of 4 n,
     // its determinant of 4 n², and what is derived twice or inverted twice of a small multiple of
     // that. What follows a joint several times as far is of as many times its degree.
-    let n = own.setting.links() as f64;
-    let own_degree = 200.0 * n * n * own.setting.turns();
+    let setting = points.setting;
+    let n = setting.links() as f64;
+    let own_degree = 200.0 * n * n * setting.turns();
     let load_degree = own.load.map_or(1.0, |load| load.degree().max(1.0));
     let degree = (own.program.degree() * load_degree + own_degree) * (2.0 * n + 1.0);
     // No number counts as too large.
@@ -88,13 +101,12 @@ pub fn check(own: Statement, points: &mut Points) -> Result<(), String> {
         return Err("the degree is too large for a few points to decide".into());
     }
     let bits = (degree.ceil() as u64).next_power_of_two().trailing_zeros();
-    let points = points.first(CERTAINTY.div_ceil(POINT - bits) as usize);
-    points.iter().try_for_each(|point| at_point(own, point))
+    let mut points = points.with_arms(CERTAINTY.div_ceil(POINT - bits) as usize)?;
+    points.try_for_each(|(point, arm)| at_point(own, setting, point, arm.clone()))
 }
 
-fn at_point(own: Statement, point: &Point) -> Result<(), String> {
-    let (setting, function, base) = (own.setting, own.function, own.base);
-    let mut arm = Arm::read(setting, point)?;
+fn at_point(own: Statement, setting: &Setting, point: &Point, mut arm: Arm) -> Result<(), String> {
+    let (function, base) = (own.function, own.base);
     let mut state = State::draw(point, setting)?;
     let place = |name: &str| argument(name).unwrap_or_default();
     let takes = |name: &str| function.arguments.contains(&place(name));

@@ -11,7 +11,7 @@ use num_rational::BigRational as Rational;
 use num_traits::float::FloatCore;
 use num_traits::{Euclid, One, Pow, Signed, ToPrimitive, Zero};
 
-use super::number::{Draws, Number};
+use super::number::{Draws, Number, Prime};
 
 /// The most digits of a number.
 const MOST_DIGITS: usize = 400;
@@ -330,7 +330,7 @@ impl Exact {
 /// A point of a prime field: the residues of numbers, and of sines and cosines of angles.
 pub struct Point {
     /// The prime of its field.
-    pub prime: u64,
+    pub prime: Prime,
     draws: RefCell<Draws>,
     angles: RefCell<HashMap<Angle, [Number; 2]>>,
     constants: RefCell<HashMap<*const Sum, (Exact, Number)>>,
@@ -356,7 +356,7 @@ impl Point {
 
     /// Returns one half.
     pub fn half(&self) -> Number {
-        Number::new(self.prime / 2 + 1, self.prime)
+        Number::new(self.prime.value() / 2 + 1, self.prime)
     }
 
     /// Returns a residue that was not drawn before.
@@ -372,7 +372,7 @@ impl Point {
 
     /// Returns the residue of a fraction.
     pub fn number(&self, value: &Rational) -> Number {
-        let prime = BigInt::from(self.prime);
+        let prime = BigInt::from(self.prime.value());
         let part = |x: &BigInt| Number::new(x.rem_euclid(&prime).to_u64().unwrap_or(0), self.prime);
         part(value.numer()) / part(value.denom())
     }

@@ -6,20 +6,75 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use hmac_sha256::Hash;
 
-/// A residue r + r₁ε + r₂δ + r₃εδ with ε² = δ² = 0. Without a prime it is a whole number that every
-/// field has; a result of a division by zero is lost.
+/// A prime p of 62 bits, with ⌊2¹²⁵/p⌋, so that a remainder takes two products. It is 0 of a whole
+/// number that every field has, and `LOST` of a result of a division by zero.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Prime {
+    value: u64,
+    inverse: u64,
+}
+
+const LOST: Prime = Prime {
+    value: u64::MAX,
+    inverse: 0,
+};
+
+impl Prime {
+    fn new(value: u64) -> Prime {
+        let inverse = ((1u128 << 125) / u128::from(value)) as u64;
+        Prime { value, inverse }
+    }
+
+    /// Returns the prime as a number.
+    pub fn value(self) -> u64 {
+        self.value
+    }
+
+    /// Returns the sum of two products.
+    fn products(self, [a, b]: [u64; 2], [c, d]: [u64; 2]) -> u64 {
+        let Prime { value, inverse } = self;
+        if value == 0 || value == LOST.value {
+            return a.wrapping_mul(b).wrapping_add(c.wrapping_mul(d));
+        }
+        let sum = u128::from(a) * u128::from(b) + u128::from(c) * u128::from(d);
+        // The quotient of less than 2¹²⁵ is at most two too small (Barrett 1986).
+        let high = u128::from((sum >> 61) as u64);
+        let quotient = ((high * u128::from(inverse)) >> 64) as u64;
+        let rest = (sum as u64).wrapping_sub(quotient.wrapping_mul(value));
+        let less = |rest: u64, by: u64| if rest >= by { rest - by } else { rest };
+        less(less(rest, 2 * value), value)
+    }
+
+    fn sum(self, a: u64, b: u64) -> u64 {
+        let sum = a.wrapping_add(b);
+        let is_over = self.value > 0 && sum >= self.value;
+        if is_over { sum - self.value } else { sum }
+    }
+
+    fn power(self, mut square: u64, mut exponent: u64) -> u64 {
+        let mut power = 1;
+        while exponent > 0 {
+            if exponent & 1 == 1 {
+                power = self.products([power, square], [0, 0]);
+            }
+            square = self.products([square, square], [0, 0]);
+            exponent >>= 1;
+        }
+        power
+    }
+}
+
+/// A residue r + r₁ε + r₂δ + r₃εδ with ε² = δ² = 0.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Number {
-    prime: u64,
+    prime: Prime,
     parts: [u64; 4],
 }
 
-const LOST: u64 = u64::MAX;
-
 impl Number {
     /// Creates a residue.
-    pub fn new(value: u64, prime: u64) -> Number {
-        let parts = [value % prime, 0, 0, 0];
+    pub fn new(value: u64, prime: Prime) -> Number {
+        let parts = [value % prime.value, 0, 0, 0];
         Number { prime, parts }
     }
 
@@ -30,16 +85,16 @@ impl Number {
         step
     }
 
-    fn entry(self, part: usize, prime: u64) -> u64 {
-        match self.prime {
-            0 if prime > 0 => (self.parts[part] as i64).rem_euclid(prime as i64) as u64,
+    fn entry(self, part: usize, prime: Prime) -> u64 {
+        match self.prime.value {
+            0 if prime.value > 0 => (self.parts[part] as i64).rem_euclid(prime.value as i64) as u64,
             _ => self.parts[part],
         }
     }
 
     /// Returns the residue modulo a prime; none of a number that is lost.
-    pub fn value(self, prime: u64) -> Option<u64> {
-        (self.prime != LOST).then(|| self.entry(0, prime))
+    pub fn value(self, prime: Prime) -> Option<u64> {
+        (self.prime.value != LOST.value).then(|| self.entry(0, prime))
     }
 
     /// Returns true for any number but zero.
@@ -53,62 +108,48 @@ impl Number {
         Number { parts, ..self }
     }
 
-    fn with(self, other: Number, combine: impl Fn(u64, [u64; 4], [u64; 4]) -> [u64; 4]) -> Number {
-        let prime = self.prime.max(other.prime);
-        let parts = |own: Number| match own.prime == prime {
-            true => own.parts,
-            false => from_fn(|part| own.entry(part, prime)),
+    fn common(self, other: Number) -> Prime {
+        let is_first = self.prime.value >= other.prime.value;
+        if is_first { self.prime } else { other.prime }
+    }
+
+    fn with(
+        self,
+        other: Number,
+        combine: impl Fn(Prime, [u64; 4], [u64; 4]) -> [u64; 4],
+    ) -> Number {
+        let prime = self.common(other);
+        let parts = |number: Number| match number.prime.value == prime.value {
+            true => number.parts,
+            false => from_fn(|part| number.entry(part, prime)),
         };
         let parts = combine(prime, parts(self), parts(other));
         Number { prime, parts }
-    }
-
-    fn power(self, mut exponent: u64) -> Number {
-        let (mut square, mut power) = (self, Number::from(1));
-        while exponent > 0 {
-            if exponent & 1 == 1 {
-                power = power * square;
-            }
-            square = square * square;
-            exponent >>= 1;
-        }
-        power
     }
 }
 
 impl From<i64> for Number {
     fn from(whole: i64) -> Number {
-        let (prime, parts) = (0, [whole as u64, 0, 0, 0]);
+        let (prime, parts) = (Prime::default(), [whole as u64, 0, 0, 0]);
         Number { prime, parts }
     }
 }
 
-fn times(prime: u64, a: u64, b: u64) -> u64 {
-    match prime {
-        0 => a.wrapping_mul(b),
-        // So it is of most, and quotients of 128 bits are slow.
-        _ if a == 0 || b == 0 => 0,
-        _ => (u128::from(a) * u128::from(b) % u128::from(prime)) as u64,
-    }
-}
-
-fn plus(prime: u64, a: u64, b: u64) -> u64 {
-    let sum = a.wrapping_add(b);
-    let is_over = prime > 0 && sum >= prime;
-    if is_over { sum - prime } else { sum }
+fn has_slopes(parts: [u64; 4]) -> bool {
+    parts[1] | parts[2] | parts[3] != 0
 }
 
 impl Add for Number {
     type Output = Number;
     fn add(self, other: Number) -> Number {
-        self.with(other, |p, a, b| from_fn(|k| plus(p, a[k], b[k])))
+        self.with(other, |p, a, b| from_fn(|k| p.sum(a[k], b[k])))
     }
 }
 
 impl Neg for Number {
     type Output = Number;
     fn neg(self) -> Number {
-        let parts = self.parts.map(|x| match (self.prime, x) {
+        let parts = self.parts.map(|x| match (self.prime.value, x) {
             (0, x) => x.wrapping_neg(),
             (_, 0) => 0,
             (prime, x) => prime - x,
@@ -128,14 +169,14 @@ impl Mul for Number {
     type Output = Number;
     fn mul(self, other: Number) -> Number {
         self.with(other, |p, a, b| {
-            if a[1] | a[2] | a[3] | b[1] | b[2] | b[3] == 0 {
-                return [times(p, a[0], b[0]), 0, 0, 0];
+            let two =
+                |i: usize, j: usize, k: usize, l: usize| p.products([a[i], b[j]], [a[k], b[l]]);
+            let value = p.products([a[0], b[0]], [0, 0]);
+            if !has_slopes(a) && !has_slopes(b) {
+                return [value, 0, 0, 0];
             }
-            // The bits of a part's number are the slopes that it has: those of i and of the rest.
-            from_fn(|k| {
-                let pairs = (0..=k).filter(|i| i & k == *i);
-                pairs.fold(0, |all, i| plus(p, all, times(p, a[i], b[k - i])))
-            })
+            let both = p.sum(two(0, 3, 3, 0), two(1, 2, 2, 1));
+            [value, two(0, 1, 1, 0), two(0, 2, 2, 0), both]
         })
     }
 }
@@ -143,15 +184,18 @@ impl Mul for Number {
 impl Div for Number {
     type Output = Number;
     fn div(self, other: Number) -> Number {
-        let prime = self.prime.max(other.prime);
-        let own = other.entry(0, prime);
-        if prime == 0 || prime == LOST || own == 0 {
-            return Number::new(0, LOST);
+        let prime = self.common(other);
+        let divisor = other.entry(0, prime);
+        if prime.value == 0 || prime.value == LOST.value || divisor == 0 {
+            let (prime, parts) = (LOST, [0; 4]);
+            return Number { prime, parts };
         }
-        // 1/(x + e) is y (2 − (x + e) y), twice, with y = 1/x: squares of slopes vanish.
-        let mut inverse = Number::new(own, prime).power(prime - 2);
-        for _ in 0..2 {
-            inverse = inverse * (Number::from(2) - other * inverse);
+        let mut inverse = Number::new(prime.power(divisor, prime.value - 2), prime);
+        if has_slopes(other.parts) {
+            // 1/(x + e) is y (2 − (x + e) y), twice, with y = 1/x: squares of slopes vanish.
+            for _ in 0..2 {
+                inverse = inverse * (Number::from(2) - other * inverse);
+            }
         }
         self * inverse
     }
@@ -211,9 +255,9 @@ impl Draws {
     }
 
     /// Returns the next prime of 62 bits.
-    pub fn prime(&mut self) -> u64 {
+    pub fn prime(&mut self) -> Prime {
         loop {
-            let number = self.next() >> 2 | 1 << 61 | 1;
+            let number = Prime::new(self.next() >> 2 | 1 << 61 | 1);
             if is_prime(number) {
                 return number;
             }
@@ -221,21 +265,22 @@ impl Draws {
     }
 
     /// Returns the next residue.
-    pub fn residue(&mut self, prime: u64) -> Number {
+    pub fn residue(&mut self, prime: Prime) -> Number {
         Number::new(self.next(), prime)
     }
 }
 
 /// Tests an odd number for being prime, by Miller and Rabin; these bases suffice below 2⁶⁴.
-fn is_prime(number: u64) -> bool {
-    let twos = (number - 1).trailing_zeros();
+fn is_prime(number: Prime) -> bool {
+    let minus_one = number.value - 1;
+    let twos = minus_one.trailing_zeros();
     let bases = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
     bases.into_iter().all(|base| {
-        let mut power = Number::new(base, number).power((number - 1) >> twos);
-        let mut passes = [1, number - 1].contains(&power.parts[0]);
+        let mut power = number.power(base, minus_one >> twos);
+        let mut passes = [1, minus_one].contains(&power);
         for _ in 1..twos {
-            power = power * power;
-            passes |= power.parts[0] == number - 1;
+            power = number.products([power, power], [0, 0]);
+            passes |= power == minus_one;
         }
         passes
     })

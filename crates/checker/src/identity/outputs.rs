@@ -105,10 +105,25 @@ impl<'a> At<'a> {
         self.loads(&self.zeros(), &self.zeros(), self.arm.gravity)
     }
 
+    /// Returns D: the links behind a joint that moves alone are one body.
     fn inertia(&self) -> Matrix {
-        let column = |unit: Vec<Number>| self.loads(&self.zeros(), &unit, Vector::default());
-        let columns = units(self.count()).into_iter().map(column).collect();
-        transposed(&columns)
+        let mut d = vec![self.zeros(); self.count()];
+        let mut behind = Body::default();
+        for (k, joint) in self.arm.joints.iter().enumerate().rev() {
+            behind = behind.plus(&self.bodies[k]);
+            let momentum = behind.momentum(self.axes[k]);
+            let (row, factor) = joint.leader;
+            d[row][row] = d[row][row] + joint.armature * factor * factor;
+            for (i, axis) in self.axes.iter().enumerate().take(k + 1) {
+                let (column, other) = self.arm.joints[i].leader;
+                let entry = axis.power(momentum) * factor * other;
+                d[row][column] = d[row][column] + entry;
+                if i < k {
+                    d[column][row] = d[column][row] + entry;
+                }
+            }
+        }
+        d
     }
 
     fn moving(&self, mut rows: Matrix) -> Matrix {
@@ -393,7 +408,10 @@ pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
     Some(match *by.as_slice() {
         [by] => own.slopes(by, |own| own.value(of)).concat(),
         [one, other] => {
-            let bend = |at: usize| {
+            let bend = |at: usize, known: &[Number]| {
+                if one == other && at % n < at / n {
+                    return known[at % n * n + at / n];
+                }
                 // Of a motion that is solved for, what is locked has none.
                 let is_held = |joint: &usize| arm.locked.contains(joint);
                 if of == "qdd" && [at / n, at % n].iter().any(is_held) {
@@ -404,7 +422,10 @@ pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
                 let bends: Vec<Number> = values.map(|own| own.slope(3)).collect();
                 product(&bends, own.given("multiplier"))
             };
-            (0..n * n).map(bend).collect()
+            (0..n * n).fold(Vec::new(), |mut all, at| {
+                all.push(bend(at, &all));
+                all
+            })
         }
         _ => own.value(field.is),
     })
