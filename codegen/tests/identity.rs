@@ -28,7 +28,10 @@ impl Shown {
             load: None,
         };
         let text = format!("{program:?}");
-        check(statement, &mut Points::new(&setting, &[&self.source, &text]))
+        check(
+            statement,
+            &mut Points::new(&setting, &[&self.source, &text]),
+        )
     }
 }
 

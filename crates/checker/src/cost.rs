@@ -16,7 +16,7 @@ use crate::payload::Body;
 use crate::program::{ARGUMENTS, LOAD, Operand, Program, argument};
 use crate::read::{self, Head, Source};
 use crate::rounding::{Bounds, Ranges, Rounding};
-use crate::sample::{Lanes, Near, Sampler, State};
+use crate::sample::{LANES, Lanes, Near, Sampler, State};
 use crate::states::States;
 use crate::tolerance::Bounded;
 use crate::work::Work;
@@ -31,8 +31,6 @@ const DAMPING: [f64; 2] = [1e-3, 1e-1];
 /// others is.
 const STATES: usize = 1000;
 const LOOKED_AT: usize = 100;
-/// The states that are looked at together.
-const AT_ONCE: usize = 4;
 /// The largest cost that is shown where the user allows no more: in f64, seven digits of sixteen; in
 /// f32, and of polynomials for sines, all but two.
 const MOST_DOUBLE: f64 = (1u64 << 24) as f64 * UNIT;
@@ -43,7 +41,7 @@ const SHARE: f64 = 1.0 / 8.0;
 const ZERO: f64 = 1e-12;
 /// The climbs to worse states, and the states of each.
 const CLIMBS: usize = 4;
-const CLIMBED: usize = 150;
+const CLIMBED: usize = 148;
 
 /// The findings about a function that is the robot's but for rounding, and for what a tolerance
 /// left out.
@@ -161,8 +159,10 @@ impl Subject<'_> {
             count: 0,
         };
         let mut worst: Vec<(f64, State)> = Vec::new();
-        for _ in 0..if is_measured { STATES } else { LOOKED_AT } / AT_ONCE {
-            let drawn: [State; AT_ONCE] = from_fn(|_| states.next());
+        const { assert!(STATES.is_multiple_of(LANES) && LOOKED_AT.is_multiple_of(LANES)) };
+        let count = if is_measured { STATES } else { LOOKED_AT };
+        for _ in 0..count / LANES {
+            let drawn: [State; LANES] = from_fn(|_| states.next());
             let heights = seen.look(drawn.each_ref(), &divides)?;
             worst.extend(heights.into_iter().zip(drawn));
         }
@@ -172,7 +172,7 @@ impl Subject<'_> {
             self.steps_are_seen(&over_box, &has_quotients, &seen.steps)?;
             worst.sort_by(|a, b| b.0.total_cmp(&a.0));
             for (height, state) in worst.into_iter().take(CLIMBS) {
-                states.climb((height, state), CLIMBED, |both| seen.look(both, &divides))?;
+                states.climb((height, state), CLIMBED, |next| seen.look(next, &divides))?;
             }
         }
         let shapes = head.fields.iter().map(|own| own.1.as_slice());
@@ -233,7 +233,7 @@ impl Subject<'_> {
                 is_bounded,
                 // A bound as large as the values says nothing.
                 rounding: if rounding < 1.0 { rounding } else { f64::NAN },
-                units: rounding / seen.sampler.unit(),
+                units: rounding / seen.sampler.scalar.unit,
                 is_of_whole,
                 states: if is_bounded { 0 } else { measured },
             });
@@ -287,27 +287,25 @@ struct Seen<'s> {
 }
 
 impl Seen<'_> {
-    /// Looks at states; returns the largest error of what divides, relative to its result there.
-    fn look<const L: usize>(
-        &mut self,
-        states: [&State; L],
-        divides: &[bool],
-    ) -> Result<[f64; L], Fault> {
-        self.work.spend(L, self.sampler.work() + self.load.work())?;
+    /// Looks at states; returns the largest error of what divides at each, relative to its result
+    /// there.
+    fn look(&mut self, states: [&State; LANES], divides: &[bool]) -> Result<[f64; LANES], Fault> {
+        self.work
+            .spend(LANES, self.sampler.work() + self.load.work())?;
         let loads = self.load.run(states, &[]);
-        let load: Vec<Lanes<L>> = self.load.results(&loads).collect();
+        let load: Vec<Lanes> = self.load.results(&loads).collect();
         let values = self.sampler.run(states, &load);
-        for (most, step) in self.steps.iter_mut().zip(self.sampler.steps(&values)) {
-            *most = most.max(step.magnitude());
-        }
-        let results: Vec<Lanes<L>> = self.sampler.results(&values).collect();
+        let magnitudes = self.sampler.magnitudes(&values);
+        let steps = self.steps.iter_mut().zip(magnitudes);
+        steps.for_each(|(most, magnitude)| *most = most.max(magnitude));
+        let results: Vec<Lanes> = self.sampler.results(&values).collect();
         Ok(from_fn(|lane| {
             self.states += 1;
             self.height(|k| results[k].at(lane), divides)
         }))
     }
 
-    /// Looks at the results at a state.
+    /// Looks at the results at a state; returns the largest error of what divides.
     fn height(&mut self, result: impl Fn(usize) -> Near, divides: &[bool]) -> f64 {
         let (mut height, mut first) = (0.0f64, 0);
         for (field, length) in self.lengths.iter().enumerate() {

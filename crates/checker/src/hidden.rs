@@ -68,16 +68,8 @@ pub(crate) fn check(
     };
     let mut known = HashSet::new();
     let mut is_new = |both: [Number; 2]| {
-        let [a, b] = both.map(|own| own.value(point.prime).unwrap_or_default());
-        let minus = |own: u64| {
-            if own == 0 {
-                0
-            } else {
-                point.prime.value() - own
-            }
-        };
-        let opposite = [minus(a), minus(b)];
-        known.insert(opposite.min([a, b]))
+        let values = |both: [Number; 2]| both.map(|x| x.value(point.prime).unwrap_or_default());
+        known.insert(values(both.map(|x| -x)).min(values(both)))
     };
     let is_input = |own: &Operand<Exact>| Some(!matches!(own, Operand::Constant(_)));
     let reads_state = program.values(is_input, |_, a, b| a || b);

@@ -21,16 +21,19 @@ pub struct Near {
     pub error: f64,
 }
 
-/// The same of several states: what is done for all of them at once takes a third of the time.
+/// The states that are run at once, in vectors: a third of the time.
+pub const LANES: usize = 4;
+
+/// The same at several states.
 #[derive(Clone, Copy, Debug)]
-pub struct Lanes<const L: usize> {
-    value: [f64; L],
-    off: [f64; L],
-    error: [f64; L],
+pub struct Lanes {
+    value: [f64; LANES],
+    off: [f64; LANES],
+    error: [f64; LANES],
 }
 
-impl<const L: usize> Lanes<L> {
-    pub fn new(all: [Near; L]) -> Lanes<L> {
+impl Lanes {
+    pub fn new(all: [Near; LANES]) -> Lanes {
         Lanes {
             value: all.map(|near| near.value),
             off: all.map(|near| near.off),
@@ -46,13 +49,6 @@ impl<const L: usize> Lanes<L> {
             error: self.error[lane],
         }
     }
-
-    /// Returns the largest magnitude.
-    pub fn magnitude(&self) -> f64 {
-        self.value
-            .iter()
-            .fold(0.0, |most, value| value.abs().max(most))
-    }
 }
 
 /// The entries of each argument.
@@ -66,7 +62,7 @@ pub struct Sampler<'f> {
     speeds: &'f [(usize, f64)],
     /// The errors of sines and cosines by polynomials.
     polynomials: Vec<[Option<f64>; 2]>,
-    scalar: Scalar,
+    pub scalar: Scalar,
 }
 
 impl<'f> Sampler<'f> {
@@ -109,25 +105,21 @@ impl<'f> Sampler<'f> {
         }
     }
 
-    /// About how many nanoseconds a state takes.
+    /// The nanoseconds that a state takes at most.
     pub fn work(&self) -> u64 {
         30 * self.leaves.len() as u64 + 8 * self.code.len() as u64 + 100
     }
 
     /// Runs the function at states, given the loads there.
-    pub fn run<const L: usize>(&self, states: [&State; L], load: &[Lanes<L>]) -> Vec<Lanes<L>> {
+    pub fn run(&self, states: [&State; LANES], load: &[Lanes]) -> Vec<Lanes> {
         let leaf = |operand| Lanes::new(from_fn(|k| self.leaf(operand, states[k], load, k)));
         let mut values = Vec::with_capacity(self.leaves.len() + self.code.len());
         values.extend(self.leaves.iter().map(leaf));
         for (operation, [a, b]) in &self.code {
             let (a, b) = (values[*a], values[*b]);
             values.push(match operation {
-                '+' => self.rounded(a, b, |a, b| {
-                    [a.value + b.value, a.off + b.off, a.error + b.error]
-                }),
-                '-' => self.rounded(a, b, |a, b| {
-                    [a.value - b.value, a.off + b.off, a.error + b.error]
-                }),
+                '+' => self.rounded(a, b, |a, b| sum(a, b, 1.0)),
+                '-' => self.rounded(a, b, |a, b| sum(a, b, -1.0)),
                 '/' => self.rounded(a, b, quotient),
                 _ => self.rounded(a, b, product),
             });
@@ -136,17 +128,12 @@ impl<'f> Sampler<'f> {
     }
 
     /// Combines operands by value, off and inherited error, and rounds.
-    fn rounded<const L: usize>(
-        &self,
-        a: Lanes<L>,
-        b: Lanes<L>,
-        combine: impl Fn(Near, Near) -> [f64; 3],
-    ) -> Lanes<L> {
+    fn rounded(&self, a: Lanes, b: Lanes, combine: impl Fn(Near, Near) -> [f64; 3]) -> Lanes {
         let Scalar {
             unit, least, most, ..
         } = self.scalar;
         let mut lanes = a;
-        for k in 0..L {
+        for k in 0..LANES {
             let [value, off, inherited] = combine(a.at(k), b.at(k));
             // The slack is what these sums lose in doubles.
             let off = (off + UNIT * value.abs()) * (1.0 + 1e-14) + least;
@@ -160,29 +147,17 @@ impl<'f> Sampler<'f> {
         lanes
     }
 
-    pub fn results<'v, const L: usize>(
-        &'v self,
-        values: &'v [Lanes<L>],
-    ) -> impl Iterator<Item = Lanes<L>> + 'v {
+    pub fn results<'v>(&'v self, values: &'v [Lanes]) -> impl Iterator<Item = Lanes> + 'v {
         self.outputs.iter().map(|place| values[*place])
     }
 
-    pub fn steps<'v, const L: usize>(&self, values: &'v [Lanes<L>]) -> &'v [Lanes<L>] {
-        &values[self.leaves.len()..]
+    /// Returns the largest magnitude of each step.
+    pub fn magnitudes<'v>(&self, values: &'v [Lanes]) -> impl Iterator<Item = f64> + 'v {
+        let steps = values[self.leaves.len()..].iter();
+        steps.map(|step| step.value.iter().fold(0.0, |most, x| x.abs().max(most)))
     }
 
-    /// Returns half an ulp of one.
-    pub fn unit(&self) -> f64 {
-        self.scalar.unit
-    }
-
-    fn leaf<const L: usize>(
-        &self,
-        own: &Operand<f64>,
-        state: &State,
-        load: &[Lanes<L>],
-        lane: usize,
-    ) -> Near {
+    fn leaf(&self, own: &Operand<f64>, state: &State, load: &[Lanes], lane: usize) -> Near {
         let unit = self.scalar.unit;
         let entry = |place: usize, index: usize| state.get(place)?.get(index).copied();
         let near = |value, off, error| Near { value, off, error };
@@ -194,7 +169,7 @@ impl<'f> Sampler<'f> {
                 Some(near(*literal, error, error))
             }
             Operand::Entry(place, index) if argument("load") == Some(*place) => {
-                load.get(*index).map(|own| own.at(lane))
+                load.get(*index).map(|entry| entry.at(lane))
             }
             Operand::Entry(place, index) => entry(*place, *index).map(exactly),
             Operand::Sine(joint, is_sine) => entry(0, *joint).map(|angle| {
@@ -219,6 +194,10 @@ impl<'f> Sampler<'f> {
         };
         found.unwrap_or(near(f64::NAN, f64::INFINITY, f64::INFINITY))
     }
+}
+
+fn sum(a: Near, b: Near, sign: f64) -> [f64; 3] {
+    [a.value + sign * b.value, a.off + b.off, a.error + b.error]
 }
 
 fn product(a: Near, b: Near) -> [f64; 3] {

@@ -5,12 +5,12 @@ use crate::identity::number::Draws;
 use crate::payload::Body;
 use crate::program::{ARGUMENTS, argument};
 use crate::rounding::Ranges;
-use crate::sample::State;
+use crate::sample::{LANES, State};
 
 /// One state in so many has nothing but zeros, ends and middles of ranges, and quarter turns.
 const SPECIAL: usize = 5;
-/// The parts of a range by which a climb goes on.
-const STRIDES: [f64; 3] = [0.2, 0.05, 0.01];
+/// The parts of a range by which a climb goes on: the ways that are tried at once.
+const STRIDES: [[f64; LANES]; 2] = [[-0.2, 0.2, -0.05, 0.05], [-0.05, 0.05, -0.01, 0.01]];
 
 pub(crate) struct States<'s> {
     pub ranges: &'s Ranges,
@@ -78,16 +78,16 @@ impl States<'_> {
         state
     }
 
-    /// Climbs from a state, and its height, to where something is larger, entry by entry and both
-    /// ways, with so many tries. A body stays as it is.
+    /// Climbs from a state, and its height, to where something is larger, entry by entry, with so
+    /// many tries. A body stays as it is.
     pub(crate) fn climb(
         &self,
         (mut highest, mut state): (f64, State),
         mut tries: usize,
-        mut heights: impl FnMut([&State; 2]) -> Result<[f64; 2], Fault>,
+        mut heights: impl FnMut([&State; LANES]) -> Result<[f64; LANES], Fault>,
     ) -> Result<(), Fault> {
         let payload = argument("payload");
-        for stride in STRIDES {
+        for ways in STRIDES {
             let mut has_moved = true;
             while has_moved {
                 has_moved = false;
@@ -96,17 +96,17 @@ impl States<'_> {
                         let Some([low, high]) = self.ranges[place].get(index).copied() else {
                             continue;
                         };
-                        if tries < 2 {
+                        if tries < LANES {
                             return Ok(());
                         }
-                        tries -= 2;
-                        let both = [-stride, stride].map(|way| {
+                        tries -= LANES;
+                        let all = ways.map(|way| {
                             let mut next = state.clone();
                             let entry = &mut next[place][index];
                             *entry = (*entry + way * (high - low)).clamp(low, high);
                             self.rounded(next)
                         });
-                        for (height, next) in heights(both.each_ref())?.into_iter().zip(both) {
+                        for (height, next) in heights(all.each_ref())?.into_iter().zip(all) {
                             if height > highest {
                                 (state, highest, has_moved) = (next, height, true);
                             }

@@ -79,11 +79,9 @@ fn quotients_have_slopes() {
     let mut draws = Draws::new(&["quotients"]);
     let prime = draws.prime();
     assert!(prime.value() >> 61 == 1);
-    assert_ne!(prime.value(), Draws::new(&["quotients "]).prime().value());
-    assert_ne!(
-        prime.value(),
-        Draws::new(&["quo", "tients"]).prime().value()
-    );
+    let prime_of = |texts: &[&str]| Draws::new(texts).prime().value();
+    assert_ne!(prime.value(), prime_of(&["quotients "]));
+    assert_ne!(prime.value(), prime_of(&["quo", "tients"]));
     let mut number = || {
         let [value, first, second] = [(); 3].map(|()| draws.residue(prime));
         value + first * Number::step(1) + second * Number::step(2)
@@ -96,4 +94,24 @@ fn quotients_have_slopes() {
     assert_eq!(again.value(prime), x.value(prime));
     let zero = Number::new(prime.value(), prime);
     assert_eq!((x / zero * y).value(prime), None);
+}
+
+/// Sums of products of the least and the largest residues, against remainders of 128 bits.
+#[test]
+fn products_are_remainders() {
+    let prime = Draws::new(&["products"]).prime();
+    let p = prime.value();
+    let ends = [0, 1, 2, p / 2, p - 2, p - 1];
+    let (number, step) = (|value: u64| Number::new(value, prime), Number::step(1));
+    let wide = |x: u64, y: u64| u128::from(x) * u128::from(y);
+    let left = |whole: u128| Some((whole % u128::from(p)) as u64);
+    for case in 0..6usize.pow(4) {
+        let [a, b, c, d] = [1, 6, 36, 216].map(|place| ends[case / place % 6]);
+        let product = (number(a) + number(b) * step) * (number(c) + number(d) * step);
+        assert_eq!(product.value(prime), left(wide(a, c)));
+        let slope = product.slope(1).value(prime);
+        assert_eq!(slope, left(wide(a, d) + wide(b, c)), "{a} {b} {c} {d}");
+    }
+    let whole = Number::from(-3) * Number::new(p - 1, prime);
+    assert_eq!(whole.value(prime), Some(3));
 }

@@ -44,7 +44,8 @@ pub struct Statement<'s> {
     pub load: Option<&'s Program<Exact>>,
 }
 
-/// Points of prime fields that follow from texts which have all that is claimed, and the robot there.
+/// Points of prime fields that follow from texts which have all that is claimed, and the
+/// robot at each of them.
 pub struct Points<'s> {
     setting: &'s Setting<'s>,
     draws: Draws,

@@ -11,18 +11,15 @@ use hmac_sha256::Hash;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Prime {
     value: u64,
-    inverse: u64,
+    reciprocal: u64,
 }
 
-const LOST: Prime = Prime {
-    value: u64::MAX,
-    inverse: 0,
-};
+const LOST: u64 = u64::MAX;
 
 impl Prime {
     fn new(value: u64) -> Prime {
-        let inverse = ((1u128 << 125) / u128::from(value)) as u64;
-        Prime { value, inverse }
+        let reciprocal = ((1u128 << 125) / u128::from(value)) as u64;
+        Prime { value, reciprocal }
     }
 
     /// Returns the prime as a number.
@@ -30,19 +27,19 @@ impl Prime {
         self.value
     }
 
-    /// Returns the sum of two products.
+    /// Returns the sum of two products of residues: modulo the prime, of whole numbers wrapped.
     fn products(self, [a, b]: [u64; 2], [c, d]: [u64; 2]) -> u64 {
-        let Prime { value, inverse } = self;
-        if value == 0 || value == LOST.value {
+        let Prime { value, reciprocal } = self;
+        if value == 0 || value == LOST {
             return a.wrapping_mul(b).wrapping_add(c.wrapping_mul(d));
         }
         let sum = u128::from(a) * u128::from(b) + u128::from(c) * u128::from(d);
         // The quotient of less than 2¹²⁵ is at most two too small (Barrett 1986).
         let high = u128::from((sum >> 61) as u64);
-        let quotient = ((high * u128::from(inverse)) >> 64) as u64;
+        let quotient = ((high * u128::from(reciprocal)) >> 64) as u64;
         let rest = (sum as u64).wrapping_sub(quotient.wrapping_mul(value));
-        let less = |rest: u64, by: u64| if rest >= by { rest - by } else { rest };
-        less(less(rest, 2 * value), value)
+        let reduced = |rest: u64, by: u64| if rest >= by { rest - by } else { rest };
+        reduced(reduced(rest, 2 * value), value)
     }
 
     fn sum(self, a: u64, b: u64) -> u64 {
@@ -94,7 +91,7 @@ impl Number {
 
     /// Returns the residue modulo a prime; none of a number that is lost.
     pub fn value(self, prime: Prime) -> Option<u64> {
-        (self.prime.value != LOST.value).then(|| self.entry(0, prime))
+        (self.prime.value != LOST).then(|| self.entry(0, prime))
     }
 
     /// Returns true for any number but zero.
@@ -169,14 +166,13 @@ impl Mul for Number {
     type Output = Number;
     fn mul(self, other: Number) -> Number {
         self.with(other, |p, a, b| {
-            let two =
-                |i: usize, j: usize, k: usize, l: usize| p.products([a[i], b[j]], [a[k], b[l]]);
+            let slope = |[i, k]: [usize; 2]| p.products([a[i], b[k]], [a[k], b[i]]);
             let value = p.products([a[0], b[0]], [0, 0]);
             if !has_slopes(a) && !has_slopes(b) {
                 return [value, 0, 0, 0];
             }
-            let both = p.sum(two(0, 3, 3, 0), two(1, 2, 2, 1));
-            [value, two(0, 1, 1, 0), two(0, 2, 2, 0), both]
+            let mixed = p.sum(slope([0, 3]), slope([1, 2]));
+            [value, slope([0, 1]), slope([0, 2]), mixed]
         })
     }
 }
@@ -186,8 +182,9 @@ impl Div for Number {
     fn div(self, other: Number) -> Number {
         let prime = self.common(other);
         let divisor = other.entry(0, prime);
-        if prime.value == 0 || prime.value == LOST.value || divisor == 0 {
-            let (prime, parts) = (LOST, [0; 4]);
+        if prime.value == 0 || prime.value == LOST || divisor == 0 {
+            let (value, parts) = (LOST, [0; 4]);
+            let prime = Prime { value, ..prime };
             return Number { prime, parts };
         }
         let mut inverse = Number::new(prime.power(divisor, prime.value - 2), prime);

@@ -1,5 +1,5 @@
-//! Every result by the equations of Newton and Euler in base axes. Slopes are those of the numbers,
-//! so that no derivative is written out.
+//! Every result by the equations of Newton and Euler in base axes, D by the links that move as one.
+//! Slopes are those of the numbers, so that no derivative is written out.
 
 use super::arm::{Arm, HAND, Joint};
 use super::matrix::{Matrix, minus, plus, product, solve, times, transposed, units};
@@ -11,6 +11,7 @@ use super::table::{Field, View};
 use crate::program::argument;
 
 /// An arm at a state, and the frame that is its hand.
+#[derive(Clone)]
 struct At<'a> {
     arm: &'a Arm,
     state: &'a State,
@@ -36,6 +37,17 @@ impl<'a> At<'a> {
             axes: axes.map(|(own, pose)| pose.screw(own.axis)).collect(),
             bodies: bodies.map(|(own, pose)| own.body.moved(pose)).collect(),
             poses,
+        }
+    }
+
+    /// Returns the arm at a state that differs from its state by these arguments.
+    fn moved<'b>(&'b self, state: &'b State, by: &[usize]) -> At<'b> {
+        match by.contains(&0) {
+            true => At::new(self.arm, state, self.view),
+            false => At {
+                state,
+                ..self.clone()
+            },
         }
     }
 
@@ -105,7 +117,7 @@ impl<'a> At<'a> {
         self.loads(&self.zeros(), &self.zeros(), self.arm.gravity)
     }
 
-    /// Returns D: the links behind a joint that moves alone are one body.
+    /// Returns D: if one joint alone moves, all links behind it move as one body.
     fn inertia(&self) -> Matrix {
         let mut d = vec![self.zeros(); self.count()];
         let mut behind = Body::default();
@@ -219,7 +231,7 @@ impl<'a> At<'a> {
     fn slopes(&self, by: usize, of: impl Fn(&At) -> Vec<Number>) -> Matrix {
         let column = |joint: usize| {
             let moved = self.state.moving(by, joint, 1);
-            let values = of(&At::new(self.arm, &moved, self.view)).into_iter();
+            let values = of(&self.moved(&moved, &[by])).into_iter();
             values.map(|own| own.slope(1)).collect()
         };
         transposed(&(0..self.count()).map(column).collect())
@@ -262,12 +274,12 @@ impl<'a> At<'a> {
     fn columns(&self, torques: impl Fn(&At) -> Vec<Number>) -> Matrix {
         let (rows, step) = (self.arm.joints.len(), Number::step(1));
         let column = |place: usize| {
-            let mut arm = self.arm.clone();
+            let (mut arm, mut at) = (self.arm.clone(), self.clone());
             if place < 10 * rows {
-                let joint = &mut arm.joints[place / 10];
+                let link = place / 10;
                 let entry = |k: usize| if k == place % 10 { step } else { 0.into() };
-                let body = Body::new(std::array::from_fn(entry));
-                joint.body = joint.body.plus(&body.moved(&joint.shown));
+                let body = Body::new(std::array::from_fn(entry)).moved(&arm.joints[link].shown);
+                at.bodies[link] = at.bodies[link].plus(&body.moved(&self.poses[link + 1]));
             } else {
                 let joint = &mut arm.joints[place % rows];
                 let own = match place < 11 * rows {
@@ -276,7 +288,7 @@ impl<'a> At<'a> {
                 };
                 *own = if own.is_nonzero() { *own + step } else { *own };
             }
-            let torques = torques(&At::new(&arm, self.state, self.view)).into_iter();
+            let torques = torques(&At { arm: &arm, ..at }).into_iter();
             torques.map(|own| own.slope(1)).collect()
         };
         (0..12 * rows).map(column).collect()
@@ -418,7 +430,7 @@ pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
                     return 0.into();
                 }
                 let moved = state.moving(one, at / n, 1).moving(other, at % n, 2);
-                let values = At::new(arm, &moved, &field.view).value(of).into_iter();
+                let values = own.moved(&moved, &[one, other]).value(of).into_iter();
                 let bends: Vec<Number> = values.map(|own| own.slope(3)).collect();
                 product(&bends, own.given("multiplier"))
             };
