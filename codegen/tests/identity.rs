@@ -27,11 +27,8 @@ impl Shown {
             base: &self.base,
             load: None,
         };
-        let text = format!("{program:?}");
-        check(
-            statement,
-            &mut Points::new(&setting, &[&self.source, &text]),
-        )
+        let mut points = Points::new(&setting, &[&self.source, &format!("{program:?}")]);
+        check(statement, &mut points)
     }
 }
 

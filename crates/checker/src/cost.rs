@@ -31,6 +31,7 @@ const DAMPING: [f64; 2] = [1e-3, 1e-1];
 /// others is.
 const STATES: usize = 1000;
 const LOOKED_AT: usize = 100;
+const _: () = assert!(STATES.is_multiple_of(LANES) && LOOKED_AT.is_multiple_of(LANES));
 /// The largest cost that is shown where the user allows no more: in f64, seven digits of sixteen; in
 /// f32, and of polynomials for sines, all but two.
 const MOST_DOUBLE: f64 = (1u64 << 24) as f64 * UNIT;
@@ -159,7 +160,6 @@ impl Subject<'_> {
             count: 0,
         };
         let mut worst: Vec<(f64, State)> = Vec::new();
-        const { assert!(STATES.is_multiple_of(LANES) && LOOKED_AT.is_multiple_of(LANES)) };
         let count = if is_measured { STATES } else { LOOKED_AT };
         for _ in 0..count / LANES {
             let drawn: [State; LANES] = from_fn(|_| states.next());

@@ -24,7 +24,7 @@ pub struct Near {
 /// The states that are run at once, in vectors: a third of the time.
 pub const LANES: usize = 4;
 
-/// The same at several states.
+/// Values at several states.
 #[derive(Clone, Copy, Debug)]
 pub struct Lanes {
     value: [f64; LANES],

@@ -9,7 +9,7 @@ use crate::sample::{LANES, State};
 
 /// One state in so many has nothing but zeros, ends and middles of ranges, and quarter turns.
 const SPECIAL: usize = 5;
-/// The parts of a range by which a climb goes on: the ways that are tried at once.
+/// The parts of a range by which a climb goes on, those of a row at once.
 const STRIDES: [[f64; LANES]; 2] = [[-0.2, 0.2, -0.05, 0.05], [-0.05, 0.05, -0.01, 0.01]];
 
 pub(crate) struct States<'s> {

@@ -6,8 +6,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use hmac_sha256::Hash;
 
-/// A prime p of 62 bits, with ⌊2¹²⁵/p⌋, so that a remainder takes two products. It is 0 of a whole
-/// number that every field has, and `LOST` of a result of a division by zero.
+/// A prime p of 62 bits, with ⌊2¹²⁵/p⌋, so that a remainder takes two products. The value is 0
+/// for a whole number, which every field has, and `LOST` for a result of a division by zero.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Prime {
     value: u64,

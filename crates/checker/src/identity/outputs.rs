@@ -231,8 +231,7 @@ impl<'a> At<'a> {
     fn slopes(&self, by: usize, of: impl Fn(&At) -> Vec<Number>) -> Matrix {
         let column = |joint: usize| {
             let moved = self.state.moving(by, joint, 1);
-            let values = of(&self.moved(&moved, &[by])).into_iter();
-            values.map(|own| own.slope(1)).collect()
+            parts(of(&self.moved(&moved, &[by])), 1)
         };
         transposed(&(0..self.count()).map(column).collect())
     }
@@ -274,22 +273,23 @@ impl<'a> At<'a> {
     fn columns(&self, torques: impl Fn(&At) -> Vec<Number>) -> Matrix {
         let (rows, step) = (self.arm.joints.len(), Number::step(1));
         let column = |place: usize| {
-            let (mut arm, mut at) = (self.arm.clone(), self.clone());
+            let mut at = self.clone();
             if place < 10 * rows {
                 let link = place / 10;
                 let entry = |k: usize| if k == place % 10 { step } else { 0.into() };
-                let body = Body::new(std::array::from_fn(entry)).moved(&arm.joints[link].shown);
+                let body =
+                    Body::new(std::array::from_fn(entry)).moved(&self.arm.joints[link].shown);
                 at.bodies[link] = at.bodies[link].plus(&body.moved(&self.poses[link + 1]));
-            } else {
-                let joint = &mut arm.joints[place % rows];
-                let own = match place < 11 * rows {
-                    true => &mut joint.armature,
-                    false => &mut joint.viscous,
-                };
-                *own = if own.is_nonzero() { *own + step } else { *own };
+                return parts(torques(&at), 1);
             }
-            let torques = torques(&At { arm: &arm, ..at }).into_iter();
-            torques.map(|own| own.slope(1)).collect()
+            let mut arm = self.arm.clone();
+            let joint = &mut arm.joints[place % rows];
+            let one = match place < 11 * rows {
+                true => &mut joint.armature,
+                false => &mut joint.viscous,
+            };
+            *one = if one.is_nonzero() { *one + step } else { *one };
+            parts(torques(&At { arm: &arm, ..at }), 1)
         };
         (0..12 * rows).map(column).collect()
     }
@@ -405,6 +405,10 @@ impl<'a> At<'a> {
     }
 }
 
+fn parts(values: Vec<Number>, part: usize) -> Vec<Number> {
+    values.into_iter().map(|value| value.slope(part)).collect()
+}
+
 /// Returns a result of an arm at a state, flat by rows: `dtau_dq` is the slopes of `tau` by q, and
 /// `d2tau_dq_dqd` those of λᵀτ by q and q̇. None of a field that has no formula.
 pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
@@ -430,8 +434,7 @@ pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
                     return 0.into();
                 }
                 let moved = state.moving(one, at / n, 1).moving(other, at % n, 2);
-                let values = own.moved(&moved, &[one, other]).value(of).into_iter();
-                let bends: Vec<Number> = values.map(|own| own.slope(3)).collect();
+                let bends = parts(own.moved(&moved, &[one, other]).value(of), 3);
                 product(&bends, own.given("multiplier"))
             };
             (0..n * n).fold(Vec::new(), |mut all, at| {
