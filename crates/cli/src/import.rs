@@ -10,6 +10,7 @@ use dalembert_import::{
 };
 use dalembert_model::number::Rational;
 use dalembert_model::read::{Diagnostics, RobotWarning, Severity};
+use dalembert_model::robot::Joint;
 use dalembert_stamp::{Comment, sealed};
 use serde_json::{Value, json};
 
@@ -44,7 +45,8 @@ pub struct ImportArgs {
     /// changes a torque by more than 1e-6 of its limit
     #[arg(long, conflicts_with = "exact")]
     snap: bool,
-    /// The acceleration limit of every joint, rad/s² or m/s²; models have none [default: 10]
+    /// The acceleration limit of each joint that has none in the model, rad/s² or m/s²
+    /// [default: 10]
     #[arg(long, value_name = "A", value_parser = acceleration_parser(), allow_hyphen_values = true)]
     acceleration: Option<Rational>,
     /// The name of the robot [default: the model's]
@@ -133,10 +135,13 @@ fn say(args: &ImportArgs, context: &Context, made: &[Imported], source: &Text) {
             context.say(&counted);
         }
     }
-    if args.acceleration.is_none() {
+    let default = defaults(&args.model).acceleration;
+    let joints = made.iter().flat_map(|made| &made.robot.joints);
+    let is_default = |joint: &Joint| joint.limits.acceleration == default;
+    if args.acceleration.is_none() && joints.into_iter().any(is_default) {
         context.say(&format!(
-            "the acceleration limit of every joint is set to {ACCELERATION} rad/s² or m/s², since models have \
-             none; --acceleration changes it"
+            "the acceleration limit is set to {ACCELERATION} rad/s² or m/s² for each joint that has none in \
+             the model; --acceleration changes it"
         ));
     }
 }

@@ -206,8 +206,20 @@ macro_rules! pages {
 
 #[cfg(unix)]
 pages!(
-    bad_input, certify, explain, files, forged, generate, import, new, outputs, renew, scenes,
-    show, verify
+    bad_input,
+    certify,
+    explain,
+    files,
+    forged,
+    generate,
+    import,
+    import_messages,
+    new,
+    outputs,
+    renew,
+    scenes,
+    show,
+    verify
 );
 #[cfg(unix)]
 pages!(

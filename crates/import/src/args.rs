@@ -5,9 +5,7 @@ use std::fmt;
 use dalembert_model::robot::values::one_line;
 
 use crate::Options;
-use crate::lock::OTHERS;
-use crate::problems::{Problems, instead};
-use crate::urdf::Urdf;
+use crate::select::OTHERS;
 
 /// The options that choose the chain of a URDF or an MJCF; none of them is for a robot file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -107,45 +105,6 @@ impl fmt::Display for ChainArgs {
         let argument = |(option, value): (String, String)| format!("--{option} {value}");
         let arguments: Vec<String> = self.pairs().into_iter().map(argument).collect();
         f.write_str(one_line(&arguments.join(" ")).trim_end())
-    }
-}
-
-/// Checks the names of links and joints that the file and the options speak of.
-pub(crate) fn check_names(urdf: &Urdf, options: &Options, problems: &mut Problems) {
-    let [links, joints] = &urdf.names;
-    let ends = urdf.joints.iter();
-    for (name, span) in ends.flat_map(|joint| [&joint.parent, &joint.child]) {
-        if !links.contains(name) {
-            let message = format!("there is no link `{name}`");
-            problems.error(span, message, &instead(name, links));
-        }
-    }
-    let base = options.base.iter().map(|name| ("--base", name));
-    let tip = options.tip.iter().map(|name| ("--tip", name));
-    let without = options.without.iter().map(|name| ("--without", name));
-    for (option, name) in base.chain(tip).chain(without) {
-        if links.contains(name) {
-            continue;
-        }
-        let message = format!("{option}: there is no link `{name}`");
-        let help = match urdf.joints.iter().find(|joint| joint.name == *name) {
-            Some(joint) => format!("`{name}` is a joint; its link is `{}`", joint.child.0),
-            None => instead(name, links),
-        };
-        problems.error(&urdf.span, message, &help);
-    }
-    for (name, _) in &options.lock {
-        if name == OTHERS || joints.contains(name) || urdf.joint(name).is_some() {
-            continue;
-        }
-        let message = format!("--lock: there is no joint `{name}`");
-        let help = match (name.parse::<usize>(), urdf.moving().len()) {
-            (Ok(_), count @ 1..) => {
-                format!("those that move are 1 to {count}, from the root outwards")
-            }
-            _ => instead(name, joints),
-        };
-        problems.error(&urdf.span, message, &help);
     }
 }
 

@@ -5,9 +5,10 @@ use std::collections::BTreeSet;
 use dalembert_model::read::Diagnostics;
 use dalembert_model::robot::suggested_name;
 
-use crate::lock::OTHERS;
+use crate::model::Model;
 use crate::problems::Problems;
-use crate::{Imported, Options, Text, import_text, model, tree};
+use crate::select::{OTHERS, Select};
+use crate::{Imported, Options, Text, import_text, read_model};
 
 /// Two arms that hang on joints which both have.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,8 +27,8 @@ pub struct Shared {
 /// Everything that is wrong with the model or with one of its arms.
 pub fn arms(text: &Text, options: &Options) -> Result<(Vec<Imported>, Vec<Shared>), Diagnostics> {
     let mut problems = Problems::of(text);
-    let urdf = model(text.as_str(), options, &mut problems);
-    let tips = urdf.and_then(|urdf| Some((tree::tips(&urdf, options, &mut problems)?, urdf.name)));
+    let model = read_model(text, options, &mut problems);
+    let tips = model.and_then(|model| Some((tips(&model, options, &mut problems)?, model.name)));
     let notes = problems.finish()?;
     let Some((tips, robot)) = tips else {
         return Err(Diagnostics(notes));
@@ -68,6 +69,13 @@ pub fn arms(text: &Text, options: &Options) -> Result<(Vec<Imported>, Vec<Shared
     }
     let shared = shared(&arms);
     Ok((arms.into_iter().map(|(_, arm)| arm).collect(), shared))
+}
+
+fn tips(model: &Model, options: &Options, problems: &mut Problems) -> Option<Vec<String>> {
+    let mut select = Select::new(model, options, problems)?;
+    let base = select.base(options)?;
+    let tips = select.tips(base)?.into_iter();
+    Some(tips.map(|tip| model.links[tip].name.clone()).collect())
 }
 
 fn shared(arms: &[(String, Imported)]) -> Vec<Shared> {

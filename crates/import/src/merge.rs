@@ -1,4 +1,7 @@
-//! Links that are fixed to each other, as one body a joint.
+//! Links that are fixed to each other, as one body of each joint that moves.
+
+use std::collections::BTreeMap;
+use std::fmt::Display;
 
 use dalembert_model::equations::matrix::{Columns, Vector};
 use dalembert_model::number::parse::write_decimal;
@@ -8,150 +11,200 @@ use dalembert_model::placed::Body;
 use dalembert_model::placed::frame::{direction, moved, placement, pose, turned};
 use dalembert_model::robot::{Defect, Inertia, Placement, Position};
 use dalembert_model::scalar::Scalar;
-use num_traits::{One, Zero};
+use num_traits::{One, Signed, Zero};
 
+use crate::meant::{NOTHING, power};
+use crate::model::{Inertial, Joint, Link, Model, Role};
 use crate::problems::Problems;
-use crate::tree::{Chain, Moving, Step};
-use crate::urdf::{self, Inertial, Joint, Role, Urdf};
+use crate::select::{Selection, State};
 
+/// A robot as a tree: each joint that moves, with all that is fixed to its link as one body.
 #[derive(Clone, Debug)]
-pub(crate) struct Arm {
-    pub(crate) links: Vec<Link>,
-    pub(crate) tool: Placement,
+pub(crate) struct Tree {
+    /// Each body after the one that it hangs on.
+    pub(crate) bodies: Vec<Branch>,
     /// Every link that moves, in the frame of the joint that moves it.
     pub(crate) frames: Vec<Frame>,
+    /// The tips, each in the frame of its body.
+    pub(crate) tools: Vec<Placement>,
 }
 
 #[derive(Clone, Debug)]
-pub(crate) struct Frame {
-    pub(crate) link: usize,
+pub(crate) struct Branch {
+    /// The joint, by its place in the model.
     pub(crate) joint: usize,
-    pub(crate) placement: Placement,
-}
-
-#[derive(Clone, Debug)]
-pub(crate) struct Link {
-    /// The joint's frame at q = 0 in that of the joint before.
+    /// The body that the joint hangs on; none where that is the base.
+    pub(crate) parent: Option<usize>,
+    /// The joint's frame at q = 0 in that of the body it hangs on.
     pub(crate) pose: Columns<Wide>,
     pub(crate) placement: Placement,
     pub(crate) axis: Vector<Wide>,
     pub(crate) body: Body,
 }
 
-pub(crate) fn arm(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> Option<Arm> {
-    if !are_possible(urdf, chain, problems) {
+#[derive(Clone, Debug)]
+pub(crate) struct Frame {
+    pub(crate) link: usize,
+    pub(crate) body: usize,
+    pub(crate) placement: Placement,
+}
+
+/// Merges the links of a robot that are fixed to each other.
+pub(crate) fn merged(
+    model: &Model,
+    selection: &Selection,
+    problems: &mut Problems,
+) -> Option<Tree> {
+    let sizes = selection
+        .order
+        .iter()
+        .map(|joint| model.joints[*joint].origin.placement().size());
+    let size = size_of(sizes.sum());
+    let mut bodies: Vec<Branch> = Vec::new();
+    // Of each link: its body, its pose in that, and whether that is the body's own frame.
+    let mut places: BTreeMap<usize, (Option<usize>, Columns<Wide>, bool)> = BTreeMap::new();
+    places.insert(selection.base, (None, Columns::identity(), true));
+    for index in &selection.order {
+        let joint = &model.joints[*index];
+        let [parent, child] = model.ends[*index];
+        let (body, way, is_own) = places.get(&parent)?.clone();
+        let placed = way.then(&pose(&joint.origin.placement()));
+        let place = match &selection.states[*index] {
+            State::Stays(None) => (body, placed, false),
+            State::Stays(Some(at)) => (body, placed.then(&displaced(joint, at)?), false),
+            State::Moves => {
+                // Where nothing lies between, the placement is the file's.
+                let placement = match is_own {
+                    true => joint.origin.placement(),
+                    false => placement(&placed, &size),
+                };
+                bodies.push(Branch {
+                    joint: *index,
+                    parent: body,
+                    pose: placed,
+                    placement,
+                    axis: direction_of(joint)?,
+                    body: combined(&[]),
+                });
+                (Some(bodies.len() - 1), Columns::identity(), true)
+            }
+        };
+        places.insert(child, place);
+    }
+    let mut frames = Vec::new();
+    let mut good = true;
+    for (index, branch) in bodies.iter_mut().enumerate() {
+        let mut parts = Vec::new();
+        for (link, (_, way, _)) in places.iter().filter(|(_, (body, ..))| *body == Some(index)) {
+            frames.push(Frame {
+                link: *link,
+                body: index,
+                placement: placement(way, &size),
+            });
+            let link = &model.links[*link];
+            let Some(inertial) = &link.inertial else {
+                continue;
+            };
+            let origin = inertial.origin.placement();
+            let inertia = possible(link, inertial, &(&size + origin.size()), problems);
+            let Some(inertia) = inertia else {
+                good = false;
+                continue;
+            };
+            let body = Body {
+                mass: inertial.mass.value.clone(),
+                com: [(); 3].map(|()| Rational::zero()),
+                inertia,
+            };
+            let pose = way.then(&pose(&origin));
+            parts.push(moved(&body, &pose, &(&size + origin.size())));
+        }
+        branch.body = combined(&parts);
+    }
+    if !good {
         return None;
     }
-    let joints = chain.joints().into_iter();
-    let sizes = joints.map(|joint| urdf.joints[joint].origin.placement().size());
-    let size = size_of(sizes.sum());
-    let links = chain.moving.iter().map(|moving| {
-        let joint = &urdf.joints[moving.joint];
-        let own = pose(&joint.origin.placement());
-        let before = way(urdf, &moving.before)?;
-        // Where nothing lies between, the placement is the file's own.
-        let pose = before.then(&own);
-        let (pose, placement) = match moving.before.is_empty() {
-            true => (own, joint.origin.placement()),
-            false => (pose.clone(), placement(&pose, &size)),
+    let empty = bodies.iter().filter(|branch| {
+        let tensor = &branch.body.inertia.rows();
+        branch.body.mass.is_zero() && tensor.iter().flatten().all(Zero::is_zero)
+    });
+    let empty = empty.map(|branch| &model.links[model.ends[branch.joint][1]]);
+    let empty = empty.filter(|link| link.role == Role::Body);
+    let empty: Vec<&Link> = empty.collect();
+    if let Some(first) = empty.first() {
+        let names: Vec<&str> = empty.iter().map(|link| link.name.as_str()).collect();
+        let id = if names.len() == 1 {
+            "massless"
+        } else {
+            "massless_links"
         };
-        Some(Link {
-            pose,
-            placement,
-            body: body(urdf, moving, &size)?,
-            axis: direction_of(joint)?,
-        })
-    });
-    let links: Vec<Link> = links.collect::<Option<_>>()?;
-    let empty = chain.moving.iter().zip(&links).filter(|(_, link)| {
-        let body = &link.body.inertia.rows();
-        link.body.mass.is_zero() && body.iter().flatten().all(Zero::is_zero)
-    });
-    let empty = empty.filter_map(|(moving, _)| {
-        let child = &urdf.joints[moving.joint].child.0;
-        let mut bodies = urdf.links.iter().filter(|link| link.role == Role::Body);
-        bodies.find(|link| link.name == *child)
-    });
-    without_mass(&empty.collect::<Vec<_>>(), problems);
-    let frames = chain.moving.iter().enumerate().flat_map(|(joint, moving)| {
-        let size = &size;
-        moving.links.iter().map(move |(link, steps)| {
-            Some(Frame {
-                link: *link,
-                joint,
-                placement: placement(&way(urdf, steps)?, size),
-            })
-        })
-    });
-    Some(Arm {
-        links,
-        tool: placement(&way(urdf, &chain.tool)?, &size),
-        frames: frames.collect::<Option<_>>()?,
+        problems.say(id, &first.at, &[&names.join("`, `")]);
+    }
+    let tools = selection
+        .tips
+        .iter()
+        .map(|tip| Some(placement(&places.get(tip)?.1, &size)));
+    Some(Tree {
+        tools: tools.collect::<Option<_>>()?,
+        bodies,
+        frames,
     })
 }
 
-fn are_possible(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> bool {
-    let mut good = true;
-    for link in chain.links() {
-        let link = &urdf.links[link];
-        for unread in &link.unread {
-            problems.error(&unread.span, unread.message.clone(), unread.help);
-            good = false;
-        }
-        let Some(Inertial { mass, inertia, .. }) = &link.inertial else {
-            continue;
-        };
-        let exact = inertia.map(|entry| entry.value.clone());
-        let Some(defect) = exact.defect(&mass.value) else {
-            continue;
-        };
-        let message = format!("link `{}`: {}", link.name, defect.message());
-        let span = &inertia.xx.span;
-        let help = "the inertia is about the centre of mass, in kg·m²";
-        if defect == Defect::NegativeMoment {
-            problems.error(span, message, help);
-            good = false;
-        } else {
-            problems.warning(span, message, &format!("{help}; it is taken as it stands"));
-        }
+/// Returns the inertia of a link whose defects are no larger than rounding errors without them.
+/// Other defects are said: a negative moment as an error.
+fn possible(
+    link: &Link,
+    inertial: &Inertial,
+    size: &Rational,
+    problems: &mut Problems,
+) -> Option<Inertia<Rational>> {
+    let exact = inertial.inertia.map(|entry| entry.value.clone());
+    let Some(defect) = exact.defect(&inertial.mass.value) else {
+        return Some(exact);
+    };
+    let at = &inertial.inertia.xx.at;
+    let words: [&dyn Display; 2] = [&link.name, &defect.message()];
+    if defect != Defect::NegativeMoment {
+        problems.say("impossible", at, &words);
+        return Some(exact);
     }
-    good
-}
-
-fn without_mass(links: &[&urdf::Link], problems: &mut Problems) {
-    let Some(first) = links.first() else {
-        return;
+    let rows = exact.rows();
+    let largest = rows
+        .iter()
+        .flatten()
+        .map(Signed::abs)
+        .max()
+        .unwrap_or_default();
+    let dust = largest.max(&inertial.mass.value * size * size) * power(NOTHING);
+    let swept = exact.map(|entry| match entry.abs() <= dust {
+        true => Rational::zero(),
+        false => entry.clone(),
+    });
+    let rows = swept.rows();
+    let lifted = Inertia::symmetric(|i, k| match i == k {
+        true => &rows[i][k] + &dust,
+        false => rows[i][k].clone(),
+    });
+    let is_possible = |inertia: &Inertia<Rational>| {
+        inertia.defect(&Rational::one()) != Some(Defect::NegativeMoment)
     };
-    let names: Vec<&str> = links.iter().map(|link| link.name.as_str()).collect();
-    let names = names.join("`, `");
-    let (message, help) = match links.len() {
-        1 => (
-            format!("link `{names}`, and what is fixed to it, has no mass"),
-            "give it an <inertial>, unless it weighs nothing",
-        ),
-        _ => (
-            format!("the links `{names}`, and what is fixed to them, have no mass"),
-            "give each an <inertial>, unless it weighs nothing",
-        ),
-    };
-    problems.warning(&first.span, message, help);
+    let found = [swept, lifted].into_iter().find(is_possible);
+    problems.say(
+        if found.is_some() {
+            "dust"
+        } else {
+            "negative_moment"
+        },
+        at,
+        &words,
+    );
+    found
 }
 
 /// Returns what lengths are small against, from the sum of those that there are.
 pub(crate) fn size_of(sum: Rational) -> Rational {
     if sum.is_zero() { One::one() } else { sum }
-}
-
-/// Returns the way from the first step's parent to the last one's child.
-fn way(urdf: &Urdf, steps: &[Step]) -> Option<Columns<Wide>> {
-    steps.iter().try_fold(Columns::identity(), |at, step| {
-        let joint = &urdf.joints[step.joint];
-        let placed = at.then(&pose(&joint.origin.placement()));
-        Some(match &step.at {
-            None => placed,
-            Some(position) => placed.then(&displaced(joint, position)?),
-        })
-    })
 }
 
 fn displaced(joint: &Joint, position: &Position) -> Option<Columns<Wide>> {
@@ -174,23 +227,8 @@ fn direction_of(joint: &Joint) -> Option<Vector<Wide>> {
     direction(&joint.axis.each_ref().map(|x| x.value.clone()))
 }
 
-/// The result is in the frame of the joint's child; `size` is that of the chain's lengths.
-fn body(urdf: &Urdf, moving: &Moving, size: &Rational) -> Option<Body> {
-    let mut parts: Vec<Body> = Vec::new();
-    for (link, steps) in &moving.links {
-        let Some(inertial) = &urdf.links[*link].inertial else {
-            continue;
-        };
-        let own = Body {
-            mass: inertial.mass.value.clone(),
-            com: [(); 3].map(|()| Rational::zero()),
-            inertia: inertial.inertia.map(|entry| entry.value.clone()),
-        };
-        let origin = inertial.origin.placement();
-        let at = way(urdf, steps)?.then(&pose(&origin));
-        let size = size + origin.size();
-        parts.push(moved(&own, &at, &size));
-    }
+/// Returns bodies in one frame that are fixed to each other as one body.
+pub(crate) fn combined(parts: &[Body]) -> Body {
     let mass: Rational = parts.iter().map(|part| &part.mass).sum();
     let is_zero = mass.is_zero();
     let centre: [Rational; 3] = core::array::from_fn(|i| {
@@ -209,7 +247,7 @@ fn body(urdf: &Urdf, moving: &Moving, size: &Rational) -> Option<Body> {
     };
     let inertia = Inertia::symmetric(entry);
     let com = centre.clone().map(short);
-    Some(Body { mass, com, inertia })
+    Body { mass, com, inertia }
 }
 
 /// Returns a decimal that a person would write, or 20 digits.

@@ -6,7 +6,8 @@ use std::path::Path;
 
 use dalembert_model::read::{self, Diagnostic, Reading};
 
-use crate::{Imported, MAX_BYTES, MAX_MIB, Options, Text, import_text};
+use crate::text::{MAX_BYTES, MAX_MIB};
+use crate::{Imported, Options, Text, import_text};
 
 /// A robot that was read from a path, or from a text.
 #[derive(Clone, Debug)]
@@ -54,17 +55,21 @@ pub fn open(path: &Path, options: &Options) -> Result<Opened, Unopened> {
 /// Reads the text of a robot file or of a model, with what a model includes.
 ///
 /// # Errors
-/// [`Unopened`]: a file cannot be read, is no text, or is included twice.
+/// [`Unopened`]: a file cannot be read, is not UTF-8, or is included twice.
 pub fn open_text(path: &Path) -> Result<Text, Unopened> {
     let shown = path.display().to_string();
     let bytes = first_bytes(path, MAX_BYTES as u64 + 1).map_err(Unopened::System)?;
+    let wrong = |why: &str| Unopened::Wrong(format!("error: `{shown}` {why}"));
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return Err(wrong(&in_encoding("UTF-16", &shown)));
+    }
     if is_model(&bytes) {
-        let wrong = |why: &str| Unopened::Wrong(format!("error: `{shown}` {why}"));
         if bytes.len() > MAX_BYTES {
             let why = format!("is longer than {MAX_MIB} MiB, the most that is read");
             return Err(wrong(&why));
         }
-        let text = String::from_utf8(bytes).map_err(|_| wrong("is not UTF-8 text"))?;
+        let text = String::from_utf8(bytes);
+        let text = text.map_err(|_| wrong(&in_encoding("ISO-8859-1", &shown)))?;
         let text = Text::of(&shown, text).with_includes(path, included);
         return text.map_err(Unopened::Wrong);
     }
@@ -73,7 +78,7 @@ pub fn open_text(path: &Path) -> Result<Text, Unopened> {
     {
         return Ok(Text::of(&shown, text.to_owned()));
     }
-    // The reader of robot files says where it is none, or too long.
+    // The reader of robot files says where it is not UTF-8, or too long.
     let errors = read::parse_bytes(&bytes).err();
     let errors = errors.map(|errors| errors.render(&shown, &String::from_utf8_lossy(&bytes)));
     Err(Unopened::Wrong(errors.unwrap_or_default()))
@@ -102,6 +107,12 @@ pub fn read_robot(source: Text, options: &Options) -> Result<Opened, String> {
         reading,
         imported,
     })
+}
+
+fn in_encoding(encoding: &str, name: &str) -> String {
+    format!(
+        "is not UTF-8, and probably {encoding}\n  = help: convert it: `iconv -f {encoding} -t UTF-8 {name} > utf8.xml`"
+    )
 }
 
 impl Options {
@@ -143,8 +154,9 @@ pub fn first_bytes(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 fn included(path: &Path) -> Result<String, String> {
     let found = fs::metadata(path).map_err(|error| error.to_string())?;
     if !found.is_file() {
-        return Err("it is no file".to_owned());
+        return Err("it is not a regular file".to_owned());
     }
     let bytes = first_bytes(path, MAX_BYTES as u64 + 1).map_err(|error| error.to_string())?;
-    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())
+    let name = path.display().to_string();
+    String::from_utf8(bytes).map_err(|_| format!("it {}", in_encoding("ISO-8859-1", &name)))
 }

@@ -8,8 +8,8 @@ use dalembert_model::robot::Position;
 use num_traits::{One, Signed, Zero};
 
 use crate::meant::{NOTHING, meant, power};
-use crate::tree::Chain;
-use crate::urdf::{Number, Origin, Urdf, Value};
+use crate::model::{Model, Number, Origin, Value};
+use crate::select::Selection;
 
 /// The most that a unit of the sixteenth digit is, relative to a number: 10 to this power.
 const DIGITS: i32 = -15;
@@ -17,7 +17,7 @@ const DIGITS: i32 = -15;
 /// A number that was taken for another.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Snap {
-    /// Where it is in the URDF, in bytes.
+    /// Where it is in the text, in bytes.
     pub span: Range<usize>,
     /// The element and the attribute: `joint elbow, rpy`.
     pub of: String,
@@ -59,17 +59,21 @@ pub(crate) enum Snapping {
     None,
 }
 
-pub(crate) fn snapped(urdf: &Urdf, chain: &Chain, snapping: Snapping) -> (Urdf, Vec<Snap>) {
-    let mut urdf = urdf.clone();
+pub(crate) fn snapped(
+    model: &Model,
+    selection: &Selection,
+    snapping: Snapping,
+) -> (Model, Vec<Snap>) {
+    let mut model = model.clone();
     let mut snaps = Snaps {
         is_near: snapping == Snapping::Near,
         taken: Vec::new(),
     };
     if snapping == Snapping::None {
-        return (urdf, snaps.taken);
+        return (model, snaps.taken);
     }
-    for joint in chain.joints() {
-        let joint = &mut urdf.joints[joint];
+    for joint in &selection.order {
+        let joint = &mut model.joints[*joint];
         let of = |what: &str| format!("joint {}, {what}", joint.name);
         snaps.origin(&mut joint.origin, &of("xyz"), &of("rpy"));
         for component in &mut joint.axis {
@@ -79,8 +83,8 @@ pub(crate) fn snapped(urdf: &Urdf, chain: &Chain, snapping: Snapping) -> (Urdf, 
             snaps.limit(limit, &of("limit"));
         }
     }
-    for link in chain.links() {
-        let link = &mut urdf.links[link];
+    for link in selection.links() {
+        let link = &mut model.links[link];
         let Some(inertial) = &mut link.inertial else {
             continue;
         };
@@ -96,7 +100,7 @@ pub(crate) fn snapped(urdf: &Urdf, chain: &Chain, snapping: Snapping) -> (Urdf, 
         }
     }
     snaps.taken.sort_by_key(|snap| snap.span.start);
-    (urdf, snaps.taken)
+    (model, snaps.taken)
 }
 
 #[derive(Default)]
@@ -113,7 +117,7 @@ impl Snaps {
 
     fn take<T>(&mut self, value: &mut Value<T>, meant: T, to: String, of: &str, changes: bool) {
         self.taken.push(Snap {
-            span: value.span.clone(),
+            span: value.at.clone(),
             of: of.to_owned(),
             from: value.text.clone(),
             to,
@@ -130,7 +134,7 @@ impl Snaps {
             let to = meant.rpy.each_ref().map(ToString::to_string).join(" ");
             let from = origin.rpy.each_ref().map(|angle| angle.text.as_str());
             self.taken.push(Snap {
-                span: origin.rpy[0].span.clone(),
+                span: origin.rpy[0].at.clone(),
                 of: rpy.to_owned(),
                 from: from.join(" "),
                 to,

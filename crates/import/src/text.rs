@@ -1,88 +1,125 @@
-//! A model's text: of an MJCF that includes others, all of them as one.
+//! The text of a model: its file, followed by the files that an MJCF includes.
 
 use std::ops::Range;
+use std::path::Path;
 
 use dalembert_model::read::Diagnostic;
 
-/// The text of a model, with what it includes in the places that include it.
+/// The largest model that is read, in bytes: meshes are not in it.
+pub const MAX_BYTES: usize = 1 << 24;
+pub(crate) const MAX_MIB: usize = MAX_BYTES >> 20;
+
+/// Bytes of a [`Text`].
+pub(crate) type Span = Range<usize>;
+
+/// Begins each file that is included, in the order in which the `<include>` elements are expanded.
+const MARK: &str = "\n<?included ";
+
+/// The text of a model, with the files that it includes.
+///
+/// Places are bytes of the whole text; [`Text::line`] and [`Text::render`] give the file and the
+/// line.
+///
+/// ```
+/// use dalembert_import::{Options, Text, import_text};
+///
+/// let text = Text::of("arm.urdf", "<robot><link name='base'/></robot>".to_owned());
+/// let errors = import_text(&text, &Options::default()).unwrap_err();
+/// assert!(text.render(&errors.0).contains("--> arm.urdf:1:"));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Text {
-    pub(crate) text: String,
-    pub(crate) files: Vec<(String, String)>,
-    /// Parts of the text in their order: where each ends, its file, and where it is there.
-    pub(crate) parts: Vec<(usize, usize, usize)>,
+    text: String,
+    /// The name of each file, and where its text is.
+    files: Vec<(String, Range<usize>)>,
 }
 
 impl Text {
-    /// Takes a text that a file of this name has.
+    /// Takes the text of a file of this name, or what [`Text::as_str`] returned.
     pub fn of(name: &str, text: String) -> Text {
-        Text {
-            parts: vec![(text.len(), 0, 0)],
-            files: vec![(name.to_owned(), text.clone())],
-            text,
+        let (mut files, mut name, mut from) = (Vec::new(), name, 0);
+        for (mark, _) in text.match_indices(MARK) {
+            let rest = &text[mark + MARK.len()..];
+            if let Some((next, _)) = rest.split_once("?>\n") {
+                files.push((name.to_owned(), from..mark));
+                (name, from) = (next, mark + MARK.len() + next.len() + "?>\n".len());
+            }
         }
+        files.push((name.to_owned(), from..text.len()));
+        Text { text, files }
     }
 
     /// Returns the name of the first file, as messages call it.
     pub fn name(&self) -> &str {
-        self.files.first().map_or("", |(name, _)| name)
+        &self.files[0].0
     }
 
-    /// Returns the whole text, for [`crate::import`].
+    /// Returns the whole text, from which [`Text::of`] makes the same again.
     pub fn as_str(&self) -> &str {
         &self.text
     }
 
-    /// Returns the name of the file of a place in the text, and its line there.
+    /// Returns the name of the file of a place, and its line there, from one.
     pub fn line(&self, byte: usize) -> (&str, usize) {
-        let (file, at) = self.place(byte);
-        let (name, text) = &self.files[file];
-        (name, place(text, at).0)
+        (&self.file_of(byte).0, self.line_and_column(byte).0)
     }
 
-    pub(crate) fn in_file(&self, byte: usize) -> Option<(&str, usize)> {
-        (self.files.len() > 1).then(|| self.line(byte))
-    }
-
-    /// Returns what there is to say of the text, each at its place in its file.
+    /// Renders messages, each with its file, line and column.
     pub fn render(&self, found: &[Diagnostic]) -> String {
         let rendered = found.iter().map(|found| {
-            let (file, start) = self.place(found.span.start);
-            let (name, text) = &self.files[file];
-            let (line, column) = place(text, start);
-            let own = Diagnostic {
-                span: start..start + found.span.len(),
-                line,
-                column,
+            let (name, range) = self.file_of(found.span.start);
+            let [start, end] = [found.span.start, found.span.end];
+            let span = start - range.start..end.max(start) - range.start;
+            let in_file = Diagnostic {
+                span,
                 ..found.clone()
             };
-            own.render(name, text)
+            in_file.render(name, &self.text[range.clone()])
         });
         rendered.collect::<Vec<_>>().join("\n")
     }
 
-    fn place(&self, byte: usize) -> (usize, usize) {
-        let index = self.parts.partition_point(|(end, ..)| *end <= byte);
-        let before = index.checked_sub(1);
-        let start = before.map_or(0, |before| self.parts[before].0);
-        match self.parts.get(index).or(self.parts.last()) {
-            Some((_, file, at)) => (*file, at + byte.saturating_sub(start)),
-            None => (0, byte),
+    /// Returns a place as comments of robot files call it.
+    pub(crate) fn place(&self, byte: usize) -> String {
+        let (name, line) = self.line(byte);
+        let name = Path::new(name).file_name().unwrap_or_default();
+        match self.files.len() {
+            1 => format!("line {line}"),
+            _ => format!("{}, line {line}", name.to_string_lossy()),
         }
     }
 
-    pub(crate) fn take(&mut self, file: usize, span: Range<usize>) {
-        let start = span.start;
-        let text = self.files[file].1.get(span).unwrap_or_default();
-        self.text.push_str(text);
-        self.parts.push((self.text.len(), file, start));
+    /// Returns the name of a file, its text, and where that begins.
+    pub(crate) fn file(&self, index: usize) -> (&str, &str, usize) {
+        let (name, range) = &self.files[index];
+        (name, &self.text[range.clone()], range.start)
     }
-}
 
-/// Returns line and column of a byte, both from one.
-pub(crate) fn place(source: &str, byte: usize) -> (usize, usize) {
-    let before = source.get(..byte).unwrap_or_default();
-    let line = before.bytes().filter(|b| *b == b'\n').count() + 1;
-    let start = before.rfind('\n').map_or(0, |at| at + 1);
-    (line, before[start..].chars().count() + 1)
+    fn file_of(&self, byte: usize) -> &(String, Range<usize>) {
+        let after = self.files.partition_point(|(_, range)| range.start <= byte);
+        &self.files[after.saturating_sub(1)]
+    }
+
+    /// Returns line and column of a byte in its file, both from one.
+    pub(crate) fn line_and_column(&self, byte: usize) -> (usize, usize) {
+        let (_, range) = self.file_of(byte);
+        let before = self.text.get(range.start..byte).unwrap_or_default();
+        let start = before.rfind('\n').map_or(0, |at| at + 1);
+        (
+            before.matches('\n').count() + 1,
+            before[start..].chars().count() + 1,
+        )
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.files.len()
+    }
+
+    pub(crate) fn add_file(&mut self, name: &str, text: &str) {
+        let name = name.replace("?>", "");
+        self.text += &format!("{MARK}{name}?>\n");
+        let start = self.text.len();
+        self.text += &text.replace(MARK, "\n");
+        self.files.push((name, start..self.text.len()));
+    }
 }

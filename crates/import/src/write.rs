@@ -1,8 +1,9 @@
 //! The robot file of a chain.
 
 use std::collections::BTreeSet;
+use std::fmt::Display;
 
-use dalembert_model::number::Angle;
+use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::values::{
     lines, list, number, numbers, one_line, placement, position, quoted, table, texts, unless_zero,
 };
@@ -12,29 +13,29 @@ use dalembert_model::robot::{
 use num_traits::{Signed, Zero};
 
 use crate::Options;
-use crate::lock::right;
-use crate::merge::{Arm, Link};
+use crate::merge::{Branch, Tree};
+use crate::model::{Joint, Kind, Model, Number, positive};
 use crate::problems::Problems;
+use crate::select::Selection;
+use crate::select::position::right;
 use crate::snap::Snap;
-use crate::tree::Chain;
-use crate::urdf::{Joint, Kind, Number, Urdf, positive};
 
 /// `stays`: digits stay as they stand, and the reader of the file does not warn of them.
 pub(crate) fn file(
-    urdf: &Urdf,
-    chain: &Chain,
-    arm: &Arm,
+    model: &Model,
+    selection: &Selection,
+    tree: &Tree,
     (snaps, stays): (&[Snap], bool),
     options: &Options,
     problems: &mut Problems,
 ) -> String {
-    let [base, tip] = [chain.base, chain.tip].map(|link| urdf.links[link].name.as_str());
+    let [base, tip] =
+        [selection.base, selection.tips[0]].map(|link| model.links[link].name.as_str());
     let file = match options.file.as_str() {
-        "" if urdf.gravity.is_some() => "an MJCF",
-        "" => "a URDF",
+        "" => model.format,
         file => file,
     };
-    let gravity = match urdf.gravity {
+    let gravity = match model.gravity {
         None => "taken to pull against its z",
         Some(_) => "the model's in them",
     };
@@ -46,38 +47,38 @@ pub(crate) fn file(
         head.push("Numbers that were taken for others, with their lines there:".to_owned());
     }
     for snap in snaps.iter().filter(|snap| snap.changes) {
-        let line = problems.line(snap.span.start);
+        let line = problems.text.place(snap.span.start);
         head.push(format!("  {line}: {snap}"));
     }
     head.extend(Snap::counted(snaps).map(|counted| counted + "."));
     let mut text: String = head.iter().map(|what| comment(what)).collect();
     text.push('\n');
-    let name = options.name.as_ref().unwrap_or(&urdf.name);
+    let name = options.name.as_ref().unwrap_or(&model.name);
     let name = suggested_name(name).unwrap_or_else(|| "arm".to_owned());
-    let gravity = match &urdf.gravity {
+    let gravity = match &model.gravity {
         None => "[0, 0, -9.81]".to_owned(),
         Some(gravity) => list(gravity.iter().map(|x| number(&x.value))),
     };
     let gravity = ("gravity", Some(gravity));
-    let tool = (!arm.tool.is_identity()).then(|| placement(&as_read(&arm.tool)));
+    let tool = (!tree.tools[0].is_identity()).then(|| placement(&as_read(&tree.tools[0])));
     let allow = stays.then(|| "[\"near_right_angle\"]".to_owned());
     let (tool, allow) = (("tool", tool), ("allow", allow));
     let name = ("name", Some(quoted(&name)));
-    let joints = chain.moving.iter();
-    let joints: Vec<&Joint> = joints.map(|moving| &urdf.joints[moving.joint]).collect();
+    let joints = tree.bodies.iter();
+    let joints: Vec<&Joint> = joints.map(|branch| &model.joints[branch.joint]).collect();
     say_left_out(&joints, problems);
-    let differences = problems.differences.iter();
-    let differences: Vec<String> = differences.map(|own| one_line(&own.message)).collect();
+    let differences = problems.differences().into_iter();
+    let differences: Vec<String> = differences.map(|message| one_line(&message)).collect();
     let notes = ("notes", texts(&differences));
     lines(&mut text, [name, gravity, tool, allow, notes]);
-    for (index, (own, link)) in joints.iter().zip(&arm.links).enumerate() {
+    for (index, (own, link)) in joints.iter().zip(&tree.bodies).enumerate() {
         text.push_str("\n[[joint]]\n");
         let name = name_of(own, index, problems);
         lines(&mut text, [("name", Some(quoted(&name)))]);
         joint(&mut text, own, link, options);
         lines(&mut text, [("mimic", mimic(own, &joints))]);
     }
-    frames(&mut text, urdf, arm);
+    frames(&mut text, model, tree);
     text
 }
 
@@ -85,7 +86,7 @@ fn mimic(own: &Joint, joints: &[&Joint]) -> Option<String> {
     let mimic = own.mimic.as_ref()?;
     let [multiplier, offset] = mimic.line.as_ref()?;
     let mut leaders = joints.iter();
-    let leader = leaders.position(|joint| joint.name == mimic.joint);
+    let leader = leaders.position(|joint| joint.name == mimic.leader);
     let offset = match own.kind {
         Kind::Prismatic => Position::Length(offset.clone()),
         _ => Position::Angle(right(Angle::Radians(offset.clone()).canonical())),
@@ -97,10 +98,10 @@ fn mimic(own: &Joint, joints: &[&Joint]) -> Option<String> {
     ])
 }
 
-fn frames(text: &mut String, urdf: &Urdf, arm: &Arm) {
+fn frames(text: &mut String, model: &Model, tree: &Tree) {
     let mut taken = BTreeSet::from([HAND.to_owned()]);
-    for frame in arm.frames.iter().take(Robot::MAX_FRAMES) {
-        let own = urdf.links[frame.link].name.as_str();
+    for frame in tree.frames.iter().take(Robot::MAX_FRAMES) {
+        let own = model.links[frame.link].name.as_str();
         let Some(name) = frame_name(own, &taken) else {
             continue;
         };
@@ -109,7 +110,7 @@ fn frames(text: &mut String, urdf: &Urdf, arm: &Arm) {
             text.push_str(&comment(&format!("Link {own}.")));
         }
         text.push_str("[[frame]]\n");
-        let link = (frame.joint + 1).to_string();
+        let link = (frame.body + 1).to_string();
         lines(text, [("name", Some(quoted(&name))), ("link", Some(link))]);
         write_frame(text, &as_read(&frame.placement));
         taken.insert(name);
@@ -131,16 +132,14 @@ fn name_of(joint: &Joint, index: usize, problems: &mut Problems) -> String {
     match name.trim().parse::<i64>() {
         Ok(number) if usize::try_from(number) != Ok(index + 1) => {
             let other = format!("joint_{number}");
-            let message = format!("joint `{name}` is joint {} of the chain", index + 1);
-            let help = format!("it is called `{other}` in the robot file, where numbers count");
-            problems.note(&joint.span, message, &help);
+            problems.say("number_as_name", &joint.at, &[name, &(index + 1), &other]);
             other
         }
         _ => name.clone(),
     }
 }
 
-fn joint(text: &mut String, joint: &Joint, link: &Link, options: &Options) {
+fn joint(text: &mut String, joint: &Joint, link: &Branch, options: &Options) {
     let kind = match joint.kind {
         Kind::Prismatic => "prismatic",
         _ => "revolute",
@@ -152,11 +151,12 @@ fn joint(text: &mut String, joint: &Joint, link: &Link, options: &Options) {
         }))
     });
     let limit = |own: &Option<Number>| positive(own).map(|own| number(&own.value));
+    let acceleration = limit(&joint.acceleration).or(options.acceleration.as_ref().map(number));
     let limits = table([
         ("position", range),
         ("velocity", limit(&joint.velocity)),
         ("torque", limit(&joint.effort)),
-        ("acceleration", options.acceleration.as_ref().map(number)),
+        ("acceleration", acceleration),
     ]);
     let axis = joint.axis.each_ref().map(|x| number(&x.value));
     let damping = joint.damping.as_ref();
@@ -200,45 +200,49 @@ fn say_left_out(joints: &[&Joint], problems: &mut Problems) {
     say_rotors(joints, problems);
     let springs = having(joints, |joint| joint.spring.as_ref());
     if let Some((_, first)) = springs.first() {
-        let message = format!("the springs at {} are left out", names(&springs));
-        let help = "the torques are those without them: add stiffness times displacement to what is commanded";
-        problems.difference(&first.span, message, help);
+        problems.say("springs", &first.at, &[&names(&springs)]);
     }
     let velocity = having(joints, |joint| joint.velocity.as_ref().filter(is_no_limit));
     let torque = having(joints, |joint| joint.effort.as_ref().filter(is_no_limit));
     for (key, own) in [("velocity", velocity), ("torque", torque)] {
-        let (message, help) = match own.as_slice() {
-            [] => continue,
-            [(Joint { name, .. }, limit)] => (
-                format!("the limit of {key} of joint `{name}` is {}", limit.text),
-                "it is left out: nothing would move",
-            ),
-            _ => (
-                format!("the limits of {key} of {} are zero or less", names(&own)),
-                "they are left out: nothing would move",
-            ),
-        };
-        problems.note(&own[0].1.span, message, help);
+        match own.as_slice() {
+            [] => {}
+            [(joint, limit)] => {
+                problems.say("no_limit", &limit.at, &[&key, &joint.name, &limit.text]);
+            }
+            [(_, first), ..] => problems.say("no_limits", &first.at, &[&key, &names(&own)]),
+        }
     }
 }
 
+/// Says the products of inertias and reductions, and what a joint has beside them.
 fn say_rotors(joints: &[&Joint], problems: &mut Problems) {
-    let mut rotors = joints.iter().flat_map(|joint| &joint.rotors);
-    let Some([first, _]) = rotors.next() else {
-        return;
+    let armature = |joint: &&&Joint| {
+        let product = |[rotor, ratio]: &[Number; 2]| {
+            let value = &rotor.value * &ratio.value * &ratio.value;
+            (format!("{} kg·m² × {}²", rotor.text, ratio.text), value)
+        };
+        let (mut products, values): (Vec<String>, Vec<Rational>) =
+            joint.rotors.iter().map(product).unzip();
+        let rest = &joint.armature - values.iter().sum::<Rational>();
+        if !rest.is_zero() {
+            products.insert(0, number(&rest));
+        }
+        format!(
+            "`{}` {} = {}",
+            joint.name,
+            products.join(" + "),
+            number(&joint.armature)
+        )
     };
-    let armature = |joint: &&Joint| {
-        let product =
-            |[rotor, ratio]: &[Number; 2]| format!("{} kg·m² × {}²", rotor.text, ratio.text);
-        let products: Vec<String> = joint.rotors.iter().map(product).collect();
-        let (products, sum) = (products.join(" + "), number(&joint.armature));
-        format!("`{}` {products} = {sum}", joint.name)
-    };
-    let driven = joints.iter().filter(|joint| !joint.rotors.is_empty());
-    let all: Vec<String> = driven.map(armature).collect();
-    let message = format!("rotors are the joints' armatures: {}", all.join(", "));
-    let help = "each is the inertia times the square of the reduction";
-    problems.difference(&first.span, message, help);
+    let driven: Vec<&&Joint> = joints
+        .iter()
+        .filter(|joint| !joint.rotors.is_empty())
+        .collect();
+    if let Some([inertia, _]) = driven.first().and_then(|joint| joint.rotors.first()) {
+        let all: Vec<String> = driven.iter().map(armature).collect();
+        problems.say("rotors", &inertia.at, &[&all.join(", ")]);
+    }
 }
 
 fn say_friction(joints: &[&Joint], problems: &mut Problems) {
@@ -259,13 +263,8 @@ fn say_friction(joints: &[&Joint], problems: &mut Problems) {
         ),
         all => (names(all), "each joint its own, such as"),
     };
-    let message = format!("the Coulomb friction of {of} is left out");
-    let help = format!(
-        "to have it in the torques, give {whose} `coulomb = {}` and `coulomb_width = 0.01`, \
-         the speed in {unit} over which its sign is smoothed",
-        number(&first.value)
-    );
-    problems.difference(&first.span, message, &help);
+    let words: [&dyn Display; 4] = [&of, &whose, &number(&first.value), &unit];
+    problems.say("friction", &first.at, &words);
 }
 
 fn names(joints: &[(&Joint, &Number)]) -> String {

@@ -4,7 +4,6 @@ mod fuzz;
 mod golden;
 mod mimic;
 mod mjcf;
-mod mjcf_refusals;
 mod parameters;
-mod refusals;
+mod reports;
 mod support;

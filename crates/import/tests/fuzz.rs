@@ -109,47 +109,65 @@ fn an_answer_for_every_mjcf() {
     assert!(made > 5 && refused > 30, "{made} made, {refused} refused");
 }
 
+/// Long names, many elements, deep nesting, circles: refused in time and memory that the size of
+/// the file bounds.
 #[test]
 fn hostile_files_are_refused_at_once() {
-    let entities = "<!DOCTYPE r [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;\">]><robot name=\"&b;\"/>";
-    let links = (0..5000).map(|i| format!("<link name=\"l{i}\"/>"));
-    let links: String = links.collect();
+    let nested = |open: &str, close: &str, count: usize| {
+        format!("{}{}", open.repeat(count), close.repeat(count))
+    };
+    let many =
+        |count: usize, item: &dyn Fn(usize) -> String| -> String { (0..count).map(item).collect() };
+    let robot = |inside: &str| format!("<robot name=\"r\">{inside}</robot>");
+    let model = |inside: &str| format!("<mujoco><worldbody>{inside}</worldbody></mujoco>");
+    let body = |inside: String| model(&format!("<body>{inside}</body>"));
+    let default = |inside: &str| format!("<mujoco><default>{inside}</default></mujoco>");
+    let attributes = many(80_000, &|i| format!(" a{i}=\"1\""));
+    let namespaces = many(60, &|i| format!(" xmlns:n{i}=\"1\""));
     let circle = "<link name=\"a\"/><link name=\"b\"/>\
         <joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>\
         <joint name=\"k\" type=\"fixed\"><parent link=\"b\"/><child link=\"a\"/></joint>";
-    let turns =
-        "<joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"l0\"/></joint>";
-    let deep: String = (0..900)
-        .map(|i| {
-            let joint = format!("<parent link=\"l{i}\"/><child link=\"l{}\"/>", i + 1);
-            format!("<link name=\"l{i}\"/><joint name=\"k{i}\" type=\"fixed\">{joint}</joint>")
-        })
-        .collect();
-    let deep = format!("<link name=\"a\"/>{turns}{deep}<link name=\"l900\"/>");
-    let many = |name: &str, count: usize| -> String {
-        let all = (0..count).map(|i| format!(" {name}{i}=\"1\""));
-        all.collect()
-    };
-    let attributes = format!("<link name=\"a\"><inertial{}/></link>", many("a", 80_000));
-    let namespaces = format!("<link{}/>", many("xmlns:n", 60)).repeat(1000);
-    let robot = |inside: &str| format!("<robot name=\"r\">{inside}</robot>");
-    for (text, base) in [
-        (entities.to_owned(), None),
-        (robot(&links), None),
-        (robot(&attributes), None),
-        (robot(&namespaces), None),
-        (robot(&deep), None),
-        (robot(circle), None),
-        (robot(circle), Some("a")),
-        (robot(""), None),
-        (String::new(), None),
+    let entities = "<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;\">";
+    for text in [
+        String::new(),
+        robot(""),
+        format!("<!DOCTYPE r [{entities}]><robot name=\"&b;\"/>"),
+        format!("<!DOCTYPE m [{entities}]><mujoco>&b;</mujoco>"),
+        robot(&many(5000, &|i| format!("<link name=\"l{i}\"/>"))),
+        robot(&format!("<link name=\"a\"><inertial{attributes}/></link>")),
+        robot(&format!("<link{namespaces}/>").repeat(1000)),
+        robot(circle),
+        model(&nested("<body>", "</body>", 100_000)),
+        model(&nested("<body>", "</body>", 200)),
+        model(&nested("<frame>", "</frame>", 100_000)),
+        model(&"<body/>".repeat(100_000)),
+        body("<joint/>".repeat(50_000)),
+        body("<site name='s'/>".repeat(50_000)),
+        default(&many(6000, &|i| format!("<default class='c{i}'/>"))),
+        default(&nested("<default class='a'>", "</default>", 199)),
+        model("<body pos='1e999999999 0 0'><joint/></body>"),
     ] {
-        let options = Options {
-            base: base.map(str::to_owned),
-            ..Options::default()
-        };
-        let errors = import(&text, &options).expect_err("no robot");
         let begin = &text[..text.len().min(80)];
-        assert!(!errors.0.is_empty(), "{base:?}: {begin}");
+        for base in [None, Some("a".to_owned())] {
+            let options = Options {
+                base,
+                ..Options::default()
+            };
+            let errors = import(&text, &options).expect_err("no robot");
+            assert!(!errors.0.is_empty(), "{begin}");
+        }
     }
+}
+
+/// Followers in a circle lead nothing, and are held with the others.
+#[test]
+fn circles_of_followers_are_held() {
+    let joint = "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/><joint type='slide' name=";
+    let circle = format!(
+        "<mujoco><worldbody><body name='x'>{joint}'x'/><body name='p'>{joint}'a'/></body>\
+         <body name='q'>{joint}'b'/></body></body></worldbody><equality>\
+         <joint joint1='a' joint2='b'/><joint joint1='b' joint2='a'/></equality></mujoco>"
+    );
+    let robot = import(&circle, &to("x", &[("*", "0")])).unwrap().robot;
+    assert_eq!(robot.joints.len(), 1);
 }

@@ -1,14 +1,12 @@
 //! Joints that mimic others: one coordinate with their leader, against Pinocchio; followers
-//! beside the chain; what is refused by name.
+//! beside the chain.
 
 use dalembert_import::Options;
 use dalembert_model::outputs::{Argument, Quantity};
 use dalembert_model::reference::{JointVectors, Reference};
 use nalgebra::DVector;
 
-use crate::support::{
-    data, flat, has, imported, json, locks, refused, relative, source, taken, to,
-};
+use crate::support::{data, flat, has, imported, json, locks, relative, source, taken, to};
 
 const ARM: &str = "wafer";
 
@@ -88,39 +86,4 @@ fn followers_are_held_with_their_leader() {
     let follows = robot(&[("grip", "0.03")]);
     assert_eq!(follows, robot(&[("grip", "0.03"), ("other", "-0.02")]));
     assert_ne!(follows, robot(&[("grip", "0.03"), ("other", "0.01")]));
-}
-
-#[test]
-fn what_cannot_follow_is_refused_by_name() {
-    for (from, to, base, said) in [
-        (
-            "multiplier=\"-2\"",
-            "multiplier=\"-0.5\"",
-            None,
-            "joint `elbow` of the chain mimics `shoulder`, -1/2 times as far: sines are of whole multiples",
-        ),
-        (
-            "<mimic joint=\"shoulder\"/>",
-            "<mimic joint=\"lift\"/>",
-            None,
-            "joint `level` of the chain mimics `lift`, and turns where that slides",
-        ),
-        (
-            "",
-            "",
-            Some("upper"),
-            "joint `elbow` of the chain mimics `shoulder`, which is not in the chain",
-        ),
-        (
-            "lower=\"-2.7\" upper=\"2.9\"",
-            "lower=\"4\" upper=\"5\"",
-            None,
-            "there is no position at which both are within their limits",
-        ),
-    ] {
-        let changed = source(ARM).replace(from, to);
-        assert_ne!((changed.as_str(), base), (source(ARM).as_str(), None));
-        let base = base.map(str::to_owned);
-        has(&refused(&changed, &Options { base, ..options() }), &[said]);
-    }
 }

@@ -1,9 +1,7 @@
 //! Models of MuJoCo: torques, gravity loads, inertia matrices and poses are those of the
 //! `mujoco` package, and what cannot be read is refused by name.
 
-use std::path::Path;
-
-use crate::support::{Golden, bounded, flat_states, json, largest, locks, worst};
+use crate::support::{Golden, bounded, flat_states, json, largest, locks, path, worst};
 use dalembert_import::{Imported, Options, open};
 
 const NAMES: [&str; 8] = [
@@ -22,8 +20,7 @@ fn golden(name: &str) -> (Golden, Options) {
 }
 
 fn imported(name: &str, options: &Options) -> Imported {
-    let path = format!("{}/tests/data/mjcf/{name}.xml", env!("CARGO_MANIFEST_DIR"));
-    let opened = open(Path::new(&path), options);
+    let opened = open(&path(&format!("mjcf/{name}.xml")), options);
     opened.unwrap().imported.unwrap()
 }
 

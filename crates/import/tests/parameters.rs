@@ -82,28 +82,6 @@ fn add_link(sum: &mut Parameters, root: Node, link: &str, at: Pose, moving: &[St
     }
 }
 
-fn add_body(sum: &mut Parameters, body: Node, at: Pose) {
-    let pose = |node: Node| {
-        let quat = list(node, "quat", "1 0 0 0");
-        // (w² − v·v) 1 + 2 (v vᵀ + w v×), over the square of a quaternion that need not be one.
-        let (w, v) = (quat[0], Vector3::from_column_slice(&quat[1..]));
-        let square = w * w + v.dot(&v);
-        let turned = Matrix3::identity() * (w * w - v.dot(&v))
-            + 2.0 * (v * v.transpose() + w * v.cross_matrix());
-        let at = Vector3::from_column_slice(&list(node, "pos", "0 0 0"));
-        Pose(turned / square, at)
-    };
-    let inertial = child(body, "inertial").unwrap();
-    let moments = list(inertial, "diaginertia", "0 0 0");
-    let inertia = Matrix3::from_diagonal(&Vector3::from_column_slice(&moments));
-    let mass = list(inertial, "mass", "0")[0];
-    add(sum, mass, inertia, at.then(pose(inertial)));
-    let inside = body.children().filter(|own| own.has_tag_name("body"));
-    for own in inside.filter(|own| child(*own, "joint").is_none()) {
-        add_body(sum, own, at.then(pose(own)));
-    }
-}
-
 fn parameters(robot: &Robot, text: &str) -> Vec<f64> {
     let document = Document::parse(text).unwrap();
     let root = document.root_element();
@@ -113,14 +91,9 @@ fn parameters(robot: &Robot, text: &str) -> Vec<f64> {
         let mut sum = [0.0; 10];
         let named = |own: &Node| own.attribute("name") == Some(name.as_str());
         let joint = |own: &Node| own.has_tag_name("joint") && named(own);
-        if root.has_tag_name("mujoco") {
-            let joint = root.descendants().find(joint).unwrap();
-            add_body(&mut sum, joint.parent().unwrap(), Pose::identity());
-        } else {
-            let joint = root.children().find(joint).unwrap();
-            let link = child(joint, "child").unwrap().attribute("link").unwrap();
-            add_link(&mut sum, root, link, Pose::identity(), &names);
-        }
+        let joint = root.children().find(joint).unwrap();
+        let link = child(joint, "child").unwrap().attribute("link").unwrap();
+        add_link(&mut sum, root, link, Pose::identity(), &names);
         sum
     };
     names.iter().flat_map(link).collect()
@@ -166,10 +139,4 @@ fn the_numbers_of_a_urdf_give_the_torques() {
     for name in ["panda", "z1", "so101"] {
         check(name, &imported(name, &exact(name)).robot, &source(name));
     }
-}
-
-#[test]
-fn the_numbers_of_an_mjcf_give_the_torques() {
-    let text = data("mjcf/ur5.xml");
-    check("ur5", &robot(&text, "tool0"), &text);
 }

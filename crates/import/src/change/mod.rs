@@ -22,9 +22,8 @@ use dalembert_model::robot::Position;
 use num_traits::Signed;
 
 use crate::Options;
-use crate::merge::{Arm, Link};
-use crate::tree::Chain;
-use crate::urdf::{Kind, Number, Urdf, positive};
+use crate::merge::{Branch, Tree};
+use crate::model::{Kind, Model, Number, positive};
 use pair::{Pair, next_up_unless_zero, root_of_squares, upward, vectors};
 
 /// Bounds of how far torques and pose of the snapped arm are from those of the URDF's digits.
@@ -61,6 +60,8 @@ pub struct Displacement {
 
 #[derive(Clone, Debug)]
 struct Parts {
+    /// The body that it hangs on; none where that is the base.
+    parent: Option<usize>,
     slides: bool,
     turn: Pair,
     axis: Pair,
@@ -71,8 +72,8 @@ struct Parts {
 }
 
 impl Change {
-    /// Returns the motion within the URDF's limits; where it has none, ±1 m, 3 per second;
-    /// accelerations, which a URDF does not speak of, are those of the options, or 10.
+    /// Returns the motion within the model's limits; where it has none, ±1 m, 3 per second
+    /// and the acceleration of the options, or 10.
     pub fn limits(&self) -> &Motion {
         &self.limits
     }
@@ -87,22 +88,23 @@ impl Change {
     fn pairs(&self, motion: &Motion) -> Vec<Pair> {
         let value =
             |values: &[f64], i: usize| Pair::of(values.get(i).copied().unwrap_or(0.0).abs());
-        let (mut omega, mut turning) = (Pair::ZERO, Pair::ZERO);
-        // v̇ of the base: gravity, the same of both.
-        let mut moving = Pair::of(self.gravity);
+        // ω, ω̇ and v̇ of each body; those of the base are gravity, the same of both.
+        let base = [Pair::ZERO, Pair::ZERO, Pair::of(self.gravity)];
+        let mut motions: Vec<[Pair; 3]> = Vec::with_capacity(self.links.len());
         let mut loads = Vec::with_capacity(self.links.len());
         for (i, part) in self.links.iter().enumerate() {
             let [q, qd, qdd] = [&motion.position, &motion.velocity, &motion.acceleration]
                 .map(|values| value(values, i));
             let lever = part.lever_at(q);
+            let [omega, turning, moving] = part.parent.map_or(base, |parent| motions[parent]);
             let carried = moving + turning * lever + omega * omega * lever;
             let (before, along) = (part.turn * omega, part.axis * qd);
-            moving = part.turn * carried;
-            turning = part.turn * turning;
+            let mut moving = part.turn * carried;
+            let mut turning = part.turn * turning;
+            let mut omega = before;
             if part.slides {
                 let coriolis = before * along;
                 moving = moving + part.axis * qdd + coriolis + coriolis;
-                omega = before;
             } else {
                 turning = turning + part.axis * qdd + before * along;
                 omega = before + along;
@@ -110,21 +112,20 @@ impl Change {
             let of_com = moving + turning * part.com + omega * omega * part.com;
             let force = part.mass * of_com;
             let moment = part.inertia * turning + omega * part.inertia * omega + part.com * force;
+            motions.push([omega, turning, moving]);
             loads.push((lever, force, moment));
         }
-        let (mut force, mut moment) = (Pair::ZERO, Pair::ZERO);
         let mut torques = Vec::with_capacity(self.links.len());
-        for (i, (_, own, turn)) in loads.iter().enumerate().rev() {
-            // From the next joint's frame into this one's.
-            if let (Some(next), Some((lever, ..))) = (self.links.get(i + 1), loads.get(i + 1)) {
-                let carried = next.turn * force;
-                moment = next.turn * moment + *lever * carried;
-                force = carried;
+        for (i, part) in self.links.iter().enumerate().rev() {
+            let (lever, force, moment) = loads[i];
+            torques.push(part.axis * if part.slides { force } else { moment });
+            // From this joint's frame into that of the body it hangs on.
+            if let Some(parent) = part.parent {
+                let (_, onto, turning) = &mut loads[parent];
+                let carried = part.turn * force;
+                *turning = *turning + part.turn * moment + lever * carried;
+                *onto = *onto + carried;
             }
-            (force, moment) = (force + *own, moment + *turn);
-            let part = &self.links[i];
-            let load = if part.slides { force } else { moment };
-            torques.push(part.axis * load);
         }
         torques.reverse();
         torques
@@ -208,18 +209,21 @@ fn angle(chord: f64) -> f64 {
     }
 }
 
-pub(crate) fn bound(
-    written: &Arm,
-    snapped: &Arm,
-    urdf: &Urdf,
-    chain: &Chain,
-    options: &Options,
-) -> Change {
-    let joints = || chain.moving.iter().map(|moving| &urdf.joints[moving.joint]);
-    let links = written.links.iter().zip(&snapped.links).zip(joints());
+pub(crate) fn bound(written: &Tree, snapped: &Tree, model: &Model, options: &Options) -> Change {
+    let joints = || {
+        snapped
+            .bodies
+            .iter()
+            .map(|branch| &model.joints[branch.joint])
+    };
+    let links = written.bodies.iter().zip(&snapped.bodies).zip(joints());
     let upper = |value: &Rational| f64::nearest_rational(&value.abs()).next_up();
     let velocity = joints().map(|joint| positive(&joint.velocity));
     let velocity = velocity.map(|limit| limit.map_or(3.0, |limit| upper(&limit.value)));
+    let otherwise = options.acceleration.as_ref().map_or(10.0, upper);
+    let acceleration = joints().map(|joint| positive(&joint.acceleration));
+    let acceleration =
+        acceleration.map(|limit| limit.map_or(otherwise, |limit| upper(&limit.value)));
     let position = joints().map(|joint| {
         let ends = joint.position.iter().flatten();
         let ends = ends.map(|end| match &end.value {
@@ -231,14 +235,14 @@ pub(crate) fn bound(
     let limits = Motion {
         position: position.collect(),
         velocity: velocity.collect(),
-        acceleration: vec![options.acceleration.as_ref().map_or(10.0, upper); written.links.len()],
+        acceleration: acceleration.collect(),
     };
     let least = |value: &Number| f64::nearest_rational(&value.value).next_down();
     let efforts = joints().map(|joint| positive(&joint.effort).map(least));
-    let tools = [written, snapped].map(|arm| pose(&arm.tool));
+    let tools = [written, snapped].map(|tree| pose(&tree.tools[0]));
     let turned = [0, 1, 2].map(|k| vectors(&tools[0].axes[k], &tools[1].axes[k]).off);
     let turned = Pair::new(1.0, root_of_squares(&turned));
-    let gravity = urdf.gravity.as_ref().map(|gravity| {
+    let gravity = model.gravity.as_ref().map(|gravity| {
         let sizes = gravity.each_ref().map(|x| upper(&x.value));
         root_of_squares(&sizes)
     });
@@ -253,7 +257,7 @@ pub(crate) fn bound(
     }
 }
 
-fn parts(one: &Link, other: &Link, slides: bool) -> Parts {
+fn parts(one: &Branch, other: &Branch, slides: bool) -> Parts {
     let axes = [0, 1, 2].map(|k| vectors(&one.pose.axes[k], &other.pose.axes[k]).off);
     let placed = root_of_squares(&axes);
     let axis = Pair::new(1f64.next_up(), vectors(&one.axis, &other.axis).off);
@@ -268,6 +272,7 @@ fn parts(one: &Link, other: &Link, slides: bool) -> Parts {
     let rows = [0, 1, 2].map(|i| vectors(&wide(&tensor[i]), &wide(&other_tensor[i])));
     let mass = f64::nearest_rational(&one.body.mass.abs()).next_up();
     Parts {
+        parent: one.parent,
         slides,
         turn: Pair::new(1.0, next_up_unless_zero(placed + turned)),
         axis,

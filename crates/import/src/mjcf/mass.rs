@@ -1,135 +1,211 @@
-//! A body's mass: what its `inertial` says, and what of it cannot be read.
+//! The mass of a body: its `inertial`, or simple shapes, each as a link that is fixed to the body.
 
-use dalembert_model::number::Rational;
+use dalembert_model::number::recover::rounded;
+use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::Inertia;
-use dalembert_model::robot::values::number;
-use num_traits::{Signed, Zero};
+use num_traits::{One, Signed, Zero};
 
 use super::Mjcf;
-use super::geom::Weight;
 use super::settings::FromGeoms;
 use super::world::Item;
-use crate::urdf::{Inertial, Link, Number, Unread, Urdf, constant, start_tag};
+use crate::model::{Inertial, Link, Number};
 
-const WRITE_IT: &str = "give the body an <inertial>; MuJoCo writes them all: \
-    load the model with <compiler saveinertial=\"true\"/> and save it by mj_saveLastXML";
+/// Shapes whose volume is known, with the sizes that they have.
+const SHAPES: [(&str, usize); 5] = [
+    ("sphere", 1),
+    ("capsule", 2),
+    ("cylinder", 2),
+    ("ellipsoid", 3),
+    ("box", 3),
+];
 
-impl<'a> Mjcf<'a, '_, '_> {
-    pub(super) fn mass(&mut self, items: &[Item<'a, '_>], link: &mut Link) -> Vec<Inertial> {
-        let own = items.iter().find(|item| item.node.has_tag_name("inertial"));
+enum Weight {
+    Nothing,
+    Something(Box<Inertial>),
+    /// That of a mesh, or of a shape that could not be read.
+    Unknown,
+}
+
+impl Mjcf<'_, '_, '_> {
+    /// Reads the mass of a body into its link, and returns that of its shapes.
+    pub(super) fn mass(&mut self, items: &[Item], link: &mut Link) -> Vec<Inertial> {
+        let count = self.reader.problems.count();
+        let of = |tag: &'static str| items.iter().filter(move |item| item.element.tag == tag);
+        let named = format!("body `{}`", link.name);
+        for item in of("inertial").chain(of("geom")) {
+            self.reader.check("body", item.element, &named);
+        }
+        let own = of("inertial").next();
         link.inertial = own.and_then(|item| self.inertial(item, &link.name));
-        self.bounds(link);
-        let geoms = items.iter().filter(|item| item.node.has_tag_name("geom"));
         let geoms: Vec<&Item> = match self.settings.from_geoms {
             FromGeoms::None => Vec::new(),
             FromGeoms::Some if own.is_some() => Vec::new(),
-            _ => geoms.collect(),
+            _ => of("geom").collect(),
         };
         let mut solids = Vec::new();
         for geom in &geoms {
-            match self.weight(geom) {
-                Weight::Nothing => {}
-                Weight::Something(solid) => solids.push(*solid),
-                Weight::Unknown => link.unread.push(Unread {
-                    span: start_tag(geom.node),
-                    message: format!("the mass of body `{}` is that of its geoms", link.name),
-                    help: WRITE_IT,
-                }),
+            let at = &geom.element.at;
+            match (self.weight(geom), geom.element.get("mesh")) {
+                (Weight::Nothing, _) => continue,
+                (Weight::Something(solid), _) => {
+                    solids.push(*solid);
+                    continue;
+                }
+                (Weight::Unknown, Some(mesh)) => {
+                    self.reader
+                        .problems
+                        .say("mass_of_mesh", at, &[&named, &mesh.value]);
+                }
+                (Weight::Unknown, None) => self.reader.problems.say("mass_of_geoms", at, &[&named]),
             }
+            link.has_unknown_mass = true;
         }
-        if !geoms.is_empty() {
-            // They have it, and not what is written beside them.
+        link.problems.extend(self.reader.problems.since(count));
+        if !solids.is_empty() || link.has_unknown_mass {
+            // They have the mass, and not the `inertial` beside them.
             link.inertial = None;
         }
         solids
     }
 
-    pub(super) fn total(&mut self, urdf: &mut Urdf) {
-        let Some(total) = self.settings.total.take() else {
-            return;
-        };
-        let unread = urdf.links.iter().flat_map(|link| &link.unread).next();
-        let own = urdf.links.iter().filter_map(|link| link.inertial.as_ref());
-        let own: Rational = own.map(|inertial| &inertial.mass.value).sum();
-        if unread.is_some() || own.is_zero() {
-            let message = "`settotalmass` is of bodies whose masses are not all known".to_owned();
-            self.problems.error(&total.span, message, WRITE_IT);
-            return;
+    fn inertial(&mut self, item: &Item, body: &str) -> Option<Inertial> {
+        let Item { element, frame } = item;
+        let at = self.pose(element);
+        let mass = self.reader.required_number(element, "mass");
+        let full = element.get("fullinertia");
+        if let (Some(full), Some(_)) = (full, element.get("diaginertia")) {
+            self.reader.problems.say("two_inertias", &full.at, &[&body]);
         }
-        let ratio = &total.value / own;
-        let scaled = |own: &Number| {
-            let value = &own.value * &ratio;
-            Number::new(value.clone(), number(&value), &own.span)
-        };
-        let links = urdf.links.iter_mut();
-        for inertial in links.filter_map(|link| link.inertial.as_mut()) {
-            inertial.mass = scaled(&inertial.mass);
-            inertial.inertia = inertial.inertia.map(scaled);
-        }
-    }
-
-    fn bounds(&mut self, link: &mut Link) {
-        let Some(Inertial { mass, inertia, .. }) = &link.inertial else {
-            return;
-        };
-        let name = &link.name;
-        let [least_mass, least_moment] = &self.settings.least;
-        let is_less = |own: &Number, least: &Option<Number>| {
-            least.as_ref().is_some_and(|least| own.value < least.value)
-        };
-        let moments = [&inertia.xx, &inertia.yy, &inertia.zz];
-        let small = moments.into_iter().find(|own| is_less(own, least_moment));
-        let light = is_less(mass, least_mass).then_some(mass);
-        for (own, key) in [(light, "boundmass"), (small, "boundinertia")] {
-            link.unread.extend(own.map(|own| Unread {
-                span: own.span.clone(),
-                message: format!("`{key}` of the compiler is more than body `{name}` has"),
-                help: "write the number that shall count, and leave the bound out",
-            }));
-        }
-    }
-
-    fn inertial(&mut self, item: &Item<'a, '_>, body: &str) -> Option<Inertial> {
-        let Item { node, frame, .. } = item;
-        let at = self.pose(*node, 0);
-        let mass = self.problems.required(*node, "mass");
-        let [diagonal, full] = ["diaginertia", "fullinertia"].map(|key| node.has_attribute(key));
-        let moments = match (diagonal, full) {
-            (true, true) => {
-                let message = format!("body `{body}` has two inertias");
-                self.error(*node, message, "`diaginertia` or `fullinertia`, not both");
-                None
+        let inertia = match full {
+            None => {
+                let [xx, yy, zz] = self.reader.vector(element, "diaginertia");
+                let [xy, yz, xz] = Number::constants(["0", "0", "0"], &element.at);
+                [xx, yy, zz, xy, yz, xz]
             }
-            (_, true) => {
-                let (text, span) = self.problems.attribute(*node, "fullinertia")?;
-                self.problems.list("fullinertia", text, span)
-            }
-            (is_given, false) => {
-                let [xx, yy, zz] = match is_given {
-                    true => self.problems.triple(*node, "diaginertia")?,
-                    false => constant(*node, ["0", "0", "0"]),
-                };
-                let [xy, xz, yz] = constant(*node, ["0", "0", "0"]);
-                Some([xx, yy, zz, xy, xz, yz])
+            Some(_) => {
+                let [xx, yy, zz, xy, xz, yz] = self.reader.numbers(element, "fullinertia")?;
+                [xx, yy, zz, xy, yz, xz]
             }
         };
-        let inertia = moments.map(|[xx, yy, zz, xy, xz, yz]| Inertia::of([xx, yy, zz, xy, yz, xz]));
-        let (at, mass, inertia) = (at?, mass?, inertia?);
-        if mass.value.is_negative() {
-            let message = format!("the mass of body `{body}` is negative");
-            let help = "a mass is zero or more, in kg";
-            return self.problems.refuse(&mass.span, message, help);
-        }
-        let moments = [&inertia.xx, &inertia.yy, &inertia.zz];
-        if let Some(moment) = moments.into_iter().find(|own| own.value.is_negative()) {
-            let message = format!("a moment of inertia of body `{body}` is negative");
-            let help = "the inertia is about the centre of mass, in kg·m²";
-            return self.problems.refuse(&moment.span, message, help);
-        }
+        let what = format!("the mass of body `{body}`");
+        self.reader
+            .not_negative(Some(&mass), &what, "a mass is zero or more, in kg");
         Some(Inertial {
             origin: frame.then(&at).origin(),
             mass,
-            inertia,
+            inertia: Inertia::of(inertia),
         })
+    }
+
+    fn weight(&mut self, item: &Item) -> Weight {
+        let element = item.element;
+        let group = self.reader.number(element, "group");
+        let group = group.map_or(0, |group| {
+            i64::try_from(group.value.to_integer()).unwrap_or(0)
+        });
+        let [low, high] = self.settings.groups;
+        let key = if element.get("mass").is_some() {
+            "mass"
+        } else {
+            "density"
+        };
+        let given = self.reader.number(element, key);
+        let is_nothing = given.as_ref().is_some_and(|given| given.value.is_zero());
+        if is_nothing || !(low..=high).contains(&group) {
+            return Weight::Nothing;
+        }
+        let solid = self.solid(item, key, given);
+        solid.map_or(Weight::Unknown, |solid| Weight::Something(Box::new(solid)))
+    }
+
+    fn solid(&mut self, item: &Item, key: &str, given: Option<Number>) -> Option<Inertial> {
+        let Item { element, frame } = item;
+        let word = element.get("type").map_or("sphere", |word| &word.value);
+        let (_, count) = SHAPES.iter().find(|(shape, _)| *shape == word)?;
+        let is_shell = element.get("shellinertia");
+        // The size of a shape with a mesh is fitted to that.
+        if is_shell.is_some_and(|word| word.value == "true") || element.get("mesh").is_some() {
+            return None;
+        }
+        let sizes = element.get("size")?;
+        let sizes = self.reader.list(sizes)?.into_iter().take(3);
+        let mut sizes: Vec<Rational> = sizes.map(|size| size.value).collect();
+        let at = match element.get("fromto") {
+            // How it is turned about its length matters to a box.
+            Some(_) if *count == 3 => return None,
+            Some(_) => {
+                let (at, half) = self.between(element, 1)?;
+                sizes.truncate(1);
+                sizes.push(half);
+                at
+            }
+            None => self.pose(element),
+        };
+        let sizes = sizes.get(..*count)?;
+        if sizes.iter().any(|size| !size.is_positive()) {
+            return None;
+        }
+        let (volume, moments) = moments(word, sizes);
+        let given = given.unwrap_or_else(|| Number::constant("1000", &element.at));
+        let mass = match key {
+            "mass" => given.value.clone(),
+            _ => rounded(&(&given.value * volume)),
+        };
+        let number = |value: Rational| Number {
+            value,
+            ..given.clone()
+        };
+        let [xx, yy, zz] = moments.map(|moment| number(rounded(&(moment * &mass))));
+        let zero = Number::constant("0", &element.at);
+        Some(Inertial {
+            origin: frame.then(&at).origin(),
+            mass: number(mass),
+            inertia: Inertia::of([xx, yy, zz, zero.clone(), zero.clone(), zero]),
+        })
+    }
+}
+
+/// Returns the volume of a shape and its moments of inertia for a mass of one; sizes are half
+/// lengths or radii.
+fn moments(shape: &str, sizes: &[Rational]) -> (Rational, [Rational; 3]) {
+    let pi = Angle::PiTimes(Rational::one()).radians();
+    let ratio = |n: i64, d: i64| Rational::new(n.into(), d.into());
+    let [a, b, c] = [0, 1, 2].map(|i| sizes.get(i).cloned().unwrap_or_else(Rational::zero));
+    let square = |x: &Rational| x * x;
+    match shape {
+        "sphere" => {
+            let moment = ratio(2, 5) * square(&a);
+            let volume = ratio(4, 3) * pi * square(&a) * &a;
+            (volume, [moment.clone(), moment.clone(), moment])
+        }
+        "capsule" => {
+            // A cylinder of length h, and two halves of a sphere.
+            let h = &b * ratio(2, 1);
+            let ends = &a * ratio(4, 1) / (&a * ratio(4, 1) + &h * ratio(3, 1));
+            let middle = ratio(1, 1) - &ends;
+            let ball = ratio(2, 5) * &ends * square(&a);
+            let across = &middle * (ratio(3, 1) * square(&a) + square(&h)) / ratio(12, 1)
+                + &ball
+                + &ends * &h * (&a * ratio(3, 1) + &h * ratio(2, 1)) / ratio(8, 1);
+            let along = &middle * square(&a) / ratio(2, 1) + ball;
+            let volume = pi * square(&a) * (&h + ratio(4, 3) * &a);
+            (volume, [across.clone(), across, along])
+        }
+        "cylinder" => {
+            let across = (ratio(3, 1) * square(&a) + ratio(4, 1) * square(&b)) / ratio(12, 1);
+            let along = square(&a) / ratio(2, 1);
+            let volume = pi * square(&a) * b * ratio(2, 1);
+            (volume, [across.clone(), across, along])
+        }
+        _ => {
+            let (part, volume) = match shape {
+                "ellipsoid" => (ratio(1, 5), ratio(4, 3) * pi),
+                _ => (ratio(1, 3), ratio(8, 1)),
+            };
+            let squares = [&a, &b, &c].map(square);
+            let [x, y, z] = &squares;
+            let moments = [y + z, x + z, x + y].map(|sum| sum * &part);
+            (volume * a * b * c, moments)
+        }
     }
 }

@@ -1,38 +1,32 @@
-//! What an MJCF says, in the terms of a URDF: bodies are links, and what a body may have
-//! beyond them becomes joints that are fixed and links that weigh nothing.
+//! An MJCF as a model: bodies are links, and what a body may have beyond them becomes joints that
+//! are fixed and links that weigh nothing.
 //!
-//! - `settings`: units, orders of angles, gravity
-//! - `classes`: defaults and who inherits them
-//! - `pose`: positions and orientations
+//! - `settings`: units, orders of angles, switches, gravity
+//! - `defaults`: classes, whose values are filled into the elements
+//! - `place`: positions and orientations
 //! - `world`: the tree of bodies
-//! - `joint`: a joint and its limits; actuators, as limits of torque
-//! - `mass`: a body's mass, and what of it cannot be read
-//! - `geom`: the mass of simple shapes
+//! - `joint`: a joint and its limits
+//! - `mass`: the mass of a body, from its `inertial` or from simple shapes
+//! - `drive`: actuators, as limits of torque, armature and damping
 //! - `tie`: equalities and tendons
-//!
-//! Meshes, materials, sensors and contacts are not looked at.
 
-mod classes;
-mod geom;
+mod defaults;
+mod drive;
 mod joint;
 mod mass;
-mod pose;
+mod place;
 mod settings;
 mod tie;
 mod world;
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::ops::Range;
-
-use roxmltree::{Document, Node};
-
-use crate::problems::Problems;
-use crate::urdf::{Number, Urdf, start_tag};
-use classes::Classes;
+use crate::model::{Model, Number};
+use crate::read::Reader;
+use crate::xml::Element;
 use settings::Settings;
 
 /// The elements that take time, and the most that a robot has of them.
 const MANY: &[(&[&str], usize)] = &[
+    (&["default"], 512),
     (&["body", "site", "frame", "weld", "connect"], 1024),
     (
         &["joint", "fixed", "spatial", "general", "motor", "position"],
@@ -40,117 +34,85 @@ const MANY: &[(&[&str], usize)] = &[
     ),
     (&["geom"], 8192),
 ];
+/// The parts of a file that are checked where they are read.
+const READ_APART: [&str; 5] = ["worldbody", "default", "tendon", "equality", "actuator"];
 
-pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf> {
-    let root = document.root_element();
-    let span = start_tag(root);
+pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
+    for (tag, few) in MANY
+        .iter()
+        .flat_map(|(tags, few)| tags.iter().map(move |tag| (tag, few)))
+    {
+        let count = root.all_inside(tag).len();
+        if !reader.are_few(&root.at, &format!("<{tag}>"), count, *few) {
+            return None;
+        }
+    }
+    reader.check_attributes("", root, "the model");
+    let enter = |part: &Element| !READ_APART.contains(&part.tag.as_str());
+    reader.check_inside("", root, "the model", enter);
+    let root = &defaults::filled(root, reader);
+    let settings = Settings::read(root, reader);
+    let model = Model {
+        format: "an MJCF",
+        name: root.value("model").unwrap_or("arm").to_owned(),
+        at: root.at.clone(),
+        gravity: Some(settings.gravity(root)),
+        ..Model::default()
+    };
     let mut mjcf = Mjcf {
-        problems,
-        settings: Settings::new(),
-        classes: Classes::new(),
+        reader,
+        settings,
+        model,
     };
-    if !mjcf.is_small(root) {
-        return None;
-    }
-    mjcf.settings(root);
-    mjcf.classes(root);
-    let mut urdf = Urdf {
-        name: root.attribute("model").unwrap_or("arm").to_owned(),
-        span: span.clone(),
-        links: Vec::new(),
-        joints: Vec::new(),
-        names: [BTreeSet::new(), BTreeSet::new()],
-        gravity: Some(mjcf.settings.gravity(root)),
-        ties: Vec::new(),
-    };
-    mjcf.world(root, &mut urdf)?;
-    mjcf.total(&mut urdf);
-    mjcf.forces(root, &mut urdf);
-    mjcf.ties(root, &mut urdf);
-    Some(urdf)
+    mjcf.world(root)?;
+    mjcf.model.resolve(mjcf.reader.problems);
+    let tendons = mjcf.ties(root);
+    mjcf.drives(root, &tendons);
+    mjcf.settings.bounds.apply(&mut mjcf.model, mjcf.reader);
+    Some(mjcf.model)
 }
 
-struct Mjcf<'a, 'p, 's> {
-    problems: &'p mut Problems<'s>,
+struct Mjcf<'r, 'p, 't> {
+    reader: &'r mut Reader<'p, 't>,
     settings: Settings,
-    classes: Classes<'a>,
+    model: Model,
 }
 
-type Text<'a> = (&'a str, Range<usize>);
-
-impl<'a> Mjcf<'a, '_, '_> {
-    fn text(&self, node: Node<'a, '_>, class: usize, key: &str) -> Option<Text<'a>> {
-        match node.attribute_node(key) {
-            Some(own) => Some((own.value(), own.range_value())),
-            None => self.classes.setting(class, node, key),
+impl Mjcf<'_, '_, '_> {
+    /// Reads a range that limits: its word says so or, by itself or as `auto`, `autolimits` is on.
+    fn limits(&mut self, element: &Element, word: &str, range: &str) -> Option<[Number; 2]> {
+        let words = [("true", Some(true)), ("false", Some(false)), ("auto", None)];
+        let limits = self.reader.word(element, word, &words).flatten();
+        match limits.unwrap_or(self.settings.auto_limits) {
+            true => self.reader.numbers(element, range),
+            false => None,
         }
     }
 
-    fn number(&mut self, node: Node<'a, '_>, class: usize, key: &str) -> Option<Number> {
-        let [number] = self.list(node, class, key)?;
-        Some(number)
+    /// Reads a number that may be the first of a polynomial in the velocity or the position, whose
+    /// other terms are left out.
+    fn first_term(&mut self, element: &Element, key: &str, of: &str) -> Option<Number> {
+        let attribute = element.get(key)?;
+        let terms = self.reader.list(attribute)?;
+        if terms
+            .iter()
+            .skip(1)
+            .any(|term| term.value != Default::default())
+        {
+            let words: [&dyn std::fmt::Display; 3] = [&key, &of, &attribute.value];
+            self.reader
+                .problems
+                .say("polynomial", &attribute.at, &words);
+        }
+        terms.into_iter().next()
     }
 
-    fn list<const N: usize>(
-        &mut self,
-        node: Node<'a, '_>,
-        class: usize,
-        key: &str,
-    ) -> Option<[Number; N]> {
-        let (text, span) = self.text(node, class, key)?;
-        self.problems.list(key, text, span)
-    }
-
-    /// With `auto` or nothing, a range limits, unless `autolimits` is off.
-    fn is_limited(&mut self, node: Node<'a, '_>, class: usize, key: &str, range: &str) -> bool {
-        match self.text(node, class, key) {
-            Some(("true", _)) => true,
-            Some(("false", _)) => false,
-            Some((word, span)) if word != "auto" => {
-                let message = format!("`{key}` is `{word}`");
-                self.problems.error(&span, message, "true, false or auto");
-                false
-            }
-            _ => self.settings.auto_limits && self.text(node, class, range).is_some(),
+    /// Says armature, damping or friction that is negative.
+    fn check_loads(&mut self, of: &str, loads: &[(&str, &Option<Number>)]) {
+        let help = "it adds inertia or takes energy out: zero or more";
+        for (key, load) in loads {
+            self.reader
+                .not_negative(load.as_ref(), &format!("the {key} of {of}"), help);
         }
     }
-
-    fn is_small(&mut self, root: Node) -> bool {
-        let span = start_tag(root);
-        let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-        for node in root.descendants() {
-            *counts.entry(node.tag_name().name()).or_default() += 1;
-        }
-        MANY.iter().all(|(tags, few)| {
-            tags.iter().all(|tag| {
-                let count = counts.get(*tag).copied().unwrap_or(0);
-                let what = format!("<{tag}>");
-                self.problems.are_few(&span, &what, count, *few)
-            })
-        })
-    }
-
-    fn error(&mut self, node: Node, message: String, help: &str) {
-        let span = start_tag(node);
-        self.problems.error(&span, message, help);
-    }
-
-    fn difference(&mut self, node: Node, message: String, help: &str) {
-        let span = start_tag(node);
-        self.problems.difference(&span, message, help);
-    }
-}
-
-fn children<'a, 'd: 'a>(
-    node: Node<'a, 'd>,
-    name: &'static str,
-) -> impl Iterator<Item = Node<'a, 'd>> {
-    node.children().filter(move |node| node.has_tag_name(name))
-}
-
-fn within<'a, 'd: 'a>(
-    root: Node<'a, 'd>,
-    part: &'static str,
-) -> impl Iterator<Item = Node<'a, 'd>> {
-    children(root, part).flat_map(|part| part.children().filter(Node::is_element))
 }

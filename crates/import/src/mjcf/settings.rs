@@ -1,12 +1,12 @@
-//! Units, orders of angles, what is limited without saying so, and gravity.
+//! Settings of the whole file: where there are several, the last one counts.
 
-use num_traits::{Signed, Zero};
-use roxmltree::Node;
+use num_traits::Zero;
 
-use super::Mjcf;
-use crate::urdf::{Number, constant};
+use crate::bounds::Bounds;
+use crate::model::Number;
+use crate::read::Reader;
+use crate::xml::Element;
 
-#[derive(Clone, Debug)]
 pub(super) struct Settings {
     pub(super) degrees: bool,
     pub(super) euler: [Turn; 3],
@@ -14,21 +14,20 @@ pub(super) struct Settings {
     pub(super) from_geoms: FromGeoms,
     /// The lowest and the highest group of geoms that have mass.
     pub(super) groups: [i64; 2],
-    /// The least mass and the least moment of inertia.
-    pub(super) least: [Option<Number>; 2],
-    pub(super) total: Option<Number>,
+    pub(super) bounds: Bounds,
+    /// The flags that are switched off.
+    off: Vec<&'static str>,
     gravity: Option<[Number; 3]>,
-    has_gravity: bool,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(super) struct Turn {
     pub(super) axis: usize,
     /// About an axis that stays, not one that turned with the angles before.
     pub(super) stays: bool,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum FromGeoms {
     None,
     /// Those without an `inertial`.
@@ -36,123 +35,104 @@ pub(super) enum FromGeoms {
     All,
 }
 
+const FROM_GEOMS: [(&str, FromGeoms); 3] = [
+    ("false", FromGeoms::None),
+    ("true", FromGeoms::All),
+    ("auto", FromGeoms::Some),
+];
+/// Each flag, with one that stands for it and others.
+const FLAGS: [[&str; 2]; 7] = [
+    ["constraint", "constraint"],
+    ["damper", "passive"],
+    ["equality", "constraint"],
+    ["frictionloss", "constraint"],
+    ["gravity", "gravity"],
+    ["passive", "passive"],
+    ["spring", "passive"],
+];
+
 impl Settings {
-    pub(super) fn new() -> Self {
+    pub(super) fn read(root: &Element, reader: &mut Reader) -> Settings {
         let turn = |axis| Turn { axis, stays: false };
-        Settings {
+        let mut settings = Settings {
             degrees: true,
             euler: [turn(0), turn(1), turn(2)],
             auto_limits: true,
             from_geoms: FromGeoms::Some,
             groups: [0, 5],
-            least: [None, None],
-            total: None,
+            bounds: Bounds::default(),
+            off: Vec::new(),
             gravity: None,
-            has_gravity: true,
-        }
+        };
+        root.all("compiler")
+            .for_each(|element| settings.compiler(element, reader));
+        root.all("option")
+            .for_each(|element| settings.option(element, reader));
+        settings
+    }
+
+    pub(super) fn is_off(&self, flag: &str) -> bool {
+        let flags = FLAGS.iter().find(|[name, _]| *name == flag);
+        flags.is_some_and(|flags| flags.iter().any(|flag| self.off.contains(flag)))
     }
 
     /// Returns gravity in the axes of the world.
-    pub(super) fn gravity(&self, root: Node) -> [Number; 3] {
-        match &self.gravity {
-            _ if !self.has_gravity => constant(root, ["0", "0", "0"]),
-            Some(gravity) => gravity.clone(),
-            None => constant(root, ["0", "0", "-9.81"]),
+    pub(super) fn gravity(&self, root: &Element) -> [Number; 3] {
+        let z = if self.is_off("gravity") { "0" } else { "-9.81" };
+        let gravity = self.gravity.clone().filter(|_| z != "0");
+        gravity.unwrap_or_else(|| Number::constants(["0", "0", z], &root.at))
+    }
+
+    fn compiler(&mut self, element: &Element, reader: &mut Reader) {
+        let mut is = |key, words: [&str; 2], before| {
+            let found = reader.word(element, key, &[(words[0], false), (words[1], true)]);
+            found.unwrap_or(before)
+        };
+        self.degrees = is("angle", ["radian", "degree"], self.degrees);
+        self.auto_limits = is("autolimits", ["false", "true"], self.auto_limits);
+        if is("coordinate", ["local", "global"], false) {
+            reader.problems.say("global", &element.at, &[]);
+        }
+        let from_geoms = reader.word(element, "inertiafromgeom", &FROM_GEOMS);
+        self.from_geoms = from_geoms.unwrap_or(self.from_geoms);
+        if let Some(order) = element.get("eulerseq") {
+            let turns = order.value.chars().map(|letter| {
+                let axis = "xyz".find(letter.to_ascii_lowercase())?;
+                let stays = letter.is_ascii_uppercase();
+                Some(Turn { axis, stays })
+            });
+            match turns
+                .collect::<Option<Vec<_>>>()
+                .and_then(|turns| turns.try_into().ok())
+            {
+                Some(turns) => self.euler = turns,
+                None => reader.problems.say("eulerseq", &order.at, &[&order.value]),
+            }
+        }
+        self.bounds.read(element, reader);
+        if let Some(range) = reader.numbers::<2>(element, "inertiagrouprange") {
+            self.groups = range.map(|end| i64::try_from(end.value.to_integer()).unwrap_or(0));
         }
     }
-}
 
-impl<'a> Mjcf<'a, '_, '_> {
-    /// Reads the settings of the whole file: where there are several, the last one counts.
-    pub(super) fn settings(&mut self, root: Node<'a, '_>) {
-        for node in root.children().filter(Node::is_element) {
-            match node.tag_name().name() {
-                "compiler" => self.compiler(node),
-                "option" => self.option(node),
-                "include" => {
-                    let help = "give import the file by its name: what it includes is read with it";
-                    self.error(node, "<include> in a text without a place".to_owned(), help);
+    fn option(&mut self, element: &Element, reader: &mut Reader) {
+        self.gravity = reader.numbers(element, "gravity").or(self.gravity.take());
+        for flags in element.all("flag") {
+            for [flag, _] in FLAGS {
+                let words = [("disable", true), ("enable", false)];
+                if let Some(is_off) = reader.word(flags, flag, &words) {
+                    self.off.retain(|off| *off != flag);
+                    self.off.extend(is_off.then_some(flag));
                 }
-                _ => {}
             }
-        }
-    }
-
-    fn compiler(&mut self, node: Node<'a, '_>) {
-        let word = |this: &mut Self, key: &str, known: &[&str]| {
-            let word = node.attribute(key)?;
-            let found = known.iter().position(|known| *known == word);
-            if found.is_none() {
-                let message = format!("`{key}` is `{word}`");
-                this.error(node, message, &known.join(" or "));
-            }
-            found
-        };
-        if let Some(unit) = word(self, "angle", &["radian", "degree"]) {
-            self.settings.degrees = unit == 1;
-        }
-        if let Some(limited) = word(self, "autolimits", &["false", "true"]) {
-            self.settings.auto_limits = limited == 1;
-        }
-        let all = [FromGeoms::None, FromGeoms::All, FromGeoms::Some];
-        if let Some(which) = word(self, "inertiafromgeom", &["false", "true", "auto"]) {
-            self.settings.from_geoms = all[which];
-        }
-        if word(self, "coordinate", &["local", "global"]) == Some(1) {
-            let help =
-                "MuJoCo has no global coordinates since 2.3.4: save the model anew by an older one";
-            self.error(node, "`coordinate` is `global`".to_owned(), help);
-        }
-        if let Some(order) = node.attribute("eulerseq") {
-            self.order(node, order);
-        }
-        for (index, key) in ["boundmass", "boundinertia"].into_iter().enumerate() {
-            let bound = self.problems.number(node, key);
-            self.settings.least[index] = bound.filter(|bound| bound.value.is_positive());
-        }
-        let total = self.problems.number(node, "settotalmass");
-        self.settings.total = total.filter(|total| total.value.is_positive());
-        if let Some([low, high]) = node.attribute_node("inertiagrouprange").and_then(|own| {
-            self.problems
-                .list("inertiagrouprange", own.value(), own.range_value())
-        }) {
-            let whole = |number: &Number| i64::try_from(number.value.to_integer()).unwrap_or(0);
-            self.settings.groups = [whole(&low), whole(&high)];
-        }
-    }
-
-    fn order(&mut self, node: Node, order: &str) {
-        let turn = |letter: char| {
-            let axis = "xyz".find(letter.to_ascii_lowercase())?;
-            let stays = letter.is_ascii_uppercase();
-            Some(Turn { axis, stays })
-        };
-        let turns: Option<Vec<Turn>> = order.chars().map(turn).collect();
-        match turns.and_then(|turns| <[Turn; 3]>::try_from(turns).ok()) {
-            Some(turns) => self.settings.euler = turns,
-            None => {
-                let message = format!("`eulerseq` is `{order}`");
-                let help =
-                    "three letters of xyz, for axes that turn along, or XYZ, for axes that stay";
-                self.error(node, message, help);
-            }
-        }
-    }
-
-    fn option(&mut self, node: Node<'a, '_>) {
-        if node.has_attribute("gravity") {
-            self.settings.gravity = self.problems.triple(node, "gravity");
-        }
-        let flags = node.children().filter(|child| child.has_tag_name("flag"));
-        for flag in flags.filter_map(|flag| flag.attribute("gravity")) {
-            self.settings.has_gravity = flag != "disable";
         }
         for key in ["density", "viscosity"] {
-            let medium = self.problems.number(node, key);
-            if medium.is_some_and(|medium| !medium.value.is_zero()) {
-                let message = format!("the {key} of the medium is left out");
-                self.difference(node, message, "the arm moves as in a vacuum");
-            }
+            let medium = reader
+                .number(element, key)
+                .filter(|medium| !medium.value.is_zero());
+            medium
+                .iter()
+                .for_each(|medium| reader.problems.say("medium", &medium.at, &[&key]));
         }
     }
 }

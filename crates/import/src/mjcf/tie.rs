@@ -1,83 +1,157 @@
 //! Equalities and tendons: what ties joints or bodies to each other beside the tree.
 
-use std::ops::Range;
+use std::collections::BTreeMap;
 
 use dalembert_model::number::Rational;
 use dalembert_model::robot::values::number;
 use num_traits::{One, Signed, Zero};
-use roxmltree::Node;
 
-use super::{Mjcf, children, within};
-use crate::lock::compare;
+use super::Mjcf;
+use crate::model::{Kind, Mimic, Tie, Tied, Value};
 use crate::problems::instead;
-use crate::urdf::{Mimic, Tie, Tied, Urdf, Value, start_tag};
+use crate::read::added;
+use crate::select::position::compare;
+use crate::text::Span;
+use crate::xml::Element;
 
-impl<'a> Mjcf<'a, '_, '_> {
-    pub(super) fn ties(&mut self, root: Node<'a, '_>, urdf: &mut Urdf) {
-        for node in within(root, "equality") {
-            if node.attribute("active") == Some("false") {
+/// The joints of each fixed tendon, with their coefficients.
+pub(super) type Tendons = BTreeMap<String, Vec<(usize, Rational)>>;
+
+impl Mjcf<'_, '_, '_> {
+    pub(super) fn ties(&mut self, root: &Element) -> Tendons {
+        let mut tendons = Tendons::new();
+        for element in root.all("tendon").flat_map(|part| &part.inside) {
+            let of = element.named(&format!("{} tendon", element.tag));
+            let count = self.reader.problems.count();
+            self.reader.check("tendon", element, &of);
+            if element.tag == "spatial" {
+                let sites = element.all("site").filter_map(|site| site.value("site"));
+                let ends = Tied::Links(sites.map(str::to_owned).collect());
+                self.tie(element, of.clone(), ends);
+            }
+            if element.tag != "fixed" {
                 continue;
             }
-            match node.tag_name().name() {
-                "joint" => self.follower(node, urdf),
-                "connect" | "weld" => links_tied(root, node, urdf),
-                _ => {}
+            let over = self.over(element);
+            match &over[..] {
+                [(joint, coefficient)] => {
+                    self.limiting(element, *joint, coefficient);
+                    let problems = self.reader.problems.since(count);
+                    self.model.joints[*joint].problems.extend(problems);
+                }
+                _ => self.tie(element, of, self.joints_tied(&over)),
             }
+            let name = element.value("name").map(str::to_owned);
+            tendons.extend(name.map(|name| (name, over)));
         }
-        for node in within(root, "tendon") {
-            let part = match node.tag_name().name() {
-                "fixed" => "joint",
-                "spatial" => "site",
-                _ => continue,
-            };
-            let parts: Vec<Node> = children(node, part).collect();
-            if let ("joint", [joint]) = (part, parts.as_slice()) {
-                self.limiting(node, *joint, urdf);
+        for element in root.all("equality").flat_map(|part| &part.inside) {
+            let kind = format!("equality `{}`", element.tag);
+            let of = element.named(if element.tag == "joint" {
+                "equality"
+            } else {
+                &kind
+            });
+            self.reader.check("equality", element, &of);
+            let words = [("true", true), ("false", false)];
+            let is_active = self.reader.word(element, "active", &words);
+            if is_active == Some(false) || self.settings.is_off("equality") {
                 continue;
             }
-            let names = parts.iter().filter_map(|child| child.attribute(part));
-            let names = names.map(str::to_owned).collect();
-            let (word, ends) = match part {
-                "joint" => ("fixed tendon", Tied::Joints(names)),
-                _ => ("spatial tendon", Tied::Links(names)),
+            let ends = match element.tag.as_str() {
+                "joint" => self.follower(element),
+                "connect" | "weld" => Some(self.links_tied(root, element)),
+                "tendon" => {
+                    let names = ["tendon1", "tendon2"].map(|key| element.value(key));
+                    let over = names
+                        .into_iter()
+                        .flatten()
+                        .filter_map(|name| tendons.get(name));
+                    Some(self.joints_tied(&over.flatten().cloned().collect::<Vec<_>>()))
+                }
+                _ => None,
             };
-            urdf.ties.push(tie(node, word, ends));
+            ends.into_iter()
+                .for_each(|ends| self.tie(element, of.clone(), ends));
         }
+        tendons
     }
 
-    fn limiting(&mut self, node: Node<'a, '_>, joint: Node<'a, '_>, urdf: &mut Urdf) {
-        let class = self.class_of(node, "class", 0);
-        let is_limited = self.is_limited(node, class, "limited", "range");
-        let range = is_limited.then(|| self.list::<2>(node, class, "range"));
-        let Some((name, span)) = self.problems.attribute(joint, "joint") else {
-            return;
+    fn tie(&mut self, element: &Element, name: String, ends: Tied) {
+        let at = element.at.clone();
+        self.model.ties.push(Tie { at, name, ends });
+    }
+
+    fn joints_tied(&self, over: &[(usize, Rational)]) -> Tied {
+        let joints = over
+            .iter()
+            .map(|(joint, _)| self.model.joints[*joint].name.clone());
+        Tied::Joints(joints.collect())
+    }
+
+    fn links_tied(&self, root: &Element, element: &Element) -> Tied {
+        let keys = match element.get("site1") {
+            Some(_) => ["site1", "site2"],
+            None => ["body1", "body2"],
         };
-        let coefficient = self.problems.required(joint, "coef");
-        let Some(own) = self.joint_named(name, &span, urdf) else {
-            return;
-        };
-        let own = &mut urdf.joints[own];
-        for key in ["stiffness", "damping", "frictionloss", "armature"] {
-            let left_out = self.number(node, class, key);
-            if left_out.is_some_and(|value| !value.value.is_zero()) {
-                let message = format!("the {key} of the tendon over joint `{name}` is left out");
-                self.difference(node, message, "the torques are those without it");
+        let names = keys.map(|key| element.value(key).unwrap_or("world"));
+        let links = names.map(|name| match self.model.link(name) {
+            Some(_) => name.to_owned(),
+            None => body_of_site(root, name).unwrap_or(name).to_owned(),
+        });
+        Tied::Links(links.into())
+    }
+
+    /// Reads the joints of a fixed tendon.
+    fn over(&mut self, element: &Element) -> Vec<(usize, Rational)> {
+        let over = element.all("joint").filter_map(|path| {
+            let (name, at) = self.reader.required(path, "joint");
+            let coefficient = self.reader.required_number(path, "coef");
+            Some((self.joint_named(&name, &at)?, coefficient.value))
+        });
+        over.collect()
+    }
+
+    /// Adds what a tendon over one joint has to that joint: limits, armature and damping.
+    fn limiting(&mut self, element: &Element, joint: usize, by: &Rational) {
+        let name = self.model.joints[joint].name.clone();
+        let range = self.limits(element, "limited", "range");
+        let armature = self.reader.number(element, "armature");
+        let of = format!("the tendon over joint `{name}`");
+        let damping = self.first_term(element, "damping", &of);
+        for key in ["stiffness", "frictionloss"] {
+            let terms = element
+                .get(key)
+                .and_then(|attribute| self.reader.list(attribute));
+            if terms.is_some_and(|terms| terms.iter().any(|term| !term.value.is_zero())) {
+                self.reader
+                    .problems
+                    .say("of_tendon", &element.at, &[&key, &name]);
             }
         }
-        let Some((Some(mut range), by)) = range.zip(coefficient) else {
+        let square = by * by;
+        let own = &mut self.model.joints[joint];
+        own.armature += armature.map_or_else(Rational::zero, |own| own.value) * &square;
+        let damping = damping.filter(|own| !own.value.is_zero() && !self.settings.is_off("damper"));
+        if let Some(damping) = damping {
+            own.damping = Some(added(
+                own.damping.take(),
+                damping.map(|value| value * square),
+            ));
+        }
+        let Some(mut range) = range.filter(|_| !by.is_zero()) else {
             return;
         };
-        if by.value.is_zero() {
-            return;
-        }
-        if by.value.is_negative() {
+        if by.is_negative() {
             range.reverse();
         }
-        let (kind, is_one) = (own.kind, by.value.is_one());
         let [low, high] = range.map(|end| {
-            let value = end.value / &by.value;
-            let text = if is_one { end.text } else { number(&value) };
-            Value::new(kind.position(value), text, &end.span)
+            let value = end.value / by;
+            let text = if by.is_one() {
+                end.text
+            } else {
+                number(&value)
+            };
+            Value::new(own.kind.position(value), text, &end.at)
         });
         let mut position = own.position.take().unwrap_or([low.clone(), high.clone()]);
         if compare(&low.value, &position[0].value).is_gt() {
@@ -87,104 +161,62 @@ impl<'a> Mjcf<'a, '_, '_> {
             position[1] = high;
         }
         if compare(&position[0].value, &position[1].value).is_gt() {
-            let message = format!("the tendon leaves joint `{name}` no position within its limits");
-            let help = "range=\"lowest highest\" of coef times the position";
-            self.error(node, message, help);
+            self.reader
+                .problems
+                .say("tendon_leaves_nothing", &element.at, &[&name]);
         }
         own.position = Some(position);
     }
 
-    fn joint_named(&mut self, name: &str, span: &Range<usize>, urdf: &Urdf) -> Option<usize> {
-        let found = urdf.joints.iter().position(|joint| joint.name == name);
-        found.or_else(|| {
-            let message = format!("there is no joint `{name}`");
-            let help = instead(name, &urdf.names[1]);
-            self.problems.refuse(span, message, &help)
-        })
+    pub(super) fn joint_named(&mut self, name: &str, at: &Span) -> Option<usize> {
+        let joints = || self.model.joints.iter();
+        let found = joints().position(|joint| joint.name == name);
+        if found.is_none() {
+            let moving = joints().filter(|joint| joint.kind != Kind::Fixed);
+            let help = instead(name, moving.map(|joint| &joint.name));
+            self.reader.problems.say("no_joint", at, &[&name, &help]);
+        }
+        found
     }
 
-    fn follower(&mut self, node: Node<'a, '_>, urdf: &mut Urdf) {
-        let place = |this: &mut Self, key: &str| {
-            let (name, span) = this.problems.attribute(node, key)?;
-            this.joint_named(name, &span, urdf)
+    /// Reads a joint that follows another; returns one that stands still.
+    fn follower(&mut self, element: &Element) -> Option<Tied> {
+        let (name, at) = self.reader.required(element, "joint1");
+        let own = self.joint_named(&name, &at)?;
+        let Some(leader) = element.get("joint2") else {
+            return Some(Tied::Joints(vec![name]));
         };
-        let Some(own) = place(self, "joint1") else {
-            return;
-        };
-        let has_other = node.has_attribute("joint2");
-        let other = has_other.then(|| place(self, "joint2")).flatten();
-        let name = urdf.joints[own].name.clone();
-        let Some(other) = other else {
-            // It stays where it is.
-            urdf.ties
-                .push(tie(node, "equality", Tied::Joints(vec![name])));
-            return;
-        };
-        let Some(terms) = self.polynomial(node) else {
-            return;
-        };
-        // Both are counted from where the model has them at first.
-        let [start, from] = [own, other].map(|joint| &urdf.joints[joint].start);
+        let other = self.joint_named(&leader.value, &leader.at)?;
+        let mut terms = vec![Rational::zero(); 5];
+        terms[1] = Rational::one();
+        if let Some(given) = element.get("polycoef") {
+            let numbers = self.reader.list(given)?;
+            if numbers.len() > terms.len() {
+                return self.reader.problems.refuse("polycoef", &given.at, &[]);
+            }
+            let given = terms.iter_mut().zip(numbers);
+            given.for_each(|(term, number)| *term = number.value);
+        }
+        // Both are counted from their positions in the model's first pose.
+        let [start, from] = [own, other].map(|joint| &self.model.joints[joint].start);
         let is_line = terms[2..].iter().all(Zero::is_zero);
         let line = is_line.then(|| {
             let [offset, multiplier] = [&terms[0], &terms[1]];
             [multiplier.clone(), start + offset - multiplier * from]
         });
-        urdf.joints[own].mimic = Some(Mimic {
-            joint: urdf.joints[other].name.clone(),
-            span: start_tag(node),
+        self.model.joints[own].mimic = Some(Mimic {
+            leader: leader.value.clone(),
+            at: element.at.clone(),
             line,
         });
-    }
-
-    fn polynomial(&mut self, node: Node<'a, '_>) -> Option<Vec<Rational>> {
-        let mut terms = vec![Rational::zero(); 5];
-        terms[1] = Rational::one();
-        let Some(own) = node.attribute_node("polycoef") else {
-            return Some(terms);
-        };
-        let words = own.value().split_ascii_whitespace();
-        if words.clone().count() > terms.len() {
-            let message = "`polycoef` has more than 5 numbers";
-            let help = "polycoef=\"0 1 0 0 0\" is the same as the other joint";
-            return self.problems.refuse(&own.range_value(), message, help);
-        }
-        for (term, word) in terms.iter_mut().zip(words) {
-            *term = self.problems.parse(word, own.range_value())?.value;
-        }
-        Some(terms)
+        None
     }
 }
 
-fn links_tied(root: Node, node: Node, urdf: &mut Urdf) {
-    let keys = match node.has_attribute("site1") {
-        true => ["site1", "site2"],
-        false => ["body1", "body2"],
-    };
-    let names = keys.map(|key| node.attribute(key).unwrap_or("world"));
-    let links = names.map(|name| match urdf.names[0].contains(name) {
-        true => name.to_owned(),
-        false => body_of_site(root, name).unwrap_or(name).to_owned(),
-    });
-    let word = format!("equality `{}`", node.tag_name().name());
-    urdf.ties.push(tie(node, &word, Tied::Links(links.into())));
-}
-
-fn body_of_site<'a>(root: Node<'a, '_>, name: &str) -> Option<&'a str> {
-    let mut sites = root.descendants().filter(|node| node.has_tag_name("site"));
-    let site = sites.find(|site| site.attribute("name") == Some(name))?;
-    let mut bodies = site.ancestors().filter(|node| node.has_tag_name("body"));
-    bodies.next()?.attribute("name")
-}
-
-fn tie(node: Node, word: &str, ends: Tied) -> Tie {
-    let name = match node.attribute("name") {
-        Some(name) => format!("{word} `{name}`"),
-        None => word.to_owned(),
-    };
-    Tie {
-        span: start_tag(node),
-        name,
-        ends,
-    }
+/// Returns the body of a site that is not a link, since a body has its name.
+fn body_of_site<'e>(element: &'e Element, name: &str) -> Option<&'e str> {
+    let is_it = |site: &&Element| site.value("name") == Some(name);
+    let mut inside = element.inside.iter();
+    let inside = inside.find(|inside| inside.all_inside("site").iter().any(is_it))?;
+    body_of_site(inside, name).or(inside.value("name"))
 }

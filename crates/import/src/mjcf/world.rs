@@ -2,28 +2,43 @@
 
 use std::collections::BTreeSet;
 
-use roxmltree::Node;
+use dalembert_model::number::Rational;
+use num_traits::Zero;
 
+use super::Mjcf;
 use super::joint::fixed;
-use super::pose::Pose;
-use super::{Mjcf, children};
-use crate::urdf::{Joint, Kind, Link, MAX_LINKS, Role, Unread, Urdf, start_tag};
+use crate::bounds::massless;
+use crate::model::{Joint, Kind, Link, MAX_LINKS, Role};
+use crate::orientation::Pose;
+use crate::text::Span;
+use crate::xml::Element;
 
 const MADE_ELSEWHERE: [&str; 4] = ["replicate", "composite", "flexcomp", "attach"];
+/// The elements of a body that are checked where they are read.
+const READ_APART: [&str; 7] = [
+    "body",
+    "frame",
+    "joint",
+    "freejoint",
+    "geom",
+    "site",
+    "inertial",
+];
 
-pub(super) struct Item<'a, 'd> {
-    pub(super) node: Node<'a, 'd>,
-    pub(super) class: usize,
-    /// The frames' pose in the body.
+/// An element of a body.
+pub(super) struct Item<'e> {
+    pub(super) element: &'e Element,
+    /// The pose of the frames around it, in the body.
     pub(super) frame: Pose,
 }
 
-/// A body, and the link that it hangs on.
-type Open<'a, 'd> = (Item<'a, 'd>, String);
+/// The names that are taken.
+struct Names {
+    links: BTreeSet<String>,
+    joints: BTreeSet<String>,
+}
 
-type Names = BTreeSet<String>;
-
-fn fresh(names: &mut Names, wish: String) -> String {
+fn fresh(names: &mut BTreeSet<String>, wish: String) -> String {
     let mut name = wish.clone();
     let mut count = names.len();
     while !names.insert(name.clone()) {
@@ -33,124 +48,153 @@ fn fresh(names: &mut Names, wish: String) -> String {
     name
 }
 
-impl<'a> Mjcf<'a, '_, '_> {
-    pub(super) fn world(&mut self, root: Node<'a, '_>, urdf: &mut Urdf) -> Option<()> {
-        let world = link("world".to_owned(), urdf.span.clone());
-        urdf.links.push(world);
-        let identity = Pose::identity(urdf.span.clone());
-        let mut open = Vec::new();
-        for part in children(root, "worldbody") {
-            let class = self.class_of(part, "childclass", 0);
-            open.extend(bodies(self.items(part, class, &identity), "world"));
-        }
-        open.reverse();
-        let given = |kind: &'static str| {
-            let nodes = root.descendants();
-            let nodes = nodes.filter(move |node| node.has_tag_name(kind));
-            nodes.filter_map(|node| node.attribute("name").map(str::to_owned))
+impl Mjcf<'_, '_, '_> {
+    pub(super) fn world(&mut self, root: &Element) -> Option<()> {
+        let at = root.at.clone();
+        self.model.links.push(link("world".to_owned(), &at));
+        let names = |tags: &[&'static str]| {
+            let elements = tags.iter().flat_map(|tag| root.all_inside(tag));
+            let names = elements.filter_map(|element| element.value("name"));
+            names.map(str::to_owned).collect::<BTreeSet<String>>()
         };
-        // Names that the file gives are not given to what has none.
-        let mut links: Names = given("body").chain(["world".to_owned()]).collect();
-        let mut joints: Names = given("joint").chain(given("freejoint")).collect();
-        while let Some(next) = open.pop() {
-            let own = self.body(next, urdf, &mut links, &mut joints);
-            open.extend(own.into_iter().rev());
-            let (what, count) = ("bodies, sites and weights", urdf.links.len());
-            if !self.problems.are_few(&urdf.span, what, count, MAX_LINKS) {
+        // Names that the file gives are not given to elements without one.
+        let mut names = Names {
+            links: names(&["body"]),
+            joints: names(&["joint", "freejoint"]),
+        };
+        names.links.insert("world".to_owned());
+        let (mut open, mut made) = (Vec::new(), Vec::new());
+        for part in root.all("worldbody") {
+            self.reader
+                .check_inside("mujoco", part, "the world", is_apart_from_bodies);
+            let items = self.items(part);
+            made.extend(
+                items
+                    .iter()
+                    .filter(|item| is_made_elsewhere(item))
+                    .map(|item| item.element),
+            );
+            open.extend(bodies(items, "world"));
+        }
+        let id = if open.is_empty() {
+            "made_for_all"
+        } else {
+            "made_elsewhere"
+        };
+        made.iter()
+            .for_each(|made| self.reader.problems.say(id, &made.at, &[&made.tag]));
+        open.reverse();
+        while let Some((item, on)) = open.pop() {
+            let inside = self.body(&item, on, &mut names);
+            open.extend(inside.into_iter().rev());
+            let (what, count) = ("bodies, sites and weights", self.model.links.len());
+            if !self.reader.are_few(&at, what, count, MAX_LINKS) {
                 return None;
             }
         }
-        if urdf.links.len() == 1 {
-            let help = "<worldbody> has a <body> for every link";
-            self.error(root, "there are no bodies".to_owned(), help);
-            return None;
+        if self.model.links.len() == 1 {
+            return self.reader.problems.refuse("no_bodies", &at, &[]);
         }
         self.say_weightless(root);
-        let links = urdf.links.iter().map(|link| (&link.name, &link.span));
-        let moving = urdf.joints.iter().filter(|joint| joint.kind != Kind::Fixed);
-        let moving = moving.map(|joint| (&joint.name, &joint.span));
-        self.problems.unique("body", links.clone());
-        self.problems.unique("joint", moving.clone());
-        urdf.names = [
-            links.map(|(name, _)| name.clone()).collect(),
-            moving.map(|(name, _)| name.clone()).collect(),
-        ];
+        let links = self.model.links.iter().map(|link| (&link.name, &link.at));
+        self.reader.unique("body", links);
+        let moving = self
+            .model
+            .joints
+            .iter()
+            .filter(|joint| joint.kind != Kind::Fixed);
+        self.reader
+            .unique("joint", moving.map(|joint| (&joint.name, &joint.at)));
         Some(())
     }
 
-    fn say_weightless(&mut self, root: Node<'a, '_>) {
-        let bodies = root.descendants().filter(|node| node.has_tag_name("body"));
-        let mut held =
-            bodies.filter(|body| body.attribute("gravcomp").is_some_and(|part| part != "0"));
-        if let Some(first) = held.next() {
-            let message = format!("`gravcomp` of {} bodies is left out", 1 + held.count());
-            let help = "the joints carry their weight: the load that holds it up is `gravity`";
-            self.difference(first, message, help);
+    fn say_weightless(&mut self, root: &Element) {
+        let held = root
+            .all_inside("body")
+            .into_iter()
+            .filter_map(|body| body.get("gravcomp"));
+        let held: Vec<_> = held.filter(|part| part.value != "0").collect();
+        if let Some(first) = held.first() {
+            self.reader
+                .problems
+                .say("weightless", &first.at, &[&held.len()]);
         }
     }
 
-    fn items<'d>(&mut self, body: Node<'a, 'd>, class: usize, at: &Pose) -> Vec<Item<'a, 'd>> {
+    /// Returns the elements of a body, those inside of frames too.
+    fn items<'e>(&mut self, body: &'e Element) -> Vec<Item<'e>> {
         let mut items = Vec::new();
-        let mut open: Vec<(Node, usize, Pose)> = vec![(body, class, at.clone())];
-        while let Some((node, mut class, mut frame)) = open.pop() {
-            if node != body && !node.has_tag_name("frame") {
-                items.push(Item { node, class, frame });
+        let inside = |element: &'e Element, frame: &Pose| {
+            let inside = element.inside.iter().rev();
+            let items = inside.map(|element| Item {
+                element,
+                frame: frame.clone(),
+            });
+            items.collect::<Vec<_>>()
+        };
+        let mut open = inside(body, &Pose::identity(body.at.clone()));
+        while let Some(item) = open.pop() {
+            if item.element.tag != "frame" {
+                items.push(item);
                 continue;
             }
-            if node != body {
-                class = self.class_of(node, "childclass", class);
-                let own = self.pose(node, class);
-                frame = own.map_or(frame.clone(), |own| frame.then(&own));
-            }
-            let children: Vec<Node> = node.children().filter(Node::is_element).collect();
-            let inside = children.into_iter().rev();
-            open.extend(inside.map(|child| (child, class, frame.clone())));
+            self.reader
+                .check_attributes("body", item.element, "a frame");
+            self.reader
+                .check_inside("body", item.element, "a frame", is_apart_from_bodies);
+            let pose = self.pose(item.element);
+            open.extend(inside(item.element, &item.frame.then(&pose)));
         }
         items
     }
 
-    fn body<'d>(
+    /// Adds a body with its joints, weights and sites; returns the bodies on it.
+    fn body<'e>(
         &mut self,
-        open: Open<'a, 'd>,
-        urdf: &mut Urdf,
-        links: &mut Names,
-        joints: &mut Names,
-    ) -> Vec<Open<'a, 'd>> {
-        let (Item { node, class, frame }, on) = open;
-        let class = self.class_of(node, "childclass", class);
-        let span = start_tag(node);
-        let name = match node.attribute("name") {
-            Some(name) => name.to_owned(),
-            None => fresh(links, "body".to_owned()),
+        item: &Item<'e>,
+        on: String,
+        names: &mut Names,
+    ) -> Vec<(Item<'e>, String)> {
+        let element = item.element;
+        let name = match element.get("name") {
+            Some(name) => name.value.clone(),
+            None => fresh(&mut names.links, "body".to_owned()),
         };
-        let identity = Pose::identity(span.clone());
-        let own = self.pose(node, class).unwrap_or(identity.clone());
-        let items = self.items(node, class, &identity);
-        let mut link = link(name.clone(), span.clone());
+        let of = format!("body `{name}`");
+        let count = self.reader.problems.count();
+        self.reader.check_attributes("body", element, &of);
+        self.reader
+            .check_inside("body", element, &of, is_apart_from_bodies);
+        let pose = item.frame.then(&self.pose(element));
+        let items = self.items(element);
+        let mut link = link(name.clone(), &element.at);
+        link.problems = self.reader.problems.since(count);
         let solids = self.mass(&items, &mut link);
-        for part in &items {
-            let word = part.node.tag_name().name();
-            if MADE_ELSEWHERE.contains(&word) {
-                link.unread.push(Unread {
-                    span: start_tag(part.node),
-                    message: format!("<{word}> on body `{name}` is not read"),
-                    help: "save the model by MuJoCo's mj_saveLastXML, which writes it out",
-                });
-            }
+        for part in items.iter().filter(|item| is_made_elsewhere(item)) {
+            let Element { tag, at, .. } = part.element;
+            self.reader.problems.say("made_on_body", at, &[tag, &of]);
         }
-        urdf.links.push(link);
-        self.joints_of(&name, on, &frame.then(&own), &items, urdf, [links, joints]);
+        link.problems.extend(self.reader.problems.since(count));
+        if self.settings.bounds.bound_bodies() && link.inertial.is_none() && solids.is_empty() {
+            // Without the frames around it, which are part of the joint's origin.
+            link.inertial = Some(massless(self.reader.vector(element, "pos")));
+        }
+        self.model.links.push(link);
+        self.joints_of(&name, on, pose, &items, names);
+        let identity = Pose::identity(element.at.clone());
         for (index, solid) in solids.into_iter().enumerate() {
-            let part = fresh(links, format!("{name}, geom {}", index + 1));
-            urdf.joints.push(fixed([&name, &part], &span, &identity));
-            urdf.links.push(Link {
+            let part = fresh(&mut names.links, format!("{name}, geom {}", index + 1));
+            self.model
+                .joints
+                .push(fixed([&name, &part], &element.at, &identity));
+            self.model.links.push(Link {
                 inertial: Some(solid),
                 role: Role::Mark,
-                ..self::link(part, span.clone())
+                ..self::link(part, &element.at)
             });
         }
-        for site in items.iter().filter(|item| item.node.has_tag_name("site")) {
-            self.site(site, &name, urdf, links);
+        for site in items.iter().filter(|item| item.element.tag == "site") {
+            self.site(site, &name, names);
         }
         bodies(items, &name)
     }
@@ -159,80 +203,93 @@ impl<'a> Mjcf<'a, '_, '_> {
         &mut self,
         body: &str,
         mut on: String,
-        at: &Pose,
-        items: &[Item<'a, '_>],
-        urdf: &mut Urdf,
-        [links, joints]: [&mut Names; 2],
+        mut at: Pose,
+        items: &[Item],
+        names: &mut Names,
     ) {
-        let is_joint = |item: &&Item| ["joint", "freejoint"].contains(&item.node.tag_name().name());
-        let mut at = at.clone();
+        let is_joint = |item: &&Item| ["joint", "freejoint"].contains(&item.element.tag.as_str());
         let own: Vec<&Item> = items.iter().filter(is_joint).collect();
         for (index, item) in own.iter().enumerate() {
-            let name = item.node.attribute("name").map(str::to_owned);
-            let name = name.unwrap_or_else(|| fresh(joints, format!("{body}_joint")));
-            let Some((joint, anchor)) = self.joint(item, name, &at) else {
-                continue;
-            };
-            let shift = anchor.each_ref().map(|x| -x);
-            at = Pose::identity(joint.span.clone()).shift(&shift);
-            let is_last = index + 1 == own.len() && anchor.iter().all(num_traits::Zero::is_zero);
+            let name = item.element.get("name").map(|name| name.value.clone());
+            let name = name.unwrap_or_else(|| fresh(&mut names.joints, format!("{body}_joint")));
+            let (joint, anchor) = self.joint(item, name, &at);
+            let back = anchor.each_ref().map(|x| -x);
+            at = Pose::identity(joint.at.clone()).shift(&back);
+            let is_last = index + 1 == own.len() && anchor.iter().all(Rational::is_zero);
             let child = match is_last {
                 true => body.to_owned(),
                 false => {
-                    let name = fresh(links, format!("{body}, {}", joint.name));
-                    urdf.links.push(Link {
+                    let name = fresh(&mut names.links, format!("{body}, {}", joint.name));
+                    self.model.links.push(Link {
                         role: Role::Between,
-                        ..link(name.clone(), joint.span.clone())
+                        ..link(name.clone(), &joint.at)
                     });
                     name
                 }
             };
-            let span = joint.span.clone();
-            urdf.joints.push(Joint {
-                parent: (std::mem::replace(&mut on, child.clone()), span.clone()),
-                child: (child, span),
+            let place = joint.at.clone();
+            self.model.joints.push(Joint {
+                parent: (std::mem::replace(&mut on, child.clone()), place.clone()),
+                child: (child, place),
                 ..joint
             });
         }
         if on != body {
-            let span = urdf.links.iter().find(|link| link.name == body);
-            let span = span.map_or(0..0, |link| link.span.clone());
-            urdf.joints.push(fixed([&on, body], &span, &at));
+            let link = self.model.links.iter().find(|link| link.name == body);
+            let place = link.map_or(0..0, |link| link.at.clone());
+            self.model.joints.push(fixed([&on, body], &place, &at));
         }
     }
 
-    /// A site that is called as a body is left out.
-    fn site(&mut self, item: &Item<'a, '_>, body: &str, urdf: &mut Urdf, links: &mut Names) {
-        let class = self.class_of(item.node, "class", item.class);
-        let Some(name) = item.node.attribute("name") else {
+    /// Adds a site with a name, unless a body has the same.
+    fn site(&mut self, item: &Item, body: &str, names: &mut Names) {
+        let element = item.element;
+        let name = element.get("name").map(|name| name.value.clone());
+        let count = self.reader.problems.count();
+        self.reader.check("body", element, "a site");
+        let Some(name) = name else {
             return;
         };
-        let Some(own) = self.pose(item.node, class) else {
-            return;
+        let pose = match element
+            .get("fromto")
+            .and_then(|_| self.between(element, -1))
+        {
+            Some((pose, _)) => pose,
+            None => self.pose(element),
         };
-        if !links.insert(name.to_owned()) {
+        let problems = self.reader.problems.since(count);
+        if !names.links.insert(name.clone()) {
             return;
         }
-        let span = start_tag(item.node);
-        let at = item.frame.then(&own);
-        urdf.joints.push(fixed([body, name], &span, &at));
-        urdf.links.push(Link {
+        let at = item.frame.then(&pose);
+        self.model
+            .joints
+            .push(fixed([body, &name], &element.at, &at));
+        self.model.links.push(Link {
             role: Role::Mark,
-            ..link(name.to_owned(), span)
+            problems,
+            ..link(name, &element.at)
         });
     }
 }
 
-fn bodies<'a, 'd>(items: Vec<Item<'a, 'd>>, on: &str) -> Vec<Open<'a, 'd>> {
-    let bodies = items.into_iter();
-    let bodies = bodies.filter(|item| item.node.has_tag_name("body"));
+fn is_apart_from_bodies(element: &Element) -> bool {
+    !READ_APART.contains(&element.tag.as_str())
+}
+
+fn is_made_elsewhere(item: &Item) -> bool {
+    MADE_ELSEWHERE.contains(&item.element.tag.as_str())
+}
+
+fn bodies<'e>(items: Vec<Item<'e>>, on: &str) -> Vec<(Item<'e>, String)> {
+    let bodies = items.into_iter().filter(|item| item.element.tag == "body");
     bodies.map(|item| (item, on.to_owned())).collect()
 }
 
-fn link(name: String, span: std::ops::Range<usize>) -> Link {
+fn link(name: String, at: &Span) -> Link {
     Link {
         name,
-        span,
+        at: at.clone(),
         ..Link::default()
     }
 }

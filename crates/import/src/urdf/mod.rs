@@ -1,192 +1,232 @@
-//! What a URDF says: links, joints, and the rotors of transmissions.
-//!
-//! Shapes, materials and sensors are not looked at, nor is what simulators add.
+//! A URDF as a model. Where a value is wrong, the default of the format stands in its place.
 
 mod joint;
-mod link;
-mod number;
 
-use std::collections::BTreeSet;
-use std::ops::Range;
+use crate::bounds::Bounds;
+use crate::model::{Inertial, Joint, Link, MAX_LINKS, Model, Number, Origin, Role, Tie, Tied};
+use crate::orientation::{Pose, of_quaternion};
+use crate::read::Reader;
+use crate::xml::Element;
+use dalembert_model::number::Angle;
+use dalembert_model::robot::Inertia;
+use joint::{joint, transmission};
 
-use roxmltree::{Document, Node};
+/// Elements that close a loop of links.
+const LOOPS: [&str; 5] = [
+    "loop_joint",
+    "loop",
+    "coupling",
+    "drake:ball_constraint",
+    "pin",
+];
+/// The parts of a file that are checked where they are read.
+const READ_APART: [&str; 4] = ["link", "joint", "transmission", "gazebo"];
 
-use crate::problems::Problems;
-
-pub(crate) use joint::{Joint, Kind, Mimic};
-pub(crate) use link::{Inertial, Link, Role, Unread};
-pub(crate) use number::{Number, Origin, Value, constant, positive};
-
-pub(crate) const MAX_LINKS: usize = 1024;
-
-/// A URDF, every joint with a parent and a child that there are.
-#[derive(Clone, Debug)]
-pub(crate) struct Urdf {
-    pub(crate) name: String,
-    pub(crate) span: Range<usize>,
-    pub(crate) links: Vec<Link>,
-    pub(crate) joints: Vec<Joint>,
-    /// The names of all links and of all joints, those that cannot be read included.
-    pub(crate) names: [BTreeSet<String>; 2],
-    /// Gravity in the axes of the root, where the file says it.
-    pub(crate) gravity: Option<[Number; 3]>,
-    pub(crate) ties: Vec<Tie>,
-}
-
-#[derive(Clone, Debug)]
-pub(crate) struct Tie {
-    pub(crate) span: Range<usize>,
-    /// As messages call it: ``the fixed tendon `split` ``.
-    pub(crate) name: String,
-    pub(crate) ends: Tied,
-}
-
-#[derive(Clone, Debug)]
-pub(crate) enum Tied {
-    /// Joints, none of which moves by itself.
-    Joints(Vec<String>),
-    Links(Vec<String>),
-}
-
-impl Urdf {
-    /// From the root outwards, each branch to its ends before the next in the file.
-    pub(crate) fn moving(&self) -> Vec<usize> {
-        let joints = || self.joints.iter().enumerate().rev();
-        let is_root = |link: &str| self.joints.iter().all(|joint| joint.child.0 != link);
-        let roots = joints().filter(|(_, joint)| is_root(&joint.parent.0));
-        let mut open: Vec<(usize, &Joint)> = roots.collect();
-        let (mut seen, mut moving) = (BTreeSet::new(), Vec::new());
-        while let Some((place, joint)) = open.pop() {
-            if seen.insert(place) {
-                moving.extend((joint.kind != Kind::Fixed).then_some(place));
-                open.extend(joints().filter(|(_, next)| next.parent.0 == joint.child.0));
-            }
-        }
-        moving
+pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
+    let help = match root.tag.as_str() {
+        "robot" => "",
+        "mujocoinclude" => "this is a part of an MJCF: give the file that includes it",
+        "sdf" => "this is SDF, which is not read: take the URDF that it was made from",
+        _ => "a URDF begins with <robot name=\"arm\">, MJCF with <mujoco>",
+    };
+    if !help.is_empty() {
+        return reader
+            .problems
+            .refuse("not_a_model", &root.at, &[&root.tag, &help]);
     }
-
-    /// Finds a joint by its name, or by its number, from 1, among those that move.
-    pub(crate) fn joint(&self, name: &str) -> Option<usize> {
-        let named = self.joints.iter().position(|joint| joint.name == name);
-        named.or_else(|| {
-            let number: usize = name.parse().ok()?;
-            self.moving().get(number.checked_sub(1)?).copied()
-        })
-    }
-
-    pub(crate) fn untie(&mut self, problems: &mut Problems) {
-        let mut ties: Vec<(Range<usize>, String)> = Vec::new();
-        ties.extend(self.ties.drain(..).map(|tie| (tie.span, tie.name)));
-        for joint in &mut self.joints {
-            if let Some(mimic) = joint.mimic.take_if(|mimic| mimic.line.is_none()) {
-                let name = format!("the equality of joint `{}`", joint.name);
-                ties.push((mimic.span, name));
-            }
-        }
-        let Some((first, _)) = ties.first() else {
-            return;
-        };
-        let names: Vec<&str> = ties.iter().map(|(_, name)| name.as_str()).collect();
-        let names = names.join(", ");
-        let message = format!("what ties joints and links is ignored: {names}");
-        let help = "the torques are those of the chain without it";
-        problems.difference(first, message, help);
-    }
-}
-
-pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf> {
-    let root = document.root_element();
-    let span = start_tag(root);
-    if let Some(help) = other_format(root) {
-        let message = format!("<{}> is no URDF", root.tag_name().name());
-        return problems.refuse(&span, message, help);
-    }
-    let elements = |name: &'static str| root.children().filter(move |node| node.has_tag_name(name));
-    let links = elements("link").filter_map(|node| problems.link(node));
-    let links: Vec<Link> = links.collect();
-    let joints = elements("joint").filter_map(|node| problems.joint(node));
-    let mut joints: Vec<Joint> = joints.collect();
-    for node in elements("transmission") {
-        problems.transmission(node, &mut joints);
-    }
-    problems.unique("link", links.iter().map(|link| (&link.name, &link.span)));
-    let names = joints.iter().map(|joint| (&joint.name, &joint.span));
-    problems.unique("joint", names);
-    for (what, count) in [("links", links.len()), ("joints", joints.len())] {
-        if !problems.are_few(&span, what, count, MAX_LINKS) {
+    reader.check_attributes("", root, "the robot");
+    let mut model = Model {
+        format: "a URDF",
+        name: root.value("name").unwrap_or("arm").to_owned(),
+        at: root.at.clone(),
+        links: root
+            .all("link")
+            .map(|element| link(element, reader))
+            .collect(),
+        joints: root
+            .all("joint")
+            .map(|element| joint(element, reader))
+            .collect(),
+        ..Model::default()
+    };
+    for (what, count) in [("links", model.links.len()), ("joints", model.joints.len())] {
+        if !reader.are_few(&root.at, what, count, MAX_LINKS) {
             return None;
         }
     }
-    if links.is_empty() {
-        let help = "a URDF has a <link> for every body";
-        return problems.refuse(&span, "there are no links", help);
+    if model.links.is_empty() {
+        return reader.problems.refuse("no_links", &root.at, &[]);
     }
-    let names = ["link", "joint"].map(|kind| {
-        let names = elements(kind).filter_map(|node| node.attribute("name"));
-        names.map(str::to_owned).collect()
+    root.all("frame")
+        .for_each(|element| frame(element, &mut model, reader));
+    reader.unique(
+        "link",
+        model.links.iter().map(|link| (&link.name, &link.at)),
+    );
+    reader.unique(
+        "joint",
+        model.joints.iter().map(|joint| (&joint.name, &joint.at)),
+    );
+    model.resolve(reader.problems);
+    let transmissions = root.all("transmission");
+    transmissions.for_each(|element| transmission(element, &mut model.joints, reader));
+    root.all("gazebo")
+        .for_each(|element| gazebo(element, &mut model, reader));
+    let enter = |inside: &Element| !READ_APART.contains(&inside.tag.as_str());
+    reader.check_inside("", root, "the robot", enter);
+    let loops = LOOPS.into_iter().flat_map(|tag| root.all_inside(tag));
+    model.ties = loops.map(|element| tie(element, &model)).collect();
+    let mut bounds = Bounds::default();
+    for settings in root.all("mujoco") {
+        settings
+            .all("compiler")
+            .for_each(|compiler| bounds.read(compiler, reader));
+        for option in settings.all("option") {
+            model.gravity = reader.numbers(option, "gravity").or(model.gravity.take());
+        }
+    }
+    bounds.apply(&mut model, reader);
+    Some(model)
+}
+
+fn link(element: &Element, reader: &mut Reader) -> Link {
+    let (name, _) = reader.required(element, "name");
+    let count = reader.problems.count();
+    reader.check("robot", element, &format!("link `{name}`"));
+    let inertial = only(element, "inertial", reader);
+    Link {
+        at: element.at.clone(),
+        inertial: inertial.and_then(|inertial| self::inertial(inertial, &name, reader)),
+        name,
+        problems: reader.problems.since(count),
+        ..Link::default()
+    }
+}
+
+/// Returns the first element of a tag, which is the one that counts.
+fn only<'e>(element: &'e Element, tag: &'e str, reader: &mut Reader) -> Option<&'e Element> {
+    if let Some(second) = element.all(tag).nth(1) {
+        reader.problems.say("second", &second.at, &[&tag]);
+    }
+    element.first(tag)
+}
+
+fn inertial(element: &Element, link: &str, reader: &mut Reader) -> Option<Inertial> {
+    let [mass, inertia] = ["mass", "inertia"].map(|tag| {
+        let found = element.first(tag);
+        if found.is_none() {
+            reader
+                .problems
+                .say("no_inertial_part", &element.at, &[&link, &tag]);
+        }
+        found
     });
-    Some(Urdf {
-        name: root.attribute("name").unwrap_or("arm").to_owned(),
-        span,
-        links,
-        joints,
-        names,
-        gravity: None,
-        ties: Vec::new(),
+    let origin = origin(element, reader);
+    let mass = mass.map(|mass| reader.required_number(mass, "value"));
+    let what = format!("the mass of link `{link}`");
+    reader.not_negative(mass.as_ref(), &what, "a mass is zero or more, in kg");
+    let keys = ["ixx", "iyy", "izz", "ixy", "iyz", "ixz"];
+    let tensor = inertia.map(|inertia| keys.map(|key| reader.required_number(inertia, key)));
+    let inertia = Inertia::of(tensor?);
+    Some(Inertial {
+        origin,
+        mass: mass?,
+        inertia,
     })
 }
 
-fn other_format(root: Node) -> Option<&'static str> {
-    match root.tag_name().name() {
-        "robot" => None,
-        "mujocoinclude" => Some("this is a part of an MJCF: give the file that includes it"),
-        "sdf" => Some("this is SDF, which is not read: take the URDF that it was made from"),
-        _ => Some("a URDF begins with <robot name=\"arm\">, MJCF with <mujoco>"),
+/// Reads where something is: roll, pitch and yaw, or the quaternion of URDF 1.1.
+fn origin(element: &Element, reader: &mut Reader) -> Origin {
+    let none = Element {
+        tag: "origin".to_owned(),
+        at: element.at.clone(),
+        ..Element::default()
+    };
+    let origin = only(element, "origin", reader).unwrap_or(&none);
+    let xyz = reader.vector(origin, "xyz");
+    let Some(quaternion) = origin.get("quat_xyzw") else {
+        return rolled(xyz, reader.vector(origin, "rpy"));
+    };
+    if let Some(rpy) = origin.get("rpy") {
+        reader
+            .problems
+            .say("two_orientations", &rpy.at, &[&"rpy` and by `quat_xyzw"]);
+    }
+    let numbers = reader.numbers(origin, "quat_xyzw");
+    match numbers.map(|[x, y, z, w]| of_quaternion(&[w, x, y, z])) {
+        Some(Some(turned)) => return Pose::of(xyz, turned, &quaternion.at).origin(),
+        Some(None) => reader
+            .problems
+            .say("orientation_of_zero", &quaternion.at, &[&"quat_xyzw"]),
+        None => {}
+    }
+    Origin {
+        xyz,
+        ..Origin::default()
     }
 }
 
-impl Problems<'_> {
-    pub(crate) fn are_few(
-        &mut self,
-        span: &Range<usize>,
-        what: &str,
-        count: usize,
-        few: usize,
-    ) -> bool {
-        if count > few {
-            let message = format!("there are {count} {what}, more than {few}");
-            let help = "is this a robot? cut out the arm";
-            self.error(span, message, help);
-        }
-        count <= few
-    }
-
-    pub(crate) fn unique<'n>(
-        &mut self,
-        what: &str,
-        names: impl Iterator<Item = (&'n String, &'n Range<usize>)>,
-    ) {
-        let mut seen = BTreeSet::new();
-        for (name, span) in names {
-            if !seen.insert(name) {
-                let message = format!("there is a {what} `{name}` already");
-                let help = "names tell them apart: give it another";
-                self.error(span, message, help);
-            }
-        }
+fn rolled(xyz: [Number; 3], rpy: [Number; 3]) -> Origin {
+    let rpy = rpy.map(|number| number.map(|value| Angle::Radians(value).canonical()));
+    Origin {
+        xyz,
+        rpy,
+        meant: None,
     }
 }
 
-pub(crate) fn start_tag(node: Node) -> Range<usize> {
-    let range = node.range();
-    let source = node.document().input_text();
-    let text = source.get(range.clone()).unwrap_or_default();
-    let line = text.lines().next().unwrap_or_default();
-    let end = line.find('>').map_or(line.len(), |end| end + 1);
-    range.start..range.start + end
+/// Reads a frame of Drake's: a name for a place on a link.
+fn frame(element: &Element, model: &mut Model, reader: &mut Reader) {
+    let count = reader.problems.count();
+    let [parent, child] = ["link", "name"].map(|key| reader.required(element, key));
+    let [xyz, rpy] = ["xyz", "rpy"].map(|key| reader.vector(element, key));
+    model.links.push(Link {
+        name: child.0.clone(),
+        at: element.at.clone(),
+        role: Role::Mark,
+        problems: reader.problems.since(count),
+        ..Link::default()
+    });
+    let origin = rolled(xyz, rpy);
+    model
+        .joints
+        .push(Joint::fixed(parent, child, &element.at, origin));
 }
 
-pub(crate) fn child<'a, 'd>(node: Node<'a, 'd>, name: &str) -> Option<Node<'a, 'd>> {
-    node.children()
-        .find(|child| child.tag_name().name() == name)
+/// Says what Gazebo's extension of a link or a joint has that is left out.
+fn gazebo(element: &Element, model: &mut Model, reader: &mut Reader) {
+    let reference = element.value("reference").unwrap_or_default();
+    let count = reader.problems.count();
+    let link = model.links.iter_mut().find(|link| link.name == reference);
+    let joint = model
+        .joints
+        .iter_mut()
+        .find(|joint| joint.name == reference);
+    let (of, problems) = match (link, joint) {
+        (Some(link), _) => (format!("link `{reference}`"), Some(&mut link.problems)),
+        (None, Some(joint)) => (format!("joint `{reference}`"), Some(&mut joint.problems)),
+        (None, None) => ("the robot".to_owned(), None),
+    };
+    reader.check("robot", element, &of);
+    if let Some(problems) = problems {
+        problems.extend(reader.problems.since(count));
+    }
+}
+
+/// Returns the tie of an element that closes a loop: over the links that it names.
+fn tie(element: &Element, model: &Model) -> Tie {
+    let mut ends: Vec<String> = Vec::new();
+    let mut open = vec![element];
+    while let Some(element) = open.pop() {
+        let values = element.attributes.iter().chain(&element.text);
+        let named = values.filter(|value| value.key != "name" || element.tag.contains("body"));
+        let links = named.filter(|value| model.link(&value.value).is_some());
+        ends.extend(links.map(|link| link.value.clone()));
+        open.extend(element.inside.iter().rev());
+    }
+    Tie {
+        at: element.at.clone(),
+        name: element.named(&format!("<{}>", element.tag)),
+        ends: Tied::Links(ends),
+    }
 }

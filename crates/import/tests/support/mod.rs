@@ -1,6 +1,8 @@
 //! The URDFs, their options and golden values.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+use std::path::{Path, PathBuf};
+
 use dalembert_import::{Imported, Motion, Options, import};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::Robot;
@@ -27,10 +29,15 @@ pub struct State {
     pub pose: Vec<f64>,
 }
 
-/// Reads a file by its path from `tests/data`.
+/// Returns the path of a file in `tests/data`.
+pub fn path(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/data")
+        .join(file)
+}
+
 pub fn data(file: &str) -> String {
-    let path = format!("{}/tests/data/{file}", env!("CARGO_MANIFEST_DIR"));
-    std::fs::read_to_string(path).unwrap()
+    std::fs::read_to_string(path(file)).unwrap()
 }
 
 pub fn source(name: &str) -> String {
@@ -96,13 +103,6 @@ pub fn imported(name: &str, options: &Options) -> Imported {
 
 pub fn taken(source: &str, options: &Options) -> Imported {
     import(source, options).unwrap_or_else(|errors| panic!("{}", errors.render("arm.urdf", source)))
-}
-
-pub fn refused(source: &str, options: &Options) -> String {
-    match import(source, options) {
-        Ok(imported) => panic!("it was imported:\n{}", imported.text),
-        Err(errors) => errors.render("arm.urdf", source),
-    }
 }
 
 pub fn golden(name: &str) -> Golden {

@@ -1,0 +1,106 @@
+//! Actuators: limits of torque, rotors and damping of the joints that they drive.
+
+use std::collections::BTreeMap;
+
+use dalembert_model::number::Rational;
+use dalembert_model::robot::values::number;
+use num_traits::{One, Signed, Zero};
+
+use super::Mjcf;
+use super::tie::Tendons;
+use crate::model::{Number, Value};
+use crate::read::added;
+use crate::xml::Element;
+
+impl Mjcf<'_, '_, '_> {
+    /// Adds to the joints what drives them. The limit of a joint is the sum of the forces of its
+    /// drives, or its own where that is less.
+    pub(super) fn drives(&mut self, root: &Element, tendons: &Tendons) {
+        let mut limits: BTreeMap<usize, Option<Number>> = BTreeMap::new();
+        for element in root.all("actuator").flat_map(|part| &part.inside) {
+            let count = self.reader.problems.count();
+            let of = element.named(&format!("<{}>", element.tag));
+            self.reader.check("actuator", element, &of);
+            let Some((joint, coefficient)) = self.driven(element, tendons) else {
+                continue;
+            };
+            let gear = element.get("gear").and_then(|gear| self.reader.list(gear));
+            let gear = gear.and_then(|gear| gear.into_iter().next());
+            let gear = gear.unwrap_or_else(|| Number::constant("1", &element.at));
+            let gear = gear.map(|value| value * coefficient);
+            let force = self.force(element);
+            let force = force.map(|force| force.map(|value| value * gear.value.abs()));
+            let force = force.filter(|force| force.value.is_positive());
+            let limit = match limits.remove(&joint) {
+                None => force,
+                // One without a limit leaves none.
+                Some(before) => before
+                    .zip(force)
+                    .map(|(before, force)| added(Some(before), force)),
+            };
+            limits.insert(joint, limit);
+            self.rotor(element, joint, gear, &of);
+            let input = element.value("input");
+            if element.tag == "dcmotor" && input == Some("none") {
+                self.reader.problems.say("brake", &element.at, &[&of]);
+            }
+            let problems = self.reader.problems.since(count);
+            self.model.joints[joint].problems.extend(problems);
+        }
+        for (joint, limit) in limits {
+            let Some(limit) = limit else {
+                continue;
+            };
+            let joint = &mut self.model.joints[joint];
+            let own = joint.effort.take().filter(|own| own.value < limit.value);
+            joint.effort = own.or(Some(limit));
+        }
+    }
+
+    /// Returns the joint that an actuator drives, and how far its tendon goes with the joint.
+    fn driven(&mut self, element: &Element, tendons: &Tendons) -> Option<(usize, Rational)> {
+        let named = ["joint", "jointinparent"].map(|key| element.get(key));
+        if let Some(name) = named.into_iter().flatten().next() {
+            let joint = self.joint_named(&name.value, &name.at)?;
+            return Some((joint, Rational::one()));
+        }
+        let tendon = element.get("tendon")?;
+        let found = tendons.get(&tendon.value)?;
+        let [(joint, coefficient)] = &found[..] else {
+            return None;
+        };
+        Some((*joint, coefficient.clone()))
+    }
+
+    fn force(&mut self, element: &Element) -> Option<Number> {
+        let force = self.force_range(element, "forcelimited", "forcerange");
+        match (force, element.tag.as_str()) {
+            // A motor is told its force.
+            (None, "motor") => self.force_range(element, "ctrllimited", "ctrlrange"),
+            (None, "dcmotor") => {
+                let saturation = element.get("saturation")?;
+                self.reader.list(saturation)?.into_iter().next()
+            }
+            (force, _) => force,
+        }
+    }
+
+    /// Adds the armature and the damping of a drive, each times the square of the reduction.
+    fn rotor(&mut self, element: &Element, joint: usize, gear: Number, of: &str) {
+        let armature = self.reader.number(element, "armature");
+        let damping = self.first_term(element, "damping", of);
+        self.check_loads(of, &[("armature", &armature), ("damping", &damping)]);
+        let joint = &mut self.model.joints[joint];
+        let damping = damping.filter(|own| !own.value.is_zero() && !self.settings.is_off("damper"));
+        if let Some(damping) = damping {
+            let damping = damping.map(|value| value * &gear.value * &gear.value);
+            joint.damping = Some(added(joint.damping.take(), damping));
+        }
+        if let Some(armature) = armature {
+            joint.add_rotor(
+                armature,
+                Value::new(gear.value.clone(), number(&gear.value), &gear.at),
+            );
+        }
+    }
+}

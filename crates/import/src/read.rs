@@ -1,0 +1,286 @@
+//! Words and numbers of attributes. A mistake is said once and a default stands in its place, so
+//! that reading goes on and finds all of them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use dalembert_model::number::Rational;
+use dalembert_model::number::parse::parse_decimal;
+use num_traits::Signed;
+
+use crate::keywords::{Table, Verdict};
+use crate::model::{Number, Value};
+use crate::problems::{Message, Problem, Problems, instead};
+use crate::text::Span;
+use crate::xml::{Attribute, Element};
+
+pub(crate) struct Reader<'p, 't> {
+    pub(crate) problems: &'p mut Problems<'t>,
+    table: &'static Table,
+    /// Names that no row has: where the first is, and how often there are more.
+    unknown: BTreeMap<(String, String), (Span, usize)>,
+}
+
+impl<'p, 't> Reader<'p, 't> {
+    pub(crate) fn new(problems: &'p mut Problems<'t>, table: &'static Table) -> Self {
+        let unknown = BTreeMap::new();
+        Reader {
+            problems,
+            table,
+            unknown,
+        }
+    }
+
+    /// Says the names of an element, and of those inside, that are unknown or left out; `of` is the
+    /// joint or link that they are part of.
+    pub(crate) fn check(&mut self, parent: &str, element: &Element, of: &str) {
+        self.check_attributes(parent, element, of);
+        self.check_inside(parent, element, of, |_| true);
+    }
+
+    /// Says the elements inside one that are unknown or left out, and goes on inside those that
+    /// `enter` accepts.
+    pub(crate) fn check_inside(
+        &mut self,
+        parent: &str,
+        element: &Element,
+        of: &str,
+        enter: impl Fn(&Element) -> bool,
+    ) {
+        let Some(row) = self.table.row(parent, &element.tag) else {
+            return;
+        };
+        for inside in &element.inside {
+            let tag = inside.tag.as_str();
+            match (row.listed(tag), self.table.row(&element.tag, tag)) {
+                (Some(Verdict::LeftOut), _) => {
+                    let value = inside.content().map_or("", |found| found.value.as_str());
+                    self.leave_out(&element.tag, tag, &inside.at, value, of);
+                }
+                (None, Some(below)) if below.verdict("*") == Verdict::LeftOut => {
+                    self.leave_out(tag, "*", &inside.at, "", of);
+                }
+                (None, Some(below)) if !below.is_irrelevant() && enter(inside) => {
+                    self.check(&element.tag, inside, of);
+                }
+                (None, None) if row.verdict("*") == Verdict::Unknown => {
+                    self.unknown(&element.tag, format!("<{tag}>"), &inside.at);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    pub(crate) fn check_attributes(&mut self, parent: &str, element: &Element, of: &str) {
+        let Some(row) = self.table.row(parent, &element.tag) else {
+            return;
+        };
+        for Attribute { key, value, at } in &element.attributes {
+            match row.verdict(key) {
+                Verdict::LeftOut => self.leave_out(&element.tag, key, at, value, of),
+                Verdict::Unknown if !key.starts_with("xmlns") => {
+                    self.unknown(&element.tag, format!("`{key}`"), at);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Says a name that is left out, unless its value has no effect.
+    fn leave_out(&mut self, tag: &str, name: &str, at: &Span, value: &str, of: &str) {
+        let message = Message::of(&format!("{tag} {name}")).or(Message::of("left out"));
+        let Some(message) = message else {
+            return;
+        };
+        let number = |word: &str| word.parse::<f64>().ok();
+        let is_idle = |word: &str| {
+            let mut idle = message.idle.split_ascii_whitespace();
+            idle.any(|idle| idle == word || number(idle).is_some_and(|x| number(word) == Some(x)))
+        };
+        if value.trim().is_empty() || !value.split_ascii_whitespace().all(is_idle) {
+            let element = format!("<{tag}>");
+            let name = if name == "*" { &element } else { name };
+            self.problems
+                .add([Problem::new(message, at, &[&of, &name, &value])]);
+        }
+    }
+
+    fn unknown(&mut self, tag: &str, name: String, at: &Span) {
+        let entry = self.unknown.entry((tag.to_owned(), name));
+        entry.or_insert((at.clone(), 0)).1 += 1;
+    }
+
+    /// Says the unknown names, each once.
+    pub(crate) fn say_unknown(&mut self) {
+        for ((tag, name), (at, count)) in std::mem::take(&mut self.unknown) {
+            let row = self
+                .table
+                .rows
+                .iter()
+                .find(|row| row.elements.contains(&tag.as_str()));
+            let known = row.into_iter().flat_map(|row| &row.names[0]).copied();
+            let help = instead(name.trim_matches(['<', '>', '`']), known);
+            let help = if help.starts_with("did") {
+                help
+            } else {
+                String::new()
+            };
+            let times = if count > 1 {
+                format!(", {count} times")
+            } else {
+                String::new()
+            };
+            self.problems
+                .say("unknown", &at, &[&name, &tag, &times, &help]);
+        }
+    }
+
+    /// Returns an attribute that has to be there, empty if it is missing.
+    pub(crate) fn required(&mut self, element: &Element, key: &str) -> (String, Span) {
+        if let Some(found) = element.get(key) {
+            return (found.value.clone(), found.at.clone());
+        }
+        self.problems
+            .say("no_attribute", &element.at, &[&element.tag, &key]);
+        (String::new(), element.at.clone())
+    }
+
+    /// Returns the value of one of some words: `None` if there is none, or it is none of them.
+    pub(crate) fn word<T: Copy>(
+        &mut self,
+        element: &Element,
+        key: &str,
+        words: &[(&str, T)],
+    ) -> Option<T> {
+        let Attribute { value, at, .. } = element.get(key)?;
+        let found = words.iter().find(|(word, _)| word == value);
+        if found.is_none() {
+            let words: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+            let help = match words.len() {
+                ..4 => words.join(" or "),
+                _ => instead(value, words),
+            };
+            self.problems
+                .say("not_a_word", at, &[value, &key, &element.tag, &help]);
+        }
+        found.map(|(_, value)| *value)
+    }
+
+    /// Reads N numbers of an attribute; `None` if there is no such attribute, or a mistake in it.
+    pub(crate) fn numbers<const N: usize>(
+        &mut self,
+        element: &Element,
+        key: &str,
+    ) -> Option<[Number; N]> {
+        let attribute = element.get(key)?;
+        let numbers = self.list(attribute)?;
+        let count = numbers.len();
+        if let Ok(numbers) = numbers.try_into() {
+            return Some(numbers);
+        }
+        let names = ["x", "y", "z", "u", "v", "w"][..N.min(6)].join(" ");
+        let count = format!("{count} number{}", if count == 1 { "" } else { "s" });
+        self.problems
+            .refuse("not_so_many", &attribute.at, &[&key, &count, &N, &names])
+    }
+
+    /// Reads three numbers, which are zero where there are none.
+    pub(crate) fn vector(&mut self, element: &Element, key: &str) -> [Number; 3] {
+        let numbers = self.numbers(element, key);
+        numbers.unwrap_or_else(|| Number::constants(["0", "0", "0"], &element.at))
+    }
+
+    /// Reads all numbers of an attribute, each with its place.
+    pub(crate) fn list(&mut self, attribute: &Attribute) -> Option<Vec<Number>> {
+        let Attribute { value, at, .. } = attribute;
+        let mut numbers = Vec::new();
+        let (mut from, mut count) = (0, 0);
+        for word in value.split_ascii_whitespace() {
+            let start = value[from..].find(word).map_or(from, |start| from + start);
+            from = start + word.len();
+            let place = at.start + start..at.start + from;
+            // Where entities were written out, places are only the attribute's.
+            let is_there = self.problems.text.as_str().get(place.clone()) == Some(word);
+            numbers.extend(self.parse(word, if is_there { &place } else { at }));
+            count += 1;
+        }
+        (numbers.len() == count).then_some(numbers)
+    }
+
+    pub(crate) fn number(&mut self, element: &Element, key: &str) -> Option<Number> {
+        let Attribute { value, at, .. } = element.get(key)?;
+        self.parse(value.trim(), at)
+    }
+
+    /// Reads a number that has to be there; zero stands for a missing one.
+    pub(crate) fn required_number(&mut self, element: &Element, key: &str) -> Number {
+        self.required(element, key);
+        let number = self.number(element, key);
+        number.unwrap_or_else(|| Number::constant("0", &element.at))
+    }
+
+    pub(crate) fn parse(&mut self, text: &str, at: &Span) -> Option<Number> {
+        match parse_decimal(&spelled_out(text)) {
+            Ok(value) => Some(Value::new(value, text, at)),
+            Err(error) => self
+                .problems
+                .refuse("not_a_number", at, &[&text, &error, &error.help()]),
+        }
+    }
+
+    pub(crate) fn not_negative(&mut self, number: Option<&Number>, what: &str, help: &str) {
+        if let Some(number) = number.filter(|number| number.value.is_negative()) {
+            self.problems.say("negative", &number.at, &[&what, &help]);
+        }
+    }
+
+    /// Returns limits unless both are equal, as where nobody filled them in; reversed ones are an
+    /// error.
+    pub(crate) fn range(&mut self, joint: &str, range: Option<[Number; 2]>) -> Option<[Number; 2]> {
+        let [lower, upper] = range?;
+        match lower.value.cmp(&upper.value) {
+            std::cmp::Ordering::Less => Some([lower, upper]),
+            std::cmp::Ordering::Equal => {
+                self.problems
+                    .refuse("equal_limits", &lower.at, &[&joint, &lower.text])
+            }
+            std::cmp::Ordering::Greater => self.problems.refuse("reversed", &lower.at, &[&joint]),
+        }
+    }
+
+    pub(crate) fn unique<'n>(
+        &mut self,
+        what: &str,
+        names: impl Iterator<Item = (&'n String, &'n Span)>,
+    ) {
+        let mut seen = BTreeSet::new();
+        let help = "names tell them apart: give it another";
+        for (name, at) in names.filter(|(name, _)| !seen.insert(*name)) {
+            self.problems.say("twice", at, &[&what, name, &help]);
+        }
+    }
+
+    pub(crate) fn are_few(&mut self, at: &Span, what: &str, count: usize, few: usize) -> bool {
+        if count > few {
+            self.problems.say("too_many", at, &[&count, &what, &few]);
+        }
+        count <= few
+    }
+}
+
+/// Returns `.5` and `5.` as 0.5 and 5, which other readers take too.
+fn spelled_out(text: &str) -> String {
+    let (mantissa, exponent) = text.split_at(text.find(['e', 'E']).unwrap_or(text.len()));
+    let mantissa = mantissa.strip_suffix('.').unwrap_or(mantissa);
+    let (sign, digits) = match mantissa.strip_prefix(['-', '+']) {
+        Some(digits) => (&mantissa[..1], digits),
+        None => ("", mantissa),
+    };
+    let zero = if digits.starts_with('.') { "0" } else { "" };
+    format!("{sign}{zero}{digits}{exponent}")
+}
+
+/// Returns the sum of two numbers, of which the first may be missing.
+pub(crate) fn added(sum: Option<Number>, more: Number) -> Number {
+    let before = sum.map_or_else(Rational::default, |sum| sum.value);
+    more.map(|value| before + value)
+}

@@ -1,0 +1,138 @@
+//! Checks of a selection, and what there is to say of it.
+
+use std::collections::BTreeSet;
+
+use dalembert_model::robot::{Position, values};
+
+use super::position::advised;
+use super::{OTHERS, Select, Selection, State};
+use crate::Options;
+use crate::model::{Joint, Mimic, Model, Tie, Tied};
+use crate::problems::{Problems, instead};
+
+impl<'m> Select<'m, '_, '_> {
+    /// Checks that no joint which `others` holds follows one that moves.
+    pub(super) fn check_followers_beside(&mut self, selection: &Selection) {
+        for joint in &self.held {
+            let own = &self.model.joints[*joint];
+            let mimic = own.mimic.as_ref().filter(|mimic| {
+                let mut moving = selection.moving().into_iter();
+                moving.any(|leader| self.model.joints[leader].name == mimic.leader)
+            });
+            if let Some(Mimic { at, leader, .. }) = mimic {
+                self.problems
+                    .say("follows_beside", at, &[&own.name, leader, &advised(own)]);
+            }
+        }
+    }
+
+    /// Checks that nothing that moves apart is tied together.
+    pub(super) fn check_ties(&mut self, selection: &Selection) {
+        let joints = &self.model.joints;
+        for Tie { at, name, ends } in &self.model.ties {
+            match ends {
+                Tied::Joints(names) => {
+                    let moving = selection.moving().into_iter().map(|joint| &joints[joint]);
+                    let tied = moving.into_iter().find(|joint| names.contains(&joint.name));
+                    if let Some(joint) = tied {
+                        self.problems
+                            .say("tied", at, &[&joint.name, name, &advised(joint)]);
+                    }
+                }
+                Tied::Links(names) => {
+                    let links = names.iter().map(|name| self.model.link(name));
+                    let links: Vec<Option<usize>> = links.collect();
+                    let mover = |link: &Option<usize>| link.and_then(|link| selection.movers[link]);
+                    if links.iter().map(mover).collect::<BTreeSet<_>>().len() > 1 {
+                        let over = self.closed_by(&links, selection).join("`, `");
+                        let names = names.join("` and `");
+                        self.problems.say("loop", at, &[name, &names, &over]);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Returns the names of the moving joints on the ways from links to where these meet.
+    fn closed_by(&self, links: &[Option<usize>], selection: &Selection) -> Vec<&'m str> {
+        let up = |joint: &usize| self.above[self.model.ends[*joint][0]];
+        let way = |link: &usize| std::iter::successors(self.above[*link], up).collect::<Vec<_>>();
+        let ways: Vec<Vec<usize>> = links.iter().flatten().map(way).collect();
+        let moving = selection.moving().into_iter();
+        let closes = moving.filter(|joint| {
+            let count = ways.iter().filter(|way| way.contains(joint)).count();
+            (1..links.len()).contains(&count)
+        });
+        closes
+            .map(|joint| self.model.joints[joint].name.as_str())
+            .collect()
+    }
+
+    pub(super) fn say_base(&mut self, base: usize) {
+        if self.above[base].is_none() {
+            return;
+        }
+        let link = &self.model.links[base];
+        let how = match self.model.gravity {
+            None => "to pull against its z",
+            Some(_) => "in its axes as it is in the world's",
+        };
+        self.problems
+            .say("not_the_root", &link.at, &[&link.name, &how]);
+    }
+
+    pub(super) fn say_held(&mut self, selection: &Selection) {
+        let mut order = selection.order.clone();
+        order.sort_unstable();
+        let held = order.iter().filter_map(|joint| match &self.states[*joint] {
+            State::Stays(Some(at)) => Some((&self.model.joints[*joint], at)),
+            _ => None,
+        });
+        let held: Vec<(&Joint, &Position)> = held.collect();
+        if let Some((first, _)) = held.first() {
+            let name = |(joint, at): &(&Joint, &Position)| {
+                format!(
+                    "`{}` at {}",
+                    joint.name,
+                    values::position(at).replace('"', "")
+                )
+            };
+            let names = Vec::from_iter(held.iter().map(name)).join(", ");
+            self.problems.say("held", &first.at, &[&names]);
+        }
+        if let Some(first) = self.without.first() {
+            let links = &self.model.links;
+            let names = self
+                .without
+                .iter()
+                .map(|link| format!("`{}`", links[*link].name));
+            let names = Vec::from_iter(names).join(", ");
+            self.problems.say("left_away", &links[*first].at, &[&names]);
+        }
+    }
+}
+
+/// Checks the names of links and joints in the options.
+pub(crate) fn check_names(model: &Model, options: &Options, problems: &mut Problems) {
+    let base = options.base.iter().map(|name| ("--base", name));
+    let tip = options.tip.iter().map(|name| ("--tip", name));
+    let without = options.without.iter().map(|name| ("--without", name));
+    let links = base.chain(tip).chain(without);
+    for (option, name) in links.filter(|(_, name)| model.link(name).is_none()) {
+        let help = match model.joints.iter().find(|joint| joint.name == *name) {
+            Some(joint) => format!("`{name}` is a joint; its link is `{}`", joint.child.0),
+            None => instead(name, model.links.iter().map(|link| &link.name)),
+        };
+        problems.say("option_link", &model.at, &[&option, name, &help]);
+    }
+    let joints = options.lock.iter().filter(|(name, _)| name != OTHERS);
+    for (name, _) in joints.filter(|(name, _)| model.joint(name).is_none()) {
+        let help = match (name.parse::<usize>(), model.moving().len()) {
+            (Ok(_), count @ 1..) => {
+                format!("those that move are 1 to {count}, from the root outwards")
+            }
+            _ => instead(name, model.joints.iter().map(|joint| &joint.name)),
+        };
+        problems.say("option_joint", &model.at, &[name, &help]);
+    }
+}

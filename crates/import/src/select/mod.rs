@@ -1,0 +1,441 @@
+//! The part of a model that is the robot: what each joint does in it, and which joint moves a link.
+//!
+//! - `tip`: where an arm ends, when nobody says
+//! - `position`: positions of joints that are held
+//! - `check`: ties, followers, names in options
+
+mod check;
+pub(crate) mod position;
+mod tip;
+
+use std::collections::BTreeSet;
+use std::fmt::Display;
+
+use dalembert_model::number::{Angle, Rational};
+use dalembert_model::robot::{Follower, Position};
+use num_traits::{Signed, Zero};
+
+use crate::Options;
+use crate::model::{Joint, Kind, Mimic, Model};
+use crate::problems::Problems;
+pub(crate) use check::check_names;
+use position::advised;
+
+/// The name that stands for every joint that hangs on the robot.
+pub(crate) const OTHERS: &str = "*";
+
+/// The joints and links of a robot, by their places in the model.
+#[derive(Clone, Debug)]
+pub(crate) struct Selection {
+    pub(crate) base: usize,
+    pub(crate) tips: Vec<usize>,
+    /// The joints of the robot, each after the one that it hangs on.
+    pub(crate) order: Vec<usize>,
+    pub(crate) states: Vec<State>,
+    /// The joint that moves each link: none for links that stand still or are not in the robot.
+    pub(crate) movers: Vec<Option<usize>>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum State {
+    Moves,
+    /// At a position, which a fixed joint does not have.
+    Stays(Option<Position>),
+}
+
+impl Selection {
+    pub(crate) fn moving(&self) -> Vec<usize> {
+        let moves = |joint: &usize| self.states[*joint] == State::Moves;
+        self.order.iter().copied().filter(moves).collect()
+    }
+
+    /// Returns the links that move, in the order of the model.
+    pub(crate) fn links(&self) -> Vec<usize> {
+        let links = 0..self.movers.len();
+        links.filter(|link| self.movers[*link].is_some()).collect()
+    }
+}
+
+pub(crate) struct Select<'m, 'p, 't> {
+    pub(crate) model: &'m Model,
+    pub(crate) problems: &'p mut Problems<'t>,
+    /// The joint that each link hangs on.
+    pub(crate) above: Vec<Option<usize>>,
+    /// The joints that hang on each link.
+    pub(crate) below: Vec<Vec<usize>>,
+    pub(crate) states: Vec<State>,
+    pub(crate) others: Option<String>,
+    pub(crate) without: BTreeSet<usize>,
+    /// The joints that stand where `others` says.
+    held: BTreeSet<usize>,
+}
+
+/// Selects the robot from its base to the tips that are given, or to the one that is found.
+pub(crate) fn select(
+    model: &Model,
+    options: &Options,
+    tips: &[&str],
+    problems: &mut Problems,
+) -> Option<Selection> {
+    let mut select = Select::new(model, options, problems)?;
+    let base = select.base(options)?;
+    let tips = match tips {
+        [] => vec![select.tip(base)?],
+        names => names.iter().filter_map(|name| model.link(name)).collect(),
+    };
+    let mut wanted = BTreeSet::new();
+    for tip in &tips {
+        wanted.extend(select.path(base, *tip)?);
+    }
+    if wanted.iter().all(|joint| select.stays(*joint)) {
+        let [from, to] = [base, tips[0]].map(|link| &model.links[link]);
+        return select
+            .problems
+            .refuse("no_mover", &to.at, &[&from.name, &to.name]);
+    }
+    let (order, movers) = select.settle(base, &wanted);
+    let selection = Selection {
+        base,
+        tips,
+        order,
+        movers,
+        states: select.states.clone(),
+    };
+    select.check_ties(&selection);
+    select.check_followers_beside(&selection);
+    select.say_base(base);
+    select.say_held(&selection);
+    (!select.problems.has_errors()).then_some(selection)
+}
+
+impl<'m, 'p, 't> Select<'m, 'p, 't> {
+    pub(crate) fn new(
+        model: &'m Model,
+        options: &Options,
+        problems: &'p mut Problems<'t>,
+    ) -> Option<Self> {
+        let kinds = model.joints.iter().map(|joint| match joint.kind {
+            Kind::Fixed => State::Stays(None),
+            _ => State::Moves,
+        });
+        let mut select = Select {
+            model,
+            problems,
+            above: vec![None; model.links.len()],
+            below: vec![Vec::new(); model.links.len()],
+            states: kinds.collect(),
+            others: None,
+            without: options
+                .without
+                .iter()
+                .filter_map(|name| model.link(name))
+                .collect(),
+            held: BTreeSet::new(),
+        };
+        for (joint, [parent, child]) in model.ends.iter().enumerate() {
+            select.below[*parent].push(joint);
+            if let Some(other) = select.above[*child].replace(joint) {
+                let ((link, at), other) = (&model.joints[joint].child, &model.joints[other]);
+                select
+                    .problems
+                    .say("hangs_already", at, &[link, &other.name]);
+            }
+        }
+        for (name, text) in &options.lock {
+            if name == OTHERS {
+                select.others = Some(text.clone());
+            } else if let Some(joint) = model.joint(name) {
+                let at = position::within(&model.joints[joint], text, select.problems);
+                select.states[joint] = State::Stays(at);
+            }
+        }
+        select.hold_followers();
+        (!select.problems.has_errors()).then_some(select)
+    }
+
+    pub(crate) fn stays(&self, joint: usize) -> bool {
+        self.states[joint] != State::Moves
+    }
+
+    pub(crate) fn base(&mut self, options: &Options) -> Option<usize> {
+        match &options.base {
+            Some(name) => self.model.link(name),
+            None => self.root().map(|root| self.standing(root)),
+        }
+    }
+
+    fn root(&mut self) -> Option<usize> {
+        let links = 0..self.model.links.len();
+        let roots: Vec<usize> = links.filter(|link| self.above[*link].is_none()).collect();
+        let names = roots
+            .iter()
+            .map(|root| self.model.links[*root].name.as_str());
+        let names = Vec::from_iter(names).join(", ");
+        match roots[..] {
+            [root] => Some(root),
+            [] => self.problems.refuse("no_root", &self.model.at, &[]),
+            _ => self
+                .problems
+                .refuse("roots", &self.model.at, &[&roots.len(), &names]),
+        }
+    }
+
+    /// Returns the link behind the joints that let the whole robot float or drive.
+    fn standing(&mut self, root: usize) -> usize {
+        let (mut base, mut link) = (root, root);
+        while let [joint] = self.arms_on(link)[..] {
+            let Joint { name, kind, at, .. } = &self.model.joints[joint];
+            link = self.model.ends[joint][1];
+            if link == root || *kind != Kind::Fixed && kind.has_one_axis() {
+                break;
+            }
+            if *kind != Kind::Fixed {
+                self.problems
+                    .say("begins_behind", at, &[name, &kind.word()]);
+                base = link;
+            }
+        }
+        base
+    }
+
+    /// Returns the joints on a link behind which something moves: a table is not a robot.
+    fn arms_on(&self, link: usize) -> Vec<usize> {
+        let moves = |joint: &&usize| self.moves_from(**joint);
+        self.below[link].iter().filter(moves).copied().collect()
+    }
+
+    fn moves_from(&self, joint: usize) -> bool {
+        let mut open = vec![joint];
+        // In a circle there is no end.
+        for _ in 0..self.model.ends.len() {
+            let Some(joint) = open.pop() else {
+                return false;
+            };
+            let kind = self.model.joints[joint].kind;
+            if kind.has_one_axis() && kind != Kind::Fixed {
+                return true;
+            }
+            open.extend(&self.below[self.model.ends[joint][1]]);
+        }
+        false
+    }
+
+    /// Returns the joints from the tip back to the base.
+    fn path(&mut self, base: usize, tip: usize) -> Option<Vec<usize>> {
+        let mut path = Vec::new();
+        let mut link = tip;
+        while link != base {
+            let above = self.above[link];
+            // In a circle there is no end.
+            let Some(joint) = above.filter(|_| path.len() <= self.model.ends.len()) else {
+                let [base, tip] = [base, tip].map(|link| &self.model.links[link]);
+                return self
+                    .problems
+                    .refuse("not_on", &tip.at, &[&tip.name, &base.name]);
+            };
+            path.push(joint);
+            if self.without.contains(&link) {
+                let link = &self.model.links[link];
+                return self
+                    .problems
+                    .refuse("passes_through", &link.at, &[&link.name]);
+            }
+            link = self.model.ends[joint][0];
+        }
+        Some(path)
+    }
+
+    /// Decides what each joint behind the base does. Returns the joints of the robot and the joint
+    /// that moves each link; what moves by itself and leads to no tip is held or an error.
+    fn settle(
+        &mut self,
+        base: usize,
+        wanted: &BTreeSet<usize>,
+    ) -> (Vec<usize>, Vec<Option<usize>>) {
+        let mut movers = vec![None; self.model.links.len()];
+        let (mut order, mut left) = (Vec::new(), Vec::new());
+        let mut open: Vec<usize> = self.below[base].iter().rev().copied().collect();
+        while let Some(joint) = open.pop() {
+            let [parent, child] = self.model.ends[joint];
+            let is_wanted = wanted.contains(&joint);
+            if self.without.contains(&child) {
+                continue;
+            }
+            if is_wanted {
+                self.check_axis(joint, wanted);
+            } else if !self.stays(joint) {
+                if movers[parent].is_none() {
+                    // The base feels nothing of what hangs on it.
+                    left.push(joint);
+                    continue;
+                }
+                match self.hold(joint) {
+                    Some(state) => self.states[joint] = state,
+                    None => continue,
+                }
+            }
+            movers[child] = match self.stays(joint) {
+                true => movers[parent],
+                false => Some(joint),
+            };
+            if is_wanted || movers[child].is_some() {
+                order.push(joint);
+            }
+            open.extend(self.below[child].iter().rev());
+        }
+        left.sort_unstable();
+        if let Some(first) = left.first() {
+            let names = left
+                .iter()
+                .map(|joint| self.model.joints[*joint].name.as_str());
+            let names = Vec::from_iter(names).join(", ");
+            self.problems
+                .say("on_the_base", &self.model.joints[*first].at, &[&names]);
+        }
+        (order, movers)
+    }
+
+    /// Holds a joint that leads to no tip.
+    fn hold(&mut self, joint: usize) -> Option<State> {
+        let own = &self.model.joints[joint];
+        let Joint { name, kind, at, .. } = own;
+        let is_held = kind.has_one_axis() || *kind == Kind::Ball;
+        let Some(text) = self.others.clone().filter(|_| is_held) else {
+            let follows = own
+                .mimic
+                .as_ref()
+                .map(|mimic| format!(", mimics `{}`", mimic.leader));
+            let follows = follows.unwrap_or_default();
+            let id = if kind.has_one_axis() {
+                "hangs_beside"
+            } else {
+                "ball_beside"
+            };
+            let words: [&dyn Display; 5] =
+                [name, &kind.word(), &follows, &advised(own), &own.child.0];
+            return self.problems.refuse(id, at, &words);
+        };
+        if *kind == Kind::Ball {
+            self.problems.say("ball_held", at, &[name]);
+            return Some(State::Stays(None));
+        }
+        let at = match self.leader(joint) {
+            Some((leader, lines)) => {
+                let leader = &self.model.joints[leader];
+                along(
+                    *kind,
+                    position::nearest(leader, &text, self.problems)?,
+                    &lines,
+                )
+            }
+            None => position::nearest(own, &text, self.problems)?,
+        };
+        self.held.insert(joint);
+        Some(State::Stays(Some(at)))
+    }
+
+    /// Holds the joints that follow one that is locked.
+    fn hold_followers(&mut self) {
+        let is_locked = |state: &State| matches!(state, State::Stays(Some(_)));
+        let locked: Vec<bool> = self.states.iter().map(is_locked).collect();
+        let free = (0..locked.len()).filter(|joint| !locked[*joint]);
+        let held = free.filter_map(|joint| {
+            let (leader, lines) = self.leader(joint)?;
+            let State::Stays(Some(at)) = &self.states[leader] else {
+                return None;
+            };
+            let kind = self.model.joints[joint].kind;
+            Some((joint, State::Stays(Some(along(kind, at.clone(), &lines)))))
+        });
+        for (joint, state) in held.collect::<Vec<_>>() {
+            if self.model.joints[joint].kind != Kind::Fixed {
+                self.states[joint] = state;
+            }
+        }
+    }
+
+    /// Returns the first leader that is locked or follows none, and the lines on the way there.
+    fn leader(&self, joint: usize) -> Option<(usize, Vec<[Rational; 2]>)> {
+        let mut lines: Vec<[Rational; 2]> = Vec::new();
+        let mut leader = joint;
+        while let Some(mimic) = &self.model.joints[leader].mimic {
+            let is_locked = matches!(self.states[leader], State::Stays(Some(_)));
+            if leader != joint && is_locked && !self.held.contains(&leader) {
+                break;
+            }
+            // Longer than all joints is a circle, in which nothing leads.
+            if lines.len() > self.model.joints.len() {
+                return None;
+            }
+            lines.push(mimic.line.clone()?);
+            let mut joints = self.model.joints.iter();
+            leader = joints.position(|other| other.name == mimic.leader)?;
+        }
+        (leader != joint).then_some((leader, lines))
+    }
+
+    /// Checks that a joint of the robot has one axis, and a coordinate if it follows another.
+    fn check_axis(&mut self, joint: usize, wanted: &BTreeSet<usize>) {
+        let own = &self.model.joints[joint];
+        let (name, kind) = (&own.name, own.kind);
+        if !kind.has_one_axis() {
+            self.problems
+                .say("more_axes", &own.at, &[name, &kind.word(), &own.child.0]);
+        } else if let Some(mimic) = own.mimic.as_ref().filter(|_| !self.stays(joint))
+            && let Some(why) = self.cannot_follow(joint, mimic, wanted)
+        {
+            let words: [&dyn Display; 4] = [name, &mimic.leader, &why, &advised(own)];
+            self.problems.say("mimics", &mimic.at, &words);
+        }
+    }
+
+    fn cannot_follow(
+        &self,
+        joint: usize,
+        mimic: &Mimic,
+        wanted: &BTreeSet<usize>,
+    ) -> Option<String> {
+        let joints = &self.model.joints;
+        let Some(leader) = wanted
+            .iter()
+            .find(|other| joints[**other].name == mimic.leader)
+        else {
+            return Some(", which is not in the chain".to_owned());
+        };
+        let Some([multiplier, _]) = &mimic.line else {
+            return Some(", and not along a line".to_owned());
+        };
+        let [own, other] = [joint, *leader].map(|joint| joints[joint].kind == Kind::Prismatic);
+        if own != other {
+            let [own, other] = [own, other].map(|slides| if slides { "slides" } else { "turns" });
+            return Some(format!(", and {own} where that {other}"));
+        }
+        let most = Rational::from_integer(Follower::MAX_TURNS.into());
+        let is_whole = multiplier.is_integer() && multiplier.abs() <= most;
+        (multiplier.is_zero() || !own && !is_whole).then(|| {
+            format!(
+                ", {multiplier} times as far: sines are of whole multiples of an angle, up to {most}"
+            )
+        })
+    }
+}
+
+/// Returns the position of a follower whose leader is at one.
+fn along(kind: Kind, at: Position, lines: &[[Rational; 2]]) -> Position {
+    let along = |at: Rational| {
+        let lines = lines.iter().rev();
+        lines.fold(at, |at, [multiplier, offset]| multiplier * at + offset)
+    };
+    let value = match at {
+        // A multiple of a multiple of π, but for an offset, is one.
+        Position::Angle(Angle::PiTimes(value)) if kind != Kind::Prismatic => {
+            if along(Rational::zero()).is_zero() {
+                return Position::Angle(Angle::PiTimes(along(value)));
+            }
+            along(Angle::PiTimes(value).radians())
+        }
+        Position::Angle(angle) => along(angle.radians()),
+        Position::Length(length) => along(length),
+    };
+    kind.position(value)
+}

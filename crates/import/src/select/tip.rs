@@ -1,0 +1,250 @@
+//! Where an arm ends, when nobody says: at the palm that its fingers hang on, or at the
+//! end of its longest chain.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Display;
+
+use crate::model::{Kind, Role};
+use crate::problems::MAX_NAMES;
+use crate::select::Select;
+
+/// Arms have more joints that move than this before their hand.
+const ARM: usize = 3;
+/// Fingers have at most so many joints that move behind each other; of a hand with three or
+/// more, any number.
+const FINGER: usize = 4;
+/// Parts of the names of fingers; a link called gripper is the palm.
+const FINGERS: [&str; 4] = ["finger", "jaw", "claw", "thumb"];
+const HANDS: [&str; 7] = ["hand", "flange", "tool", "palm", "tcp", "grasp", "ee_"];
+
+/// The joints that move behind each link, one behind the other.
+type Heights = BTreeMap<usize, usize>;
+
+impl Select<'_, '_, '_> {
+    /// Takes the first of several links that one joint moves.
+    pub(crate) fn tip(&mut self, base: usize) -> Option<usize> {
+        let heights = self.heights(base)?;
+        let (tips, holds) = self.chain_ends(base, &heights, false);
+        let most = heights.get(&base).copied().unwrap_or_default();
+        let name = |link: &usize| self.model.links[*link].name.as_str();
+        let moved: BTreeSet<usize> = tips.iter().map(|tip| self.moved_with(*tip, base)).collect();
+        if let ([link, rest @ ..], 1) = (tips.as_slice(), moved.len()) {
+            let others: Vec<&str> = rest.iter().take(MAX_NAMES).map(name).collect();
+            let (at, end) = (&self.model.links[*link].at, name(link));
+            let (names, moves) = (
+                others.join("`, `"),
+                if rest.len() == 1 { "moves" } else { "move" },
+            );
+            match others.first() {
+                None => self.problems.say("ends_at", at, &[&end]),
+                Some(first) => {
+                    let words: [&dyn Display; 4] = [&end, &names, &moves, first];
+                    self.problems.say("ends_at_with", at, &words);
+                }
+            }
+            return Some(*link);
+        }
+        let message = match holds {
+            true => format!("{} links may be where the arm ends", moved.len()),
+            false => format!("{} chains have {most} joints", moved.len()),
+        };
+        // One end of each chain: those that one joint moves differ in poses alone.
+        let mut chains = BTreeSet::new();
+        let is_new = |tip: &&usize| chains.insert(self.moved_with(**tip, base));
+        let ends = tips.iter().filter(is_new);
+        let mut help = ends
+            .take(MAX_NAMES)
+            .map(name)
+            .collect::<Vec<_>>()
+            .join(", ");
+        let stands = self.fixed_to(base);
+        let is_loaded = |tip: &usize| self.is_loaded(*tip, &stands, &heights);
+        if self.others.is_none() && tips.iter().any(is_loaded) {
+            help += match holds {
+                true => "; --lock-others 0 holds the fingers",
+                false => "; --lock-others 0 holds all else that hangs on the chain",
+            };
+        }
+        self.problems
+            .refuse("ends", &self.model.at, &[&message, &help])
+    }
+
+    /// Returns one link for each joint that is the last to move.
+    pub(crate) fn tips(&mut self, base: usize) -> Option<Vec<usize>> {
+        let heights = self.heights(base)?;
+        let (tips, _) = self.chain_ends(base, &heights, true);
+        let mut last = BTreeSet::new();
+        let tips = tips.into_iter().filter(|tip| {
+            let link = self.moved_with(*tip, base);
+            link != base && last.insert(link)
+        });
+        let mut tips: Vec<usize> = tips.collect();
+        tips.sort_unstable();
+        match tips.is_empty() {
+            true => self.problems.refuse("no_arm", &self.model.at, &[]),
+            false => Some(tips),
+        }
+    }
+
+    fn moved_with(&self, mut link: usize, base: usize) -> usize {
+        while let Some(joint) = self.above[link].filter(|_| link != base)
+            && self.stays(joint)
+        {
+            link = self.model.ends[joint][0];
+        }
+        link
+    }
+
+    /// Returns the ends, and whether there are fingers, which hold something, on some of them.
+    fn chain_ends(&self, base: usize, heights: &Heights, all: bool) -> (Vec<usize>, bool) {
+        let mut tips = Vec::new();
+        let mut palms = Vec::new();
+        let mut open = vec![(base, 0)];
+        while let Some((link, moved)) = open.pop() {
+            let fixed = self.fixed_to(link);
+            let joints = fixed.iter().flat_map(|link| self.hanging(*link));
+            let joints: Vec<usize> = joints.filter(|joint| !self.stays(*joint)).collect();
+            let left = |joint: usize| {
+                1 + heights
+                    .get(&self.model.ends[joint][1])
+                    .copied()
+                    .unwrap_or(0)
+            };
+            let leaves = fixed.iter().filter(|link| self.hanging(**link).is_empty());
+            let Some(longest) = joints.iter().map(|joint| left(*joint)).max() else {
+                // Fingers may be fixed, too.
+                let is_finger =
+                    |link: &&usize| has_one_of(&self.model.links[**link].name, &FINGERS);
+                let (fingers, ends): (Vec<usize>, Vec<usize>) = leaves.partition(is_finger);
+                match ends.is_empty() {
+                    true => palms.extend(fingers.first().and_then(|link| self.on(*link))),
+                    false => tips.extend(ends),
+                }
+                continue;
+            };
+            let main = joints.iter().filter(|joint| left(**joint) == longest);
+            let main: Vec<usize> = main.copied().collect();
+            let are_fingers = main.len() > 1 || self.is_finger(main[0]);
+            let is_palm = main.len() > 2 || longest <= FINGER && are_fingers;
+            if moved >= ARM && is_palm {
+                palms.push(self.model.ends[main[0]][0]);
+                let is_hand = |link: &&usize| has_one_of(&self.model.links[**link].name, &HANDS);
+                tips.extend(leaves.filter(is_hand));
+            } else {
+                // A head is no arm; of what is short everywhere, the longest.
+                let least = if all { ARM.min(longest) } else { longest };
+                let next = joints.into_iter().filter(|joint| left(*joint) >= least);
+                open.extend(next.map(|joint| (self.model.ends[joint][1], moved + 1)));
+            }
+        }
+        let holds = !palms.is_empty();
+        let name = |link: &usize| self.model.links[*link].name.as_str();
+        tips.sort_by_key(|link| (!has_one_of(name(link), &HANDS), *link));
+        palms.sort_unstable();
+        tips.splice(0..0, palms);
+        (tips, holds)
+    }
+
+    /// Joints that hang on the links that stand still do not count.
+    fn is_loaded(&self, tip: usize, stands: &[usize], heights: &Heights) -> bool {
+        let mut chain = vec![tip];
+        let mut next = Some(tip);
+        // The first of them is the base.
+        while next != stands.first().copied()
+            && let Some(link) = next
+        {
+            next = self.on(link);
+            chain.extend(next);
+        }
+        let moves = |joint: usize| {
+            let child = self.model.ends[joint][1];
+            let height = heights.get(&child).copied().unwrap_or(0);
+            !chain.contains(&child) && (!self.stays(joint) || height > 0)
+        };
+        let links = chain.iter().filter(|link| !stands.contains(link));
+        links.flat_map(|link| self.hanging(*link)).any(moves)
+    }
+
+    /// Counts the joints that move one behind the other from each link on; a circle is an error.
+    fn heights(&mut self, base: usize) -> Option<Heights> {
+        let mut order = vec![base];
+        let mut at = 0;
+        while let Some(link) = order.get(at).copied() {
+            at += 1;
+            let hanging = self.hanging(link).into_iter();
+            order.extend(hanging.map(|joint| self.model.ends[joint][1]));
+            // Every link hangs on one joint: only the base can come again.
+            if order[1..].contains(&base) {
+                return self
+                    .problems
+                    .refuse("circle", &self.model.links[base].at, &[]);
+            }
+        }
+        let mut heights = Heights::new();
+        for link in order.into_iter().rev() {
+            let below = self.hanging(link).into_iter().map(|joint| {
+                let moves = usize::from(!self.stays(joint));
+                moves
+                    + heights
+                        .get(&self.model.ends[joint][1])
+                        .copied()
+                        .unwrap_or(0)
+            });
+            let height = below.max().unwrap_or(0);
+            heights.insert(link, height);
+        }
+        Some(heights)
+    }
+
+    fn fixed_to(&self, link: usize) -> Vec<usize> {
+        let mut links = vec![link];
+        let mut at = 0;
+        while let Some(link) = links.get(at).copied() {
+            at += 1;
+            let joints = self.hanging(link).into_iter();
+            let stay = joints.filter(|joint| self.stays(*joint));
+            links.extend(stay.map(|joint| self.model.ends[joint][1]));
+        }
+        links
+    }
+
+    fn hanging(&self, link: usize) -> Vec<usize> {
+        let is_part = |joint: &usize| {
+            let child = self.model.ends[*joint][1];
+            // What floats or drives away is not the end of an arm.
+            let kind = self.model.joints[*joint].kind;
+            let is_apart = matches!(kind, Kind::Floating | Kind::Planar);
+            let is_mark = self.model.links[child].role == Role::Mark;
+            !is_apart && !is_mark && !self.without.contains(&child)
+        };
+        self.below[link].iter().copied().filter(is_part).collect()
+    }
+
+    fn on(&self, link: usize) -> Option<usize> {
+        self.above[link].map(|joint| self.model.ends[joint][0])
+    }
+
+    fn follows_beside(&self, joint: usize) -> bool {
+        let Some(mimic) = &self.model.joints[joint].mimic else {
+            return false;
+        };
+        let above = |joint: &usize| self.above[self.model.ends[*joint][0]];
+        // In a circle there is no end.
+        let mut all = std::iter::successors(above(&joint), above).take(self.model.ends.len());
+        all.all(|above| self.model.joints[above].name != mimic.leader)
+    }
+
+    fn is_finger(&self, joint: usize) -> bool {
+        let follows = self.follows_beside(joint);
+        let joint = &self.model.joints[joint];
+        follows
+            || has_one_of(&joint.name, &["grip"])
+            || has_one_of(&joint.name, &FINGERS)
+            || has_one_of(&joint.child.0, &FINGERS)
+    }
+}
+
+fn has_one_of(name: &str, words: &[&str]) -> bool {
+    let name = name.to_ascii_lowercase();
+    words.iter().any(|word| name.contains(word))
+}

@@ -1,0 +1,71 @@
+//! Small files with one fault each, after public reports. `data/reports/expected.json` has for each
+//! the torques at one state, computed by an independent program, its `source`: `mj_inverse` of
+//! MuJoCo without constraints and springs, or `rnea` of Pinocchio plus damping times velocity and
+//! armature times acceleration. Where a fault cannot be expressed, a message has to name it.
+
+use dalembert_import::{Imported, Options, open};
+use dalembert_model::read::Diagnostic;
+use dalembert_model::reference::Reference;
+use nalgebra::DVector;
+use serde_json::Value;
+
+use crate::support::{data, flat, path, relative};
+
+fn options(case: &Value) -> Options {
+    let mut options = Options::default();
+    let words = case["options"].as_array().into_iter().flatten();
+    let mut words = words.map(|word| word.as_str().unwrap().to_owned());
+    while let Some(option) = words.next() {
+        match option.as_str() {
+            "--exact" => options.exact = true,
+            "--tip" => options.tip = words.next(),
+            "--without" => options.without.extend(words.next()),
+            _ => panic!("{option}"),
+        }
+    }
+    options
+}
+
+fn off(imported: &Imported, case: &Value) -> f64 {
+    let runtime = Reference::<f64>::from_robot(&imported.robot);
+    let [q, qd, qdd] = ["q", "qd", "qdd"].map(|key| DVector::from_vec(flat(&case[key])));
+    let torques = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
+    relative(torques.as_slice(), &flat(&case["tau"]))
+}
+
+fn names(messages: &[Diagnostic], case: &Value) -> bool {
+    let words = case["words"].as_array().unwrap();
+    let mut words = words.iter().map(|word| word.as_str().unwrap());
+    words.any(|word| {
+        let says = |text: &str| text.contains(word);
+        let help = |message: &Diagnostic| message.help.as_deref().is_some_and(says);
+        messages.iter().any(|own| says(&own.message) || help(own))
+    })
+}
+
+#[test]
+fn what_a_file_says_is_read_or_said_to_be_left_out() {
+    let cases: Value = serde_json::from_str(&data("reports/expected.json")).unwrap();
+    let mut wrong = Vec::new();
+    for case in cases.as_array().unwrap() {
+        let file = case["file"].as_str().unwrap();
+        let opened = open(&path(&format!("reports/{file}")), &options(case));
+        let imported = opened.map(|opened| opened.imported.unwrap());
+        let is_right = match (case["want"].as_str().unwrap(), imported) {
+            ("value", Ok(imported)) => off(&imported, case) < 1e-12,
+            ("toml", Ok(imported)) => imported.text.contains(case["pattern"].as_str().unwrap()),
+            ("word", Ok(imported)) => names(&imported.notes, case),
+            ("word", Err(error)) => {
+                let text = format!("{error:?}");
+                let mut words = case["words"].as_array().unwrap().iter();
+                words.any(|word| text.contains(word.as_str().unwrap()))
+            }
+            (_, Ok(_)) => false,
+            (_, Err(error)) => panic!("{file}: {error:?}"),
+        };
+        if !is_right {
+            wrong.push(file);
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:?}");
+}
