@@ -60,7 +60,7 @@ pub fn open_text(path: &Path) -> Result<Text, Unopened> {
     let shown = path.display().to_string();
     let bytes = first_bytes(path, MAX_BYTES as u64 + 1).map_err(Unopened::System)?;
     let wrong = |why: &str| Unopened::Wrong(format!("error: `{shown}` {why}"));
-    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+    if bytes.starts_with(b"\xff\xfe<") || bytes.starts_with(b"\xfe\xff\0<") {
         return Err(wrong(&in_encoding("UTF-16", &shown)));
     }
     if is_model(&bytes) {
