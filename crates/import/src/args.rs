@@ -99,7 +99,7 @@ impl ChainArgs {
     }
 }
 
-/// As arguments of a command: `--tip tool0 --lock elbow=0`.
+/// Formats the options as command-line arguments: `--tip tool0 --lock elbow=0`.
 impl fmt::Display for ChainArgs {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let argument = |(option, value): (String, String)| format!("--{option} {value}");

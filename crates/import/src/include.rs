@@ -31,6 +31,9 @@ impl Text {
             let file = self.count() - 1;
             let mut problems = Problems::of(&self);
             if let Some(root) = parse(&self, file, 0, &mut problems) {
+                if file == 0 && root.tag != "mujoco" {
+                    return Ok(self);
+                }
                 let includes = root.all_inside("include").into_iter().rev();
                 open.extend(includes.map(|include| (file, include.clone())));
             } else if let Err(errors) = problems.finish() {

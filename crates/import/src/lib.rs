@@ -150,7 +150,7 @@ fn read_model(text: &Text, options: &Options, problems: &mut Problems) -> Option
         model.untie(problems);
     }
     if problems.has_errors() {
-        // Which parts matter is not known: all mistakes do.
+        // The parts of the robot are unknown here, so all mistakes count.
         said(&model, problems, |_| true, |_| true);
         return None;
     }
@@ -187,7 +187,7 @@ fn imported(text: &Text, options: &Options, problems: &mut Problems) -> Option<I
     }
     let snapped = |snapping: Snapping| {
         let (snapped, snaps) = snap::snapped(&model, &selection, snapping);
-        // What there is to say was said of the digits as they stand.
+        // Messages were given for the digits as written; do not repeat them.
         let tree = merge::merged(&snapped, &selection, &mut Problems::of(text))?;
         let change = change::bound(&as_written, &tree, &snapped, options);
         Some((snapped, snaps, tree, change))

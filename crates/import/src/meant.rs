@@ -8,7 +8,7 @@ use num_traits::{One, Signed, Zero};
 pub(crate) const NOTHING: i32 = -9;
 /// Angles next to multiples of π/4 and π/6, in radians.
 const NEXT_TO: i32 = -12;
-/// However few digits a number has: so far, in radians, it may be off.
+/// The largest error of a rounded angle, rad, for any number of digits.
 pub(crate) const MAX: i32 = -5;
 /// The digits that tell π/6 from a number that happens to be near it.
 pub(crate) const TELLING: usize = 5;
@@ -56,7 +56,7 @@ pub(crate) fn digits(text: &str) -> (Rational, usize) {
     let digits = all.skip_while(|digit| *digit == '0').count();
     let exponent: i32 = exponent;
     let unit = exponent.saturating_sub(i32::try_from(after).unwrap_or(i32::MAX));
-    // Of a number that could be read; its size is what bounds it.
+    // Limits the exponent, so that the power stays small.
     (power(unit.clamp(-1000, 1000)), digits)
 }
 

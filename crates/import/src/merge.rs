@@ -61,7 +61,7 @@ pub(crate) fn merged(
         .map(|joint| model.joints[*joint].origin.placement().size());
     let size = size_of(sizes.sum());
     let mut bodies: Vec<Branch> = Vec::new();
-    // Of each link: its body, its pose in that, and whether that is the body's own frame.
+    // For each link: its body, its pose in the body, and true if that is the body's frame.
     let mut places: BTreeMap<usize, (Option<usize>, Columns<Wide>, bool)> = BTreeMap::new();
     places.insert(selection.base, (None, Columns::identity(), true));
     for index in &selection.order {
@@ -73,7 +73,7 @@ pub(crate) fn merged(
             State::Stays(None) => (body, placed, false),
             State::Stays(Some(at)) => (body, placed.then(&displaced(joint, at)?), false),
             State::Moves => {
-                // Where nothing lies between, the placement is the file's.
+                // Without a fixed link between, keep the file's placement.
                 let placement = match is_own {
                     true => joint.origin.placement(),
                     false => placement(&placed, &size),
@@ -202,7 +202,7 @@ fn possible(
     found
 }
 
-/// Returns what lengths are small against, from the sum of those that there are.
+/// Returns the length scale: the sum of all lengths, or 1 without any.
 pub(crate) fn size_of(sum: Rational) -> Rational {
     if sum.is_zero() { One::one() } else { sum }
 }

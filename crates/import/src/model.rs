@@ -66,7 +66,7 @@ pub(crate) struct Joint {
     pub(crate) child: (String, Span),
     pub(crate) axis: [Number; 3],
     pub(crate) position: Option<[Value<Position>; 2]>,
-    /// Where the joint is in the pose in which the model is drawn, in rad or m.
+    /// The position in the model's initial pose, rad or m.
     pub(crate) start: Rational,
     pub(crate) effort: Option<Number>,
     pub(crate) velocity: Option<Number>,
@@ -124,14 +124,14 @@ pub(crate) enum Tied {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Value<T> {
     pub(crate) value: T,
-    /// As it stands in the file.
+    /// The digits as written.
     pub(crate) text: String,
     pub(crate) at: Span,
 }
 
 pub(crate) type Number = Value<Rational>;
 
-/// Where a frame is in another, `rpy` about fixed axes.
+/// The pose of a frame in another; `rpy` is about fixed axes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Origin {
     pub(crate) xyz: [Number; 3],

@@ -70,7 +70,7 @@ pub fn open_text(path: &Path) -> Result<Text, Unopened> {
         }
         let text = String::from_utf8(bytes);
         let text = text.map_err(|_| wrong(&in_encoding("ISO-8859-1", &shown)))?;
-        let text = Text::of(&shown, text).with_includes(path, included);
+        let text = Text::of_file(&shown, &text).with_includes(path, included);
         return text.map_err(Unopened::Wrong);
     }
     if bytes.len() <= read::MAX_BYTES

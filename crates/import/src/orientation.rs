@@ -1,7 +1,7 @@
 //! Poses whose orientation is not written as roll, pitch and yaw.
 //!
-//! Each orientation is there twice: as its digits stand, a quaternion divided by its length, and as
-//! they were meant, by the rules for angles.
+//! Each orientation is kept twice: as written (quaternions normalised), and as meant, by the rules
+//! for angles.
 
 use dalembert_model::equations::matrix::{Columns, Vector, cross, difference, dot, scaled};
 use dalembert_model::number::{Angle, Rational, Wide};
@@ -72,7 +72,7 @@ impl Pose {
         Pose {
             both: composed(&self.both, &next.both),
             size: &self.size + &next.size,
-            // What nothing is before stays as it is written.
+            // After an identity the file's numbers stay.
             xyz: next.xyz.clone().filter(|_| self.is_identity()),
             at: next.at.clone(),
         }
@@ -203,8 +203,8 @@ pub(crate) fn of_third_axis(axis: &[Number; 3]) -> Option<Both> {
     Some(by_digits(turned(&about, &angle).axes, axis))
 }
 
-/// Returns a rotation, and what it was meant to be: as far from it as angles may be, since
-/// many a quaternion was made of 1.5708, and 0.707105 tells no more of its digits.
+/// Pairs a rotation with its intended one. The tolerance is that of angles, because many
+/// quaternions were computed from 1.5708.
 fn by_digits(axes: [Vector<Wide>; 3], numbers: &[Number]) -> Both {
     let exact = Columns {
         axes,

@@ -1,4 +1,4 @@
-//! What is wrong with a model, or odd about it, at its place in the text.
+//! Errors, warnings and notes about a model, each at its place in the text.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -8,8 +8,8 @@ use dalembert_model::read::{Diagnostic, Diagnostics, Severity, closest};
 
 use crate::text::{Span, Text};
 
-/// More than these are counted, not listed.
-const MAX: usize = 200;
+/// The most messages of a kind that are listed.
+pub(crate) const MAX: usize = 200;
 pub(crate) const MAX_NAMES: usize = 30;
 
 /// All messages, by their names. `{0}`, `{1}` … stand for words of a place; a message with `{of}`
@@ -44,14 +44,14 @@ pub(crate) struct Message {
     severity: Severity,
     /// True if results of the robot file differ from the model's for this reason.
     differs: bool,
-    /// Of a keyword, the values without an effect.
+    /// For a keyword: the values without an effect.
     pub(crate) idle: &'static str,
     text: &'static str,
     help: &'static str,
 }
 
 impl Message {
-    /// Finds a message; the one that shows its words stands for one that there is not.
+    /// Finds a message by its id.
     pub(crate) fn of(id: &str) -> Option<&'static Message> {
         MESSAGES.get(id)
     }
@@ -76,8 +76,9 @@ pub(crate) struct Problem {
     message: &'static Message,
     at: Span,
     text: String,
-    /// The joints or links that the message is about, if it may be about several.
-    of: Vec<String>,
+    /// The first of the joints or links that the message is about, if it may be about several.
+    of: Option<String>,
+    more: usize,
     help: String,
 }
 
@@ -89,19 +90,23 @@ impl Problem {
             message,
             at: at.clone(),
             text: filled(message.text, words),
-            of: of.map(ToString::to_string).collect(),
+            of: of.map(ToString::to_string).next(),
+            more: 0,
             help: filled(message.help, words),
         }
     }
 
     fn text(&self) -> String {
-        match self.of.as_slice() {
-            [] => self.text.clone(),
-            [one] => self.text.replace("{of}", one),
-            [first, rest @ ..] => self
-                .text
-                .replace("{of}", &format!("{first} and {} more", rest.len())),
+        match (&self.of, self.more) {
+            (None, _) => self.text.clone(),
+            (Some(of), 0) => self.text.replace("{of}", of),
+            (Some(of), more) => self.text.replace("{of}", &format!("{of} and {more} more")),
         }
+    }
+
+    fn is_like(&self, other: &Problem) -> bool {
+        let is_one = self.of.is_some() || self.at == other.at;
+        is_one && self.text == other.text && self.message.text == other.message.text
     }
 }
 
@@ -135,25 +140,30 @@ impl<'t> Problems<'t> {
 
     pub(crate) fn add(&mut self, problems: impl IntoIterator<Item = Problem>) {
         for problem in problems {
-            let text = problem.message.text;
-            let is_same = |own: &Problem| {
-                !own.of.is_empty() && own.text == problem.text && own.message.text == text
+            let Message {
+                severity, differs, ..
+            } = problem.message;
+            let is_of_kind = |other: &&Problem| {
+                (other.message.severity, other.message.differs) == (*severity, *differs)
             };
-            match self.found.iter().position(is_same) {
-                Some(same) => self.found[same].of.extend(problem.of),
-                None if self.found.len() < MAX => self.found.push(problem),
-                None => self.more += usize::from(problem.message.severity == Severity::Error),
+            let count = self.found.iter().filter(is_of_kind).count();
+            match self.found.iter_mut().find(|other| other.is_like(&problem)) {
+                Some(same) => same.more += 1 + problem.more,
+                None if count < MAX => self.found.push(problem),
+                None => self.more += usize::from(*severity == Severity::Error),
             }
         }
     }
 
-    pub(crate) fn count(&self) -> usize {
-        self.found.len()
+    /// Begins a part of the model, whose problems are said where it turns out to matter; returns
+    /// those before it.
+    pub(crate) fn begin(&mut self) -> Vec<Problem> {
+        std::mem::take(&mut self.found)
     }
 
-    /// Takes what was found since there were `count`, to be said where it turns out to matter.
-    pub(crate) fn since(&mut self, count: usize) -> Vec<Problem> {
-        self.found.split_off(count.min(self.found.len()))
+    /// Ends a part of the model; returns its problems.
+    pub(crate) fn end(&mut self, before: Vec<Problem>) -> Vec<Problem> {
+        std::mem::replace(&mut self.found, before)
     }
 
     /// Says the problems of a part of the model: its mistakes are notes if the robot lacks it.
@@ -161,7 +171,7 @@ impl<'t> Problems<'t> {
         if is_part {
             return self.add(problems.iter().cloned());
         }
-        let is_error = |own: &&Problem| own.message.severity == Severity::Error;
+        let is_error = |problem: &&Problem| problem.message.severity == Severity::Error;
         for problem in problems.iter().filter(is_error) {
             self.say("outside", &problem.at, &[&problem.text(), &problem.help]);
         }
@@ -169,35 +179,36 @@ impl<'t> Problems<'t> {
 
     pub(crate) fn has_errors(&self) -> bool {
         let mut found = self.found.iter();
-        self.more > 0 || found.any(|own| own.message.severity == Severity::Error)
+        found.any(|problem| problem.message.severity == Severity::Error)
     }
 
     /// Returns the messages of the differences, in the order of the file.
     pub(crate) fn differences(&self) -> Vec<String> {
-        let differences = self.found.iter().filter(|own| own.message.differs);
+        let differences = self.found.iter().filter(|problem| problem.message.differs);
         let mut differences: Vec<&Problem> = differences.collect();
-        differences.sort_by_key(|own| own.at.start);
-        differences.iter().map(|own| own.text()).collect()
+        differences.sort_by_key(|problem| problem.at.start);
+        differences.iter().map(|problem| problem.text()).collect()
     }
 
     /// Returns the differences, then the other notes, each in the order of the file; or the errors
     /// alone.
     pub(crate) fn finish(mut self) -> Result<Vec<Diagnostic>, Diagnostics> {
         let has_errors = self.has_errors();
-        let is_error = |own: &Problem| own.message.severity == Severity::Error;
-        self.found.retain(|own| is_error(own) || !has_errors);
+        let is_error = |problem: &Problem| problem.message.severity == Severity::Error;
         self.found
-            .sort_by_key(|own| (!own.message.differs, own.at.start));
-        let found = self.found.iter().map(|own| {
-            let (line, column) = self.text.line_and_column(own.at.start);
+            .retain(|problem| is_error(problem) || !has_errors);
+        self.found
+            .sort_by_key(|problem| (!problem.message.differs, problem.at.start));
+        let found = self.found.iter().map(|problem| {
+            let (line, column) = self.text.line_and_column(problem.at.start);
             Diagnostic {
-                severity: own.message.severity,
+                severity: problem.message.severity,
                 warning: None,
-                message: own.text(),
-                span: own.at.clone(),
+                message: problem.text(),
+                span: problem.at.clone(),
                 line,
                 column,
-                help: (!own.help.is_empty()).then(|| own.help.clone()),
+                help: (!problem.help.is_empty()).then(|| problem.help.clone()),
             }
         });
         let mut found: Vec<Diagnostic> = found.collect();
@@ -258,15 +269,14 @@ mod tests {
         for id in MESSAGES.keys().filter(|id| !keywords(id)) {
             assert!(source.contains(&format!("\"{id}\"")), "nobody says {id}");
         }
+        let has = |id: &str| MESSAGES.keys().any(|known| known.replace(' ', "") == id);
         for call in ["say(\"", "refuse(\""] {
-            let mut said = source
+            let said = source
                 .split(call)
                 .skip(1)
                 .map(|rest| rest.split('"').next().unwrap());
-            assert!(
-                said.all(|id| MESSAGES.contains_key(id) || id.contains('\\')),
-                "{call}"
-            );
+            let unknown: Vec<&str> = said.filter(|id| !has(id) && !id.contains('\\')).collect();
+            assert!(unknown.is_empty(), "the table lacks {unknown:?}");
         }
     }
 }

@@ -9,9 +9,12 @@ use num_traits::Signed;
 
 use crate::keywords::{Table, Verdict};
 use crate::model::{Number, Value};
-use crate::problems::{Message, Problem, Problems, instead};
+use crate::problems::{MAX, Message, Problem, Problems, instead};
 use crate::text::Span;
 use crate::xml::{Attribute, Element};
+
+/// No list of numbers that is read has more.
+const MANY: usize = 64;
 
 pub(crate) struct Reader<'p, 't> {
     pub(crate) problems: &'p mut Problems<'t>,
@@ -51,7 +54,8 @@ impl<'p, 't> Reader<'p, 't> {
         };
         for inside in &element.inside {
             let tag = inside.tag.as_str();
-            match (row.listed(tag), self.table.row(&element.tag, tag)) {
+            let listed = row.listed(&format!("<{tag}>"));
+            match (listed, self.table.row(&element.tag, tag)) {
                 (Some(Verdict::LeftOut), _) => {
                     let value = inside.content().map_or("", |found| found.value.as_str());
                     self.leave_out(&element.tag, tag, &inside.at, value, of);
@@ -111,14 +115,13 @@ impl<'p, 't> Reader<'p, 't> {
 
     /// Says the unknown names, each once.
     pub(crate) fn say_unknown(&mut self) {
-        for ((tag, name), (at, count)) in std::mem::take(&mut self.unknown) {
-            let row = self
+        for ((tag, name), (at, count)) in std::mem::take(&mut self.unknown).into_iter().take(MAX) {
+            let known = self
                 .table
-                .rows
-                .iter()
-                .find(|row| row.elements.contains(&tag.as_str()));
-            let known = row.into_iter().flat_map(|row| &row.names[0]).copied();
-            let help = instead(name.trim_matches(['<', '>', '`']), known);
+                .row_of(&tag)
+                .into_iter()
+                .flat_map(|row| &row.names[0]);
+            let help = instead(name.trim_matches(['<', '>', '`']), known.copied());
             let help = if help.starts_with("did") {
                 help
             } else {
@@ -134,9 +137,17 @@ impl<'p, 't> Reader<'p, 't> {
         }
     }
 
+    /// Returns a mutable reader of another table.
+    pub(crate) fn with(&mut self, table: &'static Table) -> Reader<'_, 't> {
+        Reader::new(self.problems, table)
+    }
+
     /// Returns an attribute that has to be there, empty if it is missing.
     pub(crate) fn required(&mut self, element: &Element, key: &str) -> (String, Span) {
-        if let Some(found) = element.get(key) {
+        if let Some(found) = element
+            .get(key)
+            .filter(|found| !found.value.trim().is_empty())
+        {
             return (found.value.clone(), found.at.clone());
         }
         self.problems
@@ -172,10 +183,9 @@ impl<'p, 't> Reader<'p, 't> {
         key: &str,
     ) -> Option<[Number; N]> {
         let attribute = element.get(key)?;
-        let numbers = self.list(attribute)?;
-        let count = numbers.len();
-        if let Ok(numbers) = numbers.try_into() {
-            return Some(numbers);
+        let count = attribute.value.split_ascii_whitespace().take(MANY).count();
+        if count == N || count == 0 {
+            return self.list(attribute)?.try_into().ok();
         }
         let names = ["x", "y", "z", "u", "v", "w"][..N.min(6)].join(" ");
         let count = format!("{count} number{}", if count == 1 { "" } else { "s" });
@@ -194,11 +204,16 @@ impl<'p, 't> Reader<'p, 't> {
         let Attribute { value, at, .. } = attribute;
         let mut numbers = Vec::new();
         let (mut from, mut count) = (0, 0);
+        if value.split_ascii_whitespace().nth(MANY).is_some() {
+            return self
+                .problems
+                .refuse("too_many", at, &[&"numbers", &"", &MANY]);
+        }
         for word in value.split_ascii_whitespace() {
             let start = value[from..].find(word).map_or(from, |start| from + start);
             from = start + word.len();
             let place = at.start + start..at.start + from;
-            // Where entities were written out, places are only the attribute's.
+            // With entities, use the place of the whole attribute.
             let is_there = self.problems.text.as_str().get(place.clone()) == Some(word);
             numbers.extend(self.parse(word, if is_there { &place } else { at }));
             count += 1;
@@ -208,7 +223,8 @@ impl<'p, 't> Reader<'p, 't> {
 
     pub(crate) fn number(&mut self, element: &Element, key: &str) -> Option<Number> {
         let Attribute { value, at, .. } = element.get(key)?;
-        self.parse(value.trim(), at)
+        let value = Some(value.trim()).filter(|value| !value.is_empty());
+        self.parse(value?, at)
     }
 
     /// Reads a number that has to be there; zero stands for a missing one.
@@ -219,7 +235,8 @@ impl<'p, 't> Reader<'p, 't> {
     }
 
     pub(crate) fn parse(&mut self, text: &str, at: &Span) -> Option<Number> {
-        match parse_decimal(&spelled_out(text)) {
+        // A robot file takes 1_000; a model does not.
+        match parse_decimal(&spelled_out(&text.replace('_', "?"))) {
             Ok(value) => Some(Value::new(value, text, at)),
             Err(error) => self
                 .problems
@@ -243,7 +260,10 @@ impl<'p, 't> Reader<'p, 't> {
                 self.problems
                     .refuse("equal_limits", &lower.at, &[&joint, &lower.text])
             }
-            std::cmp::Ordering::Greater => self.problems.refuse("reversed", &lower.at, &[&joint]),
+            std::cmp::Ordering::Greater => {
+                self.problems
+                    .refuse("reversed", &lower.at, &[&joint, &lower.text, &upper.text])
+            }
         }
     }
 

@@ -17,7 +17,7 @@ const DIGITS: i32 = -15;
 /// A number that was taken for another.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Snap {
-    /// Where it is in the text, in bytes.
+    /// The place in the text, in bytes.
     pub span: Range<usize>,
     /// The element and the attribute: `joint elbow, rpy`.
     pub of: String,
@@ -143,7 +143,7 @@ impl Snaps {
             for (angle, meant) in origin.rpy.iter_mut().zip(meant.rpy) {
                 angle.value = meant;
             }
-            // Where it is turned is where its parts are.
+            // A rotation also moves the parts, so use the position that goes with it.
             for (length, meant) in origin.xyz.iter_mut().zip(meant.xyz) {
                 length.value = meant;
                 self.length(length, &power(NOTHING), xyz);
@@ -160,7 +160,7 @@ impl Snaps {
                 self.take(angle, meant, to, rpy, changes);
             }
         }
-        // The axes are known no better than that.
+        // Smaller angles are below this error.
         for angle in &mut origin.rpy {
             let radians = angle.value.radians().abs();
             if !radians.is_zero() && radians <= off {

@@ -38,15 +38,20 @@ impl Text {
     /// Takes the text of a file of this name, or what [`Text::as_str`] returned.
     pub fn of(name: &str, text: String) -> Text {
         let (mut files, mut name, mut from) = (Vec::new(), name, 0);
-        for (mark, _) in text.match_indices(MARK) {
-            let rest = &text[mark + MARK.len()..];
-            if let Some((next, _)) = rest.split_once("?>\n") {
-                files.push((name.to_owned(), from..mark));
-                (name, from) = (next, mark + MARK.len() + next.len() + "?>\n".len());
-            }
+        while let Some((before, rest)) = text[from..].split_once(MARK)
+            && let Some((next, _)) = rest.split_once("?>\n")
+        {
+            files.push((name.to_owned(), from..from + before.len()));
+            from += before.len() + MARK.len() + next.len() + "?>\n".len();
+            name = next;
         }
         files.push((name.to_owned(), from..text.len()));
         Text { text, files }
+    }
+
+    /// Takes the text of one file: what looks like the begin of an included one is none.
+    pub(crate) fn of_file(name: &str, text: &str) -> Text {
+        Text::of(name, unmarked(text))
     }
 
     /// Returns the name of the first file, as messages call it.
@@ -119,7 +124,12 @@ impl Text {
         let name = name.replace("?>", "");
         self.text += &format!("{MARK}{name}?>\n");
         let start = self.text.len();
-        self.text += &text.replace(MARK, "\n");
+        self.text += &unmarked(text);
         self.files.push((name, start..self.text.len()));
     }
+}
+
+/// Returns a text without marks of included files; its bytes stay where they are.
+fn unmarked(text: &str) -> String {
+    text.replace("<?included ", "<?Included ")
 }

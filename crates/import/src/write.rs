@@ -86,13 +86,13 @@ fn mimic(own: &Joint, joints: &[&Joint]) -> Option<String> {
     let mimic = own.mimic.as_ref()?;
     let [multiplier, offset] = mimic.line.as_ref()?;
     let mut leaders = joints.iter();
-    let leader = leaders.position(|joint| joint.name == mimic.leader);
+    let leader = leaders.position(|joint| joint.name == mimic.leader)?;
     let offset = match own.kind {
         Kind::Prismatic => Position::Length(offset.clone()),
         _ => Position::Angle(right(Angle::Radians(offset.clone()).canonical())),
     };
     table([
-        ("joint", Some((leader.unwrap_or_default() + 1).to_string())),
+        ("joint", Some((leader + 1).to_string())),
         ("multiplier", Some(number(multiplier))),
         ("offset", Some(position(&offset))),
     ])
@@ -175,7 +175,7 @@ fn joint(text: &mut String, joint: &Joint, link: &Branch, options: &Options) {
     lines(text, keys);
 }
 
-/// As the reader of robot files takes it, so that it has nothing to say of the digits.
+/// Writes angles as the robot-file reader takes them, so that it gives no warning.
 fn as_read(own: &Placement) -> Placement {
     Placement {
         xyz: own.xyz.clone(),

@@ -13,7 +13,6 @@ use crate::text::{MAX_BYTES, MAX_MIB, Span, Text};
 
 /// The most attributes of one element: a URDF has six, an actuator of MJCF thirty.
 const MAX_ATTRIBUTES: usize = 64;
-const MAX_NAMESPACES: usize = 64;
 const MAX_DEPTH: usize = 256;
 const EXPRESSIONS: [&str; 2] = ["${", "$("];
 
@@ -107,9 +106,14 @@ pub(crate) fn parse(
         return problems.refuse("cut_off", &(end.saturating_sub(1)..end), &[]);
     }
     let at = error.pos();
-    let before = source.lines().take(at.row.saturating_sub(1) as usize);
-    let line: usize = before.map(|line| line.len() + 1).sum();
-    let at = start + line + at.col.saturating_sub(1) as usize;
+    let mut lines = source.split_inclusive('\n');
+    let before = lines.by_ref().take(at.row.saturating_sub(1) as usize);
+    let line: usize = before.map(str::len).sum();
+    let mut bytes = lines.next().unwrap_or_default().char_indices();
+    let column = bytes
+        .nth(at.col.saturating_sub(1) as usize)
+        .map_or(0, |(byte, _)| byte);
+    let at = start + line + column;
     let help = match source.trim_start().starts_with('<') {
         true => "",
         false => "a URDF is XML: <robot name=\"arm\"> …; so is MJCF: <mujoco> …",
@@ -117,32 +121,33 @@ pub(crate) fn parse(
     problems.refuse("not_xml", &(at..at + 1), &[&error, &help])
 }
 
-/// Returns the text with `.` for the colons in names, and without XML declarations: a late one is
-/// an error for the parser, and none for other readers. Its bytes stay where they are.
+/// Returns the text with `.` for the colons in names, and without comments, instructions and
+/// document types, in which other readers accept more than the parser: `--`, or a late XML
+/// declaration. Its bytes stay where they are.
 fn admitted(source: &str, start: usize, above: usize, problems: &mut Problems) -> Option<String> {
     if source.len() > MAX_BYTES {
         return problems.refuse("too_long", &(0..0), &[&MAX_MIB]);
     }
     let mut readable = source.as_bytes().to_vec();
-    let (mut namespaces, mut depth) = (0, above);
-    for (is_tag, span) in pieces(source) {
+    let mut depth = above;
+    for (piece, span) in pieces(source) {
         let text = &source[span.clone()];
-        if text.starts_with("<?xml ") {
-            readable[span].fill(b' ');
+        if piece == Piece::Skipped {
+            let bytes = readable[span].iter_mut().filter(|byte| **byte != b'\n');
+            bytes.for_each(|byte| *byte = b' ');
             continue;
         }
         let expression = EXPRESSIONS.iter().filter_map(|begin| text.find(begin));
-        let is_xacro = is_tag && text.starts_with("<xacro:");
+        let is_xacro = piece == Piece::Tag && text.starts_with("<xacro:");
         if let Some(at) = expression.min().or(is_xacro.then_some(0)) {
             let word = text[at..].split([' ', '"', '\'', '>', '\n', '\t', '\r', '/']);
             let word: String = word.take(1).flat_map(str::chars).take(40).collect();
             let at = start + span.start + at;
             return problems.refuse("not_expanded", &(at..at + word.len()), &[&word]);
         }
-        if !is_tag {
+        if piece == Piece::Text {
             continue;
         }
-        namespaces += text.matches("xmlns=").count();
         depth = match (text.starts_with("</"), text.ends_with("/>")) {
             (true, _) => depth.saturating_sub(1),
             (false, true) => depth,
@@ -159,9 +164,6 @@ fn admitted(source: &str, start: usize, above: usize, problems: &mut Problems) -
             count if count > MAX_ATTRIBUTES => {
                 format!("an element with {count} attributes, more than {MAX_ATTRIBUTES}")
             }
-            _ if namespaces > MAX_NAMESPACES => {
-                format!("the file has more than {MAX_NAMESPACES} namespaces")
-            }
             _ if depth > MAX_DEPTH => {
                 format!("more than {MAX_DEPTH} elements are inside each other")
             }
@@ -174,9 +176,22 @@ fn admitted(source: &str, start: usize, above: usize, problems: &mut Problems) -
     String::from_utf8(readable).ok()
 }
 
-/// Returns tags and XML declarations (`true`) and the text between them. Comments, instructions
-/// and CDATA are left out, and so is all that follows a mistake.
-fn pieces(source: &str) -> impl Iterator<Item = (bool, Range<usize>)> {
+#[derive(Clone, Copy, PartialEq)]
+enum Piece {
+    Tag,
+    Text,
+    /// A comment, an instruction or a document type without declarations of its own.
+    Skipped,
+}
+
+/// Returns the pieces of a file, without CDATA and all that follows a mistake.
+fn pieces(source: &str) -> impl Iterator<Item = (Piece, Range<usize>)> {
+    const SKIPPED: [(&str, &str); 4] = [
+        ("<!--", "-->"),
+        ("<![CDATA[", "]]>"),
+        ("<?", "?>"),
+        ("<!DOCTYPE", ">"),
+    ];
     let mut at = 0;
     std::iter::from_fn(move || {
         loop {
@@ -184,20 +199,21 @@ fn pieces(source: &str) -> impl Iterator<Item = (bool, Range<usize>)> {
             let start = at;
             if !rest.starts_with('<') {
                 at += rest.find('<').unwrap_or(rest.len());
-                return (start < at).then_some((false, start..at));
+                return (start < at).then_some((Piece::Text, start..at));
             }
-            let skipped = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")];
-            let skipped = skipped.iter().find(|(begin, _)| rest.starts_with(begin));
-            if let Some((begin, end)) = skipped {
-                let inside = &rest[begin.len()..];
-                at += begin.len() + inside.find(end)? + end.len();
-                if rest.starts_with("<?xml ") {
-                    return Some((true, start..at));
-                }
-                continue;
+            let Some((begin, end)) = SKIPPED.iter().find(|(begin, _)| rest.starts_with(begin))
+            else {
+                at += outside_of_quotes(rest).find(|(_, byte)| *byte == b'>')?.0 + 1;
+                return Some((Piece::Tag, start..at));
+            };
+            let inside = &rest[begin.len()..];
+            let length = inside.find(end)?;
+            at += begin.len() + length + end.len();
+            // Entities are refused by the parser.
+            let has_entities = begin.ends_with('E') && inside[..length].contains('[');
+            if *begin != "<![CDATA[" && !has_entities {
+                return Some((Piece::Skipped, start..at));
             }
-            at += outside_of_quotes(rest).find(|(_, byte)| *byte == b'>')?.0 + 1;
-            return Some((true, start..at));
         }
     })
 }
@@ -229,14 +245,13 @@ fn element(node: Node, source: &str, start: usize) -> Element {
         value: attribute.value().to_owned(),
         at: shift(attribute.range_value()),
     });
-    let text = node.children().find(Node::is_text).and_then(|inside| {
-        let value = inside.text()?.trim();
-        let at = shift(inside.range());
-        (!value.is_empty()).then(|| Attribute {
-            key: String::new(),
-            value: value.to_owned(),
-            at,
-        })
+    let texts = node.children().filter(Node::is_text);
+    let value: String = texts.clone().filter_map(|text| text.text()).collect();
+    let place = texts.clone().next().map_or(0..0, |text| text.range());
+    let text = (!value.trim().is_empty()).then(|| Attribute {
+        key: String::new(),
+        value: value.trim().to_owned(),
+        at: shift(place),
     });
     let inside = node.children().filter(Node::is_element);
     Element {

@@ -3,7 +3,6 @@
 mod fuzz;
 mod golden;
 mod mimic;
-mod mjcf;
 mod parameters;
 mod reports;
 mod support;

@@ -1,7 +1,7 @@
 //! Whatever the bytes are: an answer, never a panic, and the same one twice; and
 //! a robot file that was made reads.
 
-use crate::support::{NAMES, data, snapped, source, to};
+use crate::support::{URDFS, snapped, source, to};
 use dalembert_import::{Options, import};
 use dalembert_model::read;
 
@@ -90,7 +90,7 @@ fn answers(seed: u64, cases: &[(String, Options)]) -> (usize, usize) {
 
 #[test]
 fn an_answer_for_every_text() {
-    let cases = NAMES.map(|name| (source(name), snapped(name)));
+    let cases = URDFS.map(|name| (source(name), snapped(name)));
     let (made, refused) = answers(0x9e37_79b9_7f4a_7c15, &cases);
     assert!(made > 30 && refused > 30, "{made} made, {refused} refused");
 }
@@ -102,7 +102,7 @@ fn an_answer_for_every_mjcf() {
         ("geoms", "three"),
         ("so101", "gripper_link"),
     ];
-    let source = |name: &str| data(&format!("mjcf/{name}.xml"));
+    let source = |name: &str| source(&format!("mjcf/{name}"));
     let cases = tips.map(|(name, tip)| (source(name), to(tip, &[("*", "0")])));
     let (made, refused) = answers(0x2545_f491_4f6c_dd1d, &cases);
     // Small files: little of them may go.

@@ -1,36 +1,37 @@
-//! Real URDFs: torques, gravity loads and poses are those of an independent
-//! library; with snapping they are off by no more than the bounds say.
+//! Real models: torques, gravity loads, inertia matrices and poses are those of an independent
+//! library, Pinocchio for a URDF and MuJoCo for an MJCF; with snapping they are off by no more than
+//! the bounds say.
 
-use crate::support::{
-    NAMES, State, bounded, exact, golden, imported, largest, motion, snapped, worst,
-};
+use crate::support::{MJCFS, URDFS, bounded, exact, golden, imported, motion, snapped, worst};
 use dalembert_import::Motion;
 use dalembert_model::reference::Reference;
 use nalgebra::DVector;
 
 #[test]
-fn exact_digits_give_the_torques_of_the_urdf() {
-    for name in NAMES {
-        let worst = worst(&imported(name, &exact(name)).robot, &golden(name));
-        println!("{name}: {worst:.1e}");
-        assert!(worst < 1e-12, "{name}: {worst:e}");
+fn exact_digits_give_the_torques_of_the_model() {
+    for (names, most) in [(&URDFS[..], 1e-12), (&MJCFS, 1e-10)] {
+        for name in names {
+            let worst = worst(&imported(name, &exact(name)).robot, &golden(name));
+            println!("{name}: {worst:.1e}");
+            assert!(worst < most, "{name}: {worst:e}");
+        }
     }
 }
 
 #[test]
 fn snapped_torques_stay_within_the_bound() {
-    for name in NAMES {
-        let imported = imported(name, &snapped(name));
-        // Of the golden values' own rounding and the runtime's.
-        let rounding = |state: &State| 1e-12 * largest(&state.tau);
-        let most = bounded(name, &imported, &golden(name), rounding);
-        assert!(most < 0.1, "{name}: {most:e}");
+    for (names, rounding) in [(&URDFS[..], 1e-12), (&MJCFS, 1e-11)] {
+        for name in names {
+            let imported = imported(name, &snapped(name));
+            let most = bounded(name, &imported, &golden(name), rounding);
+            assert!(most < 0.2, "{name}: {most:e}");
+        }
     }
 }
 
 #[test]
 fn snapped_hands_stay_within_the_bound() {
-    for name in NAMES {
+    for name in URDFS {
         let golden = golden(name);
         let imported = imported(name, &snapped(name));
         let runtime = Reference::<f64>::from_robot(&imported.robot);

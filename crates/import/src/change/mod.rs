@@ -1,4 +1,4 @@
-//! What snapping changes in the torques and in where the hand is, bounded.
+//! Bounds of the changes in torques and hand pose by snapping.
 //!
 //! The recursion of Newton and Euler over the joints' own frames, with sizes for
 //! vectors: the length that a vector has at most, of either arm, and how far the two

@@ -1,7 +1,8 @@
 //! The keywords of both formats, as tables: each is read, left out with a message, or irrelevant
 //! for the dynamics. A name in none of the three is unknown, and said.
 //!
-//! A row is for elements by their tag, or by `parent/tag`; `*` stands for all names in an element.
+//! A row is for elements by `parent/tag`, where frames and the world count as bodies; `*` stands for
+//! all names in an element, and `<name>` for an element that has a value as an attribute has.
 //! Kinds of actuators share one row, and so do classes and elements, so that they cannot differ.
 
 use std::sync::LazyLock;
@@ -41,11 +42,23 @@ impl Table {
         Table { rows }
     }
 
-    /// Returns the row of an element: that of `parent/tag`, or else that of its tag.
     pub(crate) fn row(&self, parent: &str, tag: &str) -> Option<&Row> {
+        let parent = match parent {
+            "frame" | "worldbody" => "body",
+            parent => parent,
+        };
         let placed = format!("{parent}/{tag}");
-        let find = |name: &str| self.rows.iter().find(|row| row.elements.contains(&name));
-        find(&placed).or_else(|| find(tag))
+        self.rows
+            .iter()
+            .find(|row| row.elements.contains(&&*placed))
+    }
+
+    /// Returns the row of an element whose parent is not known.
+    pub(crate) fn row_of(&self, tag: &str) -> Option<&Row> {
+        let is_of = |element: &str| element.rsplit('/').next() == Some(tag);
+        self.rows
+            .iter()
+            .find(|row| row.elements.iter().any(|element| is_of(element)))
     }
 }
 
@@ -77,7 +90,6 @@ mod tests {
     use crate::read::Reader;
     use crate::text::Text;
     use crate::xml::tests::ASKED;
-    use crate::xml::{Attribute, Element};
     use crate::{Options, open_text, read_model};
 
     /// Reads all models in a folder of test data.
@@ -96,18 +108,19 @@ mod tests {
         }
     }
 
-    /// The readers look for all names that are read, and for no others.
+    fn tag(element: &str) -> &str {
+        element.rsplit('/').next().unwrap()
+    }
+
+    /// The readers look for all attributes that are read, and for no others.
     #[test]
     fn what_is_read_is_looked_for() {
         read_all(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data"));
         let asked = ASKED.take();
-        fn tag(element: &str) -> &str {
-            element.rsplit('/').next().unwrap()
-        }
-        let mut missing = Vec::new();
         let rows = || URDF.rows.iter().chain(&MJCF.rows);
+        let mut missing = Vec::new();
         for row in rows() {
-            for name in &row.names[0] {
+            for name in row.names[0].iter().filter(|name| !name.starts_with('<')) {
                 let mut tags = row.elements.iter().map(|element| tag(element).to_owned());
                 if !tags.any(|tag| asked.contains(&[tag, (*name).to_owned()])) {
                     missing.push(format!("{} {name}", row.elements[0]));
@@ -128,40 +141,37 @@ mod tests {
     /// An element or an attribute that is left out gets a message that names it.
     #[test]
     fn what_is_left_out_is_said() {
-        for (table, root) in [(&*URDF, "robot"), (&*MJCF, "mujoco")] {
+        for table in [&*URDF, &*MJCF] {
             for row in &table.rows {
                 for name in &row.names[1] {
-                    let path = row.elements[0]
-                        .rsplit_once('/')
-                        .unwrap_or((root, row.elements[0]));
-                    let mut element = Element {
-                        tag: path.1.to_owned(),
-                        ..Element::default()
+                    let (parent, tag) = row.elements[0].split_once('/').unwrap();
+                    let inside = match name
+                        .strip_prefix('<')
+                        .and_then(|name| name.strip_suffix('>'))
+                    {
+                        Some(name) => format!("<{tag}><{name}>7.25</{name}></{tag}>"),
+                        None if *name == "*" => format!("<{tag}/>"),
+                        None => format!("<{tag} {name}='7.25'/>"),
                     };
-                    element.attributes.push(Attribute {
-                        key: (*name).to_owned(),
-                        value: "7.25".to_owned(),
-                        at: 0..0,
-                    });
-                    let parent = Element {
-                        tag: path.0.to_owned(),
-                        inside: vec![element],
-                        ..Element::default()
+                    // The parent's row is found by any of the elements above it.
+                    let above = table.row_of(parent).map_or("", |row| row.elements[0]);
+                    let above = above.split_once('/').map_or("", |(above, _)| above);
+                    let text = match parent {
+                        "" => inside,
+                        _ => format!("<{parent}>{inside}</{parent}>"),
                     };
-                    let text = Text::of("", String::new());
+                    let text = Text::of("", text);
                     let mut problems = Problems::of(&text);
-                    Reader::new(&mut problems, table).check(
-                        if path.0 == root { "" } else { root },
-                        &parent,
-                        "it",
-                    );
-                    let said = match problems.finish() {
-                        Ok(said) => said,
-                        Err(errors) => errors.0,
+                    let root = text.elements(&mut problems).unwrap();
+                    Reader::new(&mut problems, table).check(above, &root, "it");
+                    let said = problems.finish().unwrap_or_else(|errors| errors.0);
+                    let word = if *name == "*" {
+                        tag
+                    } else {
+                        name.trim_matches(['<', '>'])
                     };
-                    let word = if *name == "*" { path.1 } else { name };
                     let names = said.iter().any(|said| said.message.contains(word));
-                    assert!(names, "{} {name}: {said:?}", path.1);
+                    assert!(names, "{tag} {name}: {said:?}");
                 }
             }
         }

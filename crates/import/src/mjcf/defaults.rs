@@ -3,71 +3,60 @@
 use std::collections::BTreeMap;
 
 use super::place::ORIENTATIONS;
+use crate::keywords::{MJCF, Verdict};
 use crate::problems::instead;
 use crate::read::Reader;
 use crate::xml::{Attribute, Element};
-
-const ACTUATORS: [&str; 11] = [
-    "general",
-    "motor",
-    "position",
-    "velocity",
-    "intvelocity",
-    "damper",
-    "cylinder",
-    "muscle",
-    "adhesion",
-    "dcmotor",
-    "plugin",
-];
 
 /// The attributes of a class by kinds of elements.
 type Values = BTreeMap<&'static str, Vec<Attribute>>;
 type Classes = BTreeMap<String, Values>;
 
+/// No value that is read is longer.
+const MAX_LENGTH: usize = 1024;
 /// The outermost class, which is that of elements that name none, under whichever name.
 const MAIN: &str = "main";
 
 /// Returns a file with the values of its classes in all elements.
 pub(super) fn filled(root: &Element, reader: &mut Reader) -> Element {
     let mut classes = Classes::from([(MAIN.to_owned(), Values::new())]);
+    let mut names = Vec::new();
     for top in root.all("default") {
-        check(root, top, reader);
-        let name = top.get("class").map_or(MAIN, |class| &class.value);
-        let mut values = classes[MAIN].clone();
-        take(top, &mut values);
-        for class in [MAIN, name] {
-            classes.insert(class.to_owned(), values.clone());
-        }
+        // What is left out is said at the elements that have it.
+        let before = reader.problems.begin();
+        reader.check(&root.tag, top, "a class");
+        reader.problems.end(before);
+        names.extend(top.value("class"));
+        let values = classes.entry(MAIN.to_owned()).or_default();
+        take(top, values);
+        let values = values.clone();
         inner(top, &values, &mut classes, reader);
     }
+    let main = classes[MAIN].clone();
+    names
+        .into_iter()
+        .for_each(|name| drop(classes.insert(name.to_owned(), main.clone())));
     let mut root = root.clone();
     root.inside.retain(|part| part.tag != "default");
-    fill(&mut root, "", &classes[MAIN].clone(), &classes, reader);
+    fill(&mut root, "", &main, &classes, reader);
     root
 }
 
-/// Says unknown names; what is left out is said at the elements that have it.
-fn check(parent: &Element, class: &Element, reader: &mut Reader) {
-    let count = reader.problems.count();
-    reader.check(&parent.tag, class, "a class");
-    reader.problems.since(count);
-}
-
+/// Takes the values of a class that mean something for the robot.
 fn take(class: &Element, values: &mut Values) {
     for element in &class.inside {
-        let Some(kind) = kind("default", &element.tag) else {
+        let kind = kind("default", &element.tag);
+        let Some((kind, row)) = kind.zip(MJCF.row("default", &element.tag)) else {
             continue;
         };
         let values = values.entry(kind).or_default();
         values.retain(|old| !has(element, old));
-        values.extend(
-            element
-                .attributes
-                .iter()
-                .filter(|own| own.key != "class")
-                .cloned(),
-        );
+        let verdicts = [Verdict::Read, Verdict::LeftOut];
+        let more = element.attributes.iter().filter(|value| {
+            let is_short = value.value.len() < MAX_LENGTH;
+            is_short && value.key != "class" && verdicts.contains(&row.verdict(&value.key))
+        });
+        values.extend(more.cloned());
     }
 }
 
@@ -78,7 +67,7 @@ fn inner(outer: &Element, around: &Values, classes: &mut Classes, reader: &mut R
         let mut values = around.clone();
         take(class, &mut values);
         inner(class, &values, classes, reader);
-        if classes.insert(name.clone(), values).is_some() {
+        if !name.is_empty() && classes.insert(name.clone(), values).is_some() {
             let help = "each class has its settings in one place: give it another name";
             reader.problems.say("twice", &at, &[&"class", &name, &help]);
         }
@@ -88,14 +77,15 @@ fn inner(outer: &Element, around: &Values, classes: &mut Classes, reader: &mut R
 /// Returns the kind under which classes have an element: actuators, and equalities, share one.
 fn kind(parent: &str, tag: &str) -> Option<&'static str> {
     let kinds = ["joint", "geom", "site", "tendon", "equality", "actuator"];
+    let is_actuator = MJCF.row("actuator", tag).is_some();
     let kind = match (parent, tag) {
         ("actuator" | "tendon" | "equality", _) => parent,
         ("fixed" | "spatial", _) => return None,
-        ("default", tag) if ACTUATORS.contains(&tag) => "actuator",
+        ("default", _) if is_actuator => "actuator",
         (_, "tendon" | "equality" | "actuator") if parent != "default" => return None,
         _ => tag,
     };
-    kinds.into_iter().find(|own| *own == kind)
+    kinds.into_iter().find(|known| *known == kind)
 }
 
 /// True if an element has a value by itself: an orientation in any of its forms.
@@ -125,7 +115,7 @@ fn fill(
     };
     let kind = kind(parent, &element.tag);
     let own = kind.and_then(|_| named("class")).unwrap_or(around);
-    let has_children = matches!(element.tag.as_str(), "body" | "frame");
+    let has_children = matches!(element.tag.as_str(), "body" | "frame" | "worldbody");
     let inside = has_children.then(|| named("childclass")).flatten();
     let inside = inside.unwrap_or(around);
     let more = kind.and_then(|kind| own.get(kind)).into_iter().flatten();

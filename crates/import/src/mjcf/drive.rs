@@ -10,20 +10,27 @@ use super::Mjcf;
 use super::tie::Tendons;
 use crate::model::{Number, Value};
 use crate::read::added;
-use crate::xml::Element;
+use crate::xml::{Attribute, Element};
 
 impl Mjcf<'_, '_, '_> {
     /// Adds to the joints what drives them. The limit of a joint is the sum of the forces of its
     /// drives, or its own where that is less.
     pub(super) fn drives(&mut self, root: &Element, tendons: &Tendons) {
         let mut limits: BTreeMap<usize, Option<Number>> = BTreeMap::new();
+        for part in root.all("actuator") {
+            self.reader
+                .check_attributes("mujoco", part, "the actuators");
+            self.reader
+                .check_inside("mujoco", part, "the actuators", |_| false);
+        }
         for element in root.all("actuator").flat_map(|part| &part.inside) {
-            let count = self.reader.problems.count();
             let of = element.named(&format!("<{}>", element.tag));
-            self.reader.check("actuator", element, &of);
             let Some((joint, coefficient)) = self.driven(element, tendons) else {
+                self.reader.check("actuator", element, &of);
                 continue;
             };
+            let before = self.reader.problems.begin();
+            self.reader.check("actuator", element, &of);
             let gear = element.get("gear").and_then(|gear| self.reader.list(gear));
             let gear = gear.and_then(|gear| gear.into_iter().next());
             let gear = gear.unwrap_or_else(|| Number::constant("1", &element.at));
@@ -44,7 +51,7 @@ impl Mjcf<'_, '_, '_> {
             if element.tag == "dcmotor" && input == Some("none") {
                 self.reader.problems.say("brake", &element.at, &[&of]);
             }
-            let problems = self.reader.problems.since(count);
+            let problems = self.reader.problems.end(before);
             self.model.joints[joint].problems.extend(problems);
         }
         for (joint, limit) in limits {
@@ -59,30 +66,42 @@ impl Mjcf<'_, '_, '_> {
 
     /// Returns the joint that an actuator drives, and how far its tendon goes with the joint.
     fn driven(&mut self, element: &Element, tendons: &Tendons) -> Option<(usize, Rational)> {
-        let named = ["joint", "jointinparent"].map(|key| element.get(key));
-        if let Some(name) = named.into_iter().flatten().next() {
-            let joint = self.joint_named(&name.value, &name.at)?;
+        let targets = ["joint", "jointinparent", "tendon"].map(|key| element.get(key));
+        let targets: Vec<&Attribute> = targets.into_iter().flatten().collect();
+        let [target] = targets[..] else {
+            let second = targets.get(1)?;
+            return self
+                .reader
+                .problems
+                .refuse("two_targets", &second.at, &[&element.tag]);
+        };
+        if target.key != "tendon" {
+            let joint = self.joint_named(&target.value, &target.at)?;
             return Some((joint, Rational::one()));
         }
-        let tendon = element.get("tendon")?;
-        let found = tendons.get(&tendon.value)?;
-        let [(joint, coefficient)] = &found[..] else {
-            return None;
-        };
-        Some((*joint, coefficient.clone()))
+        match &tendons.get(&target.value)?[..] {
+            [(joint, coefficient)] => Some((*joint, coefficient.clone())),
+            _ => None,
+        }
     }
 
+    /// Returns the largest force of an actuator before its gear.
     fn force(&mut self, element: &Element) -> Option<Number> {
         let force = self.force_range(element, "forcelimited", "forcerange");
-        match (force, element.tag.as_str()) {
+        let other = match element.tag.as_str() {
             // A motor is told its force.
-            (None, "motor") => self.force_range(element, "ctrllimited", "ctrlrange"),
-            (None, "dcmotor") => {
-                let saturation = element.get("saturation")?;
-                self.reader.list(saturation)?.into_iter().next()
+            "motor" => self.force_range(element, "ctrllimited", "ctrlrange"),
+            "dcmotor" => {
+                let saturation = element.get("saturation");
+                let list = saturation.and_then(|saturation| self.reader.list(saturation));
+                list.and_then(|list| list.into_iter().next())
             }
-            (force, _) => force,
-        }
+            _ => None,
+        };
+        [force, other]
+            .into_iter()
+            .flatten()
+            .min_by(|a, b| a.value.cmp(&b.value))
     }
 
     /// Adds the armature and the damping of a drive, each times the square of the reduction.

@@ -25,7 +25,7 @@ impl Mjcf<'_, '_, '_> {
     pub(super) fn joint(&mut self, item: &Item, name: String, at: &Pose) -> (Joint, [Rational; 3]) {
         let (element, frame) = (item.element, &item.frame);
         let of = format!("joint `{name}`");
-        let count = self.reader.problems.count();
+        let before = self.reader.problems.begin();
         self.reader.check("body", element, &of);
         let none = [(); 3].map(|()| Rational::zero());
         if element.tag == "freejoint" {
@@ -45,7 +45,7 @@ impl Mjcf<'_, '_, '_> {
         let axis = axis.unwrap_or_else(|| Number::constants(["0", "0", "1"], &element.at));
         let (axis, pos) = (frame.rotate(&axis), self.reader.vector(element, "pos"));
         let anchor = match kind {
-            // A slide's direction says nothing of its place.
+            // The place of a slide has no effect.
             Kind::Prismatic | Kind::Floating => none,
             _ => frame.apply(&pos.map(|x| x.value)),
         };
@@ -95,7 +95,7 @@ impl Mjcf<'_, '_, '_> {
             friction: friction.filter(|_| !off("frictionloss")),
             spring: spring.filter(|spring| !spring.value.is_zero() && !off("spring")),
             armature: armature.map_or_else(Rational::zero, |armature| armature.value),
-            problems: self.reader.problems.since(count),
+            problems: self.reader.problems.end(before),
             ..fixed(["", ""], &element.at, at)
         };
         (joint, anchor)

@@ -22,20 +22,24 @@ const SHAPES: [(&str, usize); 5] = [
 enum Weight {
     Nothing,
     Something(Box<Inertial>),
-    /// That of a mesh, or of a shape that could not be read.
+    /// The mass of a mesh, or of an unreadable shape.
     Unknown,
 }
 
 impl Mjcf<'_, '_, '_> {
     /// Reads the mass of a body into its link, and returns that of its shapes.
     pub(super) fn mass(&mut self, items: &[Item], link: &mut Link) -> Vec<Inertial> {
-        let count = self.reader.problems.count();
         let of = |tag: &'static str| items.iter().filter(move |item| item.element.tag == tag);
         let named = format!("body `{}`", link.name);
         for item in of("inertial").chain(of("geom")) {
             self.reader.check("body", item.element, &named);
         }
         let own = of("inertial").next();
+        if let Some(second) = of("inertial").nth(1) {
+            self.reader
+                .problems
+                .say("second", &second.element.at, &[&"inertial"]);
+        }
         link.inertial = own.and_then(|item| self.inertial(item, &link.name));
         let geoms: Vec<&Item> = match self.settings.from_geoms {
             FromGeoms::None => Vec::new(),
@@ -60,9 +64,8 @@ impl Mjcf<'_, '_, '_> {
             }
             link.has_unknown_mass = true;
         }
-        link.problems.extend(self.reader.problems.since(count));
         if !solids.is_empty() || link.has_unknown_mass {
-            // They have the mass, and not the `inertial` beside them.
+            // The shapes replace the `inertial`.
             link.inertial = None;
         }
         solids
@@ -111,7 +114,8 @@ impl Mjcf<'_, '_, '_> {
         };
         let given = self.reader.number(element, key);
         let is_nothing = given.as_ref().is_some_and(|given| given.value.is_zero());
-        if is_nothing || !(low..=high).contains(&group) {
+        let is_flat = matches!(element.value("type"), Some("plane" | "hfield"));
+        if is_nothing || is_flat || !(low..=high).contains(&group) {
             return Weight::Nothing;
         }
         let solid = self.solid(item, key, given);
@@ -131,7 +135,7 @@ impl Mjcf<'_, '_, '_> {
         let sizes = self.reader.list(sizes)?.into_iter().take(3);
         let mut sizes: Vec<Rational> = sizes.map(|size| size.value).collect();
         let at = match element.get("fromto") {
-            // How it is turned about its length matters to a box.
+            // A box also needs its rotation about its length, which `fromto` does not give.
             Some(_) if *count == 3 => return None,
             Some(_) => {
                 let (at, half) = self.between(element, 1)?;

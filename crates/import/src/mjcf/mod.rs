@@ -19,10 +19,12 @@ mod settings;
 mod tie;
 mod world;
 
+use std::collections::BTreeMap;
+
 use crate::model::{Model, Number};
 use crate::read::Reader;
 use crate::xml::Element;
-use settings::Settings;
+pub(crate) use settings::Settings;
 
 /// The elements that take time, and the most that a robot has of them.
 const MANY: &[(&[&str], usize)] = &[
@@ -38,6 +40,12 @@ const MANY: &[(&[&str], usize)] = &[
 const READ_APART: [&str; 5] = ["worldbody", "default", "tendon", "equality", "actuator"];
 
 pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
+    for part in ["actuator", "tendon", "equality"] {
+        let count = root.all(part).map(|part| part.inside.len()).sum();
+        if !reader.are_few(&root.at, &format!("elements of <{part}>"), count, 4096) {
+            return None;
+        }
+    }
     for (tag, few) in MANY
         .iter()
         .flat_map(|(tags, few)| tags.iter().map(move |tag| (tag, few)))
@@ -59,10 +67,12 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
         gravity: Some(settings.gravity(root)),
         ..Model::default()
     };
+    let places = BTreeMap::new();
     let mut mjcf = Mjcf {
         reader,
         settings,
         model,
+        places,
     };
     mjcf.world(root)?;
     mjcf.model.resolve(mjcf.reader.problems);
@@ -76,6 +86,8 @@ struct Mjcf<'r, 'p, 't> {
     reader: &'r mut Reader<'p, 't>,
     settings: Settings,
     model: Model,
+    /// The bodies of sites and geoms: `site tip` is on one.
+    places: BTreeMap<String, String>,
 }
 
 impl Mjcf<'_, '_, '_> {

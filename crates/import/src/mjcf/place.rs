@@ -33,7 +33,7 @@ impl Mjcf<'_, '_, '_> {
         };
         if let Some(second) = found.get(1) {
             let keys: Vec<&str> = found.iter().map(|own| own.key.as_str()).collect();
-            let keys = keys.join("` and by `");
+            let keys = keys.join("` and `");
             self.reader
                 .problems
                 .say("two_orientations", &second.at, &[&keys]);

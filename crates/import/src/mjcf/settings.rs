@@ -7,7 +7,7 @@ use crate::model::Number;
 use crate::read::Reader;
 use crate::xml::Element;
 
-pub(super) struct Settings {
+pub(crate) struct Settings {
     pub(super) degrees: bool,
     pub(super) euler: [Turn; 3],
     pub(super) auto_limits: bool,
@@ -69,6 +69,22 @@ impl Settings {
         root.all("option")
             .for_each(|element| settings.option(element, reader));
         settings
+    }
+
+    /// Returns what the `<mujoco>` element of a URDF sets: bounds of masses, and gravity.
+    pub(crate) fn of_urdf(root: &Element, reader: &mut Reader) -> (Bounds, Option<[Number; 3]>) {
+        let settings = Settings::read(root, reader);
+        for flag in settings.off.iter().filter(|flag| **flag != "gravity") {
+            reader.problems.say("flag_off", &root.at, &[flag]);
+        }
+        if settings.from_geoms == FromGeoms::All {
+            reader
+                .problems
+                .say("compiler inertiafromgeom", &root.at, &[]);
+        }
+        let is_said = settings.gravity.is_some() || settings.is_off("gravity");
+        let gravity = is_said.then(|| settings.gravity(root));
+        (settings.bounds, gravity)
     }
 
     pub(super) fn is_off(&self, flag: &str) -> bool {

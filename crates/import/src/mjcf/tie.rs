@@ -20,29 +20,45 @@ pub(super) type Tendons = BTreeMap<String, Vec<(usize, Rational)>>;
 impl Mjcf<'_, '_, '_> {
     pub(super) fn ties(&mut self, root: &Element) -> Tendons {
         let mut tendons = Tendons::new();
+        for part in root.all("tendon") {
+            self.reader.check_attributes("mujoco", part, "the tendons");
+            self.reader
+                .check_inside("mujoco", part, "the tendons", |_| false);
+        }
         for element in root.all("tendon").flat_map(|part| &part.inside) {
             let of = element.named(&format!("{} tendon", element.tag));
-            let count = self.reader.problems.count();
+            let over = match element.tag.as_str() {
+                "spatial" => {
+                    self.reader.check("tendon", element, &of);
+                    let ends = self.path(element);
+                    self.tie(element, of, ends);
+                    continue;
+                }
+                "fixed" => self.over(element),
+                _ => continue,
+            };
+            let before = self.reader.problems.begin();
             self.reader.check("tendon", element, &of);
-            if element.tag == "spatial" {
-                let sites = element.all("site").filter_map(|site| site.value("site"));
-                let ends = Tied::Links(sites.map(str::to_owned).collect());
-                self.tie(element, of.clone(), ends);
-            }
-            if element.tag != "fixed" {
-                continue;
-            }
-            let over = self.over(element);
             match &over[..] {
                 [(joint, coefficient)] => {
                     self.limiting(element, *joint, coefficient);
-                    let problems = self.reader.problems.since(count);
+                    let problems = self.reader.problems.end(before);
                     self.model.joints[*joint].problems.extend(problems);
                 }
-                _ => self.tie(element, of, self.joints_tied(&over)),
+                _ => {
+                    let problems = self.reader.problems.end(before);
+                    self.reader.problems.add(problems);
+                    self.tie(element, of, self.joints_tied(&over));
+                }
             }
             let name = element.value("name").map(str::to_owned);
             tendons.extend(name.map(|name| (name, over)));
+        }
+        for part in root.all("equality") {
+            self.reader
+                .check_attributes("mujoco", part, "the equalities");
+            self.reader
+                .check_inside("mujoco", part, "the equalities", |_| false);
         }
         for element in root.all("equality").flat_map(|part| &part.inside) {
             let kind = format!("equality `{}`", element.tag);
@@ -59,7 +75,7 @@ impl Mjcf<'_, '_, '_> {
             }
             let ends = match element.tag.as_str() {
                 "joint" => self.follower(element),
-                "connect" | "weld" => Some(self.links_tied(root, element)),
+                "connect" | "weld" => Some(self.links_tied(element)),
                 "tendon" => {
                     let names = ["tendon1", "tendon2"].map(|key| element.value(key));
                     let over = names
@@ -88,17 +104,34 @@ impl Mjcf<'_, '_, '_> {
         Tied::Joints(joints.collect())
     }
 
-    fn links_tied(&self, root: &Element, element: &Element) -> Tied {
-        let keys = match element.get("site1") {
-            Some(_) => ["site1", "site2"],
-            None => ["body1", "body2"],
+    fn links_tied(&self, element: &Element) -> Tied {
+        let sites = ["site1", "site2"].map(|key| element.value(key));
+        let bodies = ["body1", "body2"].map(|key| element.value(key).unwrap_or("world"));
+        let ends = match sites {
+            [Some(one), Some(other)] => [one, other].map(|name| self.body_of("site", name)),
+            _ => bodies.map(str::to_owned),
         };
-        let names = keys.map(|key| element.value(key).unwrap_or("world"));
-        let links = names.map(|name| match self.model.link(name) {
-            Some(_) => name.to_owned(),
-            None => body_of_site(root, name).unwrap_or(name).to_owned(),
+        Tied::Links(ends.into())
+    }
+
+    /// Returns the bodies that a spatial tendon runs over.
+    fn path(&self, element: &Element) -> Tied {
+        let names = element.inside.iter().flat_map(|part| {
+            let named = ["site", "sidesite", "geom"].map(|key| (key, part.value(key)));
+            named
+                .into_iter()
+                .filter_map(|(key, name)| Some((key, name?)))
         });
-        Tied::Links(links.into())
+        let bodies = names.map(|(key, name)| {
+            let kind = if key == "geom" { "geom" } else { "site" };
+            self.body_of(kind, name)
+        });
+        Tied::Links(bodies.collect())
+    }
+
+    fn body_of(&self, kind: &str, name: &str) -> String {
+        let body = self.places.get(&format!("{kind} {name}"));
+        body.map_or("world", String::as_str).to_owned()
     }
 
     /// Reads the joints of a fixed tendon.
@@ -204,19 +237,13 @@ impl Mjcf<'_, '_, '_> {
             let [offset, multiplier] = [&terms[0], &terms[1]];
             [multiplier.clone(), start + offset - multiplier * from]
         });
-        self.model.joints[own].mimic = Some(Mimic {
+        let mimic = Mimic {
             leader: leader.value.clone(),
             at: element.at.clone(),
             line,
-        });
-        None
+        };
+        // A second leader holds the joint where both agree.
+        let is_second = self.model.joints[own].mimic.replace(mimic).is_some();
+        is_second.then(|| Tied::Joints(vec![name]))
     }
-}
-
-/// Returns the body of a site that is not a link, since a body has its name.
-fn body_of_site<'e>(element: &'e Element, name: &str) -> Option<&'e str> {
-    let is_it = |site: &&Element| site.value("name") == Some(name);
-    let mut inside = element.inside.iter();
-    let inside = inside.find(|inside| inside.all_inside("site").iter().any(is_it))?;
-    body_of_site(inside, name).or(inside.value("name"))
 }

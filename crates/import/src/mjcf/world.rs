@@ -68,6 +68,7 @@ impl Mjcf<'_, '_, '_> {
             self.reader
                 .check_inside("mujoco", part, "the world", is_apart_from_bodies);
             let items = self.items(part);
+            self.keep_places(&items, "world");
             made.extend(
                 items
                     .iter()
@@ -113,7 +114,9 @@ impl Mjcf<'_, '_, '_> {
             .all_inside("body")
             .into_iter()
             .filter_map(|body| body.get("gravcomp"));
-        let held: Vec<_> = held.filter(|part| part.value != "0").collect();
+        let held: Vec<_> = held
+            .filter(|part| part.value.trim().parse() != Ok(0.0))
+            .collect();
         if let Some(first) = held.first() {
             self.reader
                 .problems
@@ -161,20 +164,20 @@ impl Mjcf<'_, '_, '_> {
             None => fresh(&mut names.links, "body".to_owned()),
         };
         let of = format!("body `{name}`");
-        let count = self.reader.problems.count();
+        let before = self.reader.problems.begin();
         self.reader.check_attributes("body", element, &of);
-        self.reader
-            .check_inside("body", element, &of, is_apart_from_bodies);
+        let enter = is_apart_from_bodies;
+        self.reader.check_inside("body", element, &of, enter);
         let pose = item.frame.then(&self.pose(element));
         let items = self.items(element);
+        self.keep_places(&items, &name);
         let mut link = link(name.clone(), &element.at);
-        link.problems = self.reader.problems.since(count);
         let solids = self.mass(&items, &mut link);
         for part in items.iter().filter(|item| is_made_elsewhere(item)) {
             let Element { tag, at, .. } = part.element;
             self.reader.problems.say("made_on_body", at, &[tag, &of]);
         }
-        link.problems.extend(self.reader.problems.since(count));
+        link.problems = self.reader.problems.end(before);
         if self.settings.bounds.bound_bodies() && link.inertial.is_none() && solids.is_empty() {
             // Without the frames around it, which are part of the joint's origin.
             link.inertial = Some(massless(self.reader.vector(element, "pos")));
@@ -244,23 +247,21 @@ impl Mjcf<'_, '_, '_> {
     /// Adds a site with a name, unless a body has the same.
     fn site(&mut self, item: &Item, body: &str, names: &mut Names) {
         let element = item.element;
-        let name = element.get("name").map(|name| name.value.clone());
-        let count = self.reader.problems.count();
+        let before = self.reader.problems.begin();
         self.reader.check("body", element, "a site");
-        let Some(name) = name else {
-            return;
-        };
-        let pose = match element
+        let between = element
             .get("fromto")
-            .and_then(|_| self.between(element, -1))
-        {
-            Some((pose, _)) => pose,
-            None => self.pose(element),
+            .and_then(|_| self.between(element, -1));
+        let pose = between.map_or_else(|| self.pose(element), |(pose, _)| pose);
+        let problems = self.reader.problems.end(before);
+        let name = element.value("name").map(str::to_owned);
+        let Some(name) = name.filter(|name| names.links.insert(name.clone())) else {
+            let mut links = self.model.links.iter_mut();
+            let link = links.rfind(|link| link.name == body);
+            return link
+                .into_iter()
+                .for_each(|link| link.problems.extend(problems.clone()));
         };
-        let problems = self.reader.problems.since(count);
-        if !names.links.insert(name.clone()) {
-            return;
-        }
         let at = item.frame.then(&pose);
         self.model
             .joints
@@ -270,6 +271,17 @@ impl Mjcf<'_, '_, '_> {
             problems,
             ..link(name, &element.at)
         });
+    }
+
+    /// Keeps the bodies of sites and geoms, which ties name.
+    fn keep_places(&mut self, items: &[Item], body: &str) {
+        let has_name = |item: &&Item| ["site", "geom"].contains(&item.element.tag.as_str());
+        for element in items.iter().filter(has_name).map(|item| item.element) {
+            let name = element
+                .value("name")
+                .map(|name| format!("{} {name}", element.tag));
+            self.places.extend(name.map(|name| (name, body.to_owned())));
+        }
     }
 }
 

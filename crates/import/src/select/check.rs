@@ -41,7 +41,7 @@ impl<'m> Select<'m, '_, '_> {
                 }
                 Tied::Links(names) => {
                     let links = names.iter().map(|name| self.model.link(name));
-                    let links: Vec<Option<usize>> = links.collect();
+                    let links: BTreeSet<Option<usize>> = links.collect();
                     let mover = |link: &Option<usize>| link.and_then(|link| selection.movers[link]);
                     if links.iter().map(mover).collect::<BTreeSet<_>>().len() > 1 {
                         let over = self.closed_by(&links, selection).join("`, `");
@@ -54,16 +54,14 @@ impl<'m> Select<'m, '_, '_> {
     }
 
     /// Returns the names of the moving joints on the ways from links to where these meet.
-    fn closed_by(&self, links: &[Option<usize>], selection: &Selection) -> Vec<&'m str> {
-        let up = |joint: &usize| self.above[self.model.ends[*joint][0]];
-        let way = |link: &usize| std::iter::successors(self.above[*link], up).collect::<Vec<_>>();
-        let ways: Vec<Vec<usize>> = links.iter().flatten().map(way).collect();
-        let moving = selection.moving().into_iter();
-        let closes = moving.filter(|joint| {
-            let count = ways.iter().filter(|way| way.contains(joint)).count();
-            (1..links.len()).contains(&count)
-        });
-        closes
+    fn closed_by(&self, links: &BTreeSet<Option<usize>>, selection: &Selection) -> Vec<&'m str> {
+        let mut counts = vec![0; self.model.joints.len()];
+        for link in links.iter().flatten() {
+            self.way(*link).for_each(|joint| counts[joint] += 1);
+        }
+        let closes = |joint: &usize| (1..links.len()).contains(&counts[*joint]);
+        let moving = selection.moving().into_iter().filter(closes);
+        moving
             .map(|joint| self.model.joints[joint].name.as_str())
             .collect()
     }

@@ -1,6 +1,6 @@
 //! The part of a model that is the robot: what each joint does in it, and which joint moves a link.
 //!
-//! - `tip`: where an arm ends, when nobody says
+//! - `tip`: the end of an arm if no tip is given
 //! - `position`: positions of joints that are held
 //! - `check`: ties, followers, names in options
 
@@ -158,10 +158,26 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
     }
 
     pub(crate) fn base(&mut self, options: &Options) -> Option<usize> {
-        match &options.base {
-            Some(name) => self.model.link(name),
-            None => self.root().map(|root| self.standing(root)),
+        let base = match &options.base {
+            Some(name) => self.model.link(name)?,
+            None => self.root().map(|root| self.standing(root))?,
+        };
+        // Behind a link that is in no circle, there is none.
+        let is_circle = self
+            .way(base)
+            .any(|joint| self.model.ends[joint][0] == base);
+        match is_circle {
+            true => self
+                .problems
+                .refuse("circle", &self.model.links[base].at, &[]),
+            false => Some(base),
         }
+    }
+
+    /// Returns the joints from a link up to the root, or once around a circle.
+    fn way(&self, link: usize) -> impl Iterator<Item = usize> {
+        let up = |joint: &usize| self.above[self.model.ends[*joint][0]];
+        std::iter::successors(self.above[link], up).take(self.model.ends.len())
     }
 
     fn root(&mut self) -> Option<usize> {
@@ -396,12 +412,15 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
         wanted: &BTreeSet<usize>,
     ) -> Option<String> {
         let joints = &self.model.joints;
-        let Some(leader) = wanted
+        let leader = wanted
             .iter()
-            .find(|other| joints[**other].name == mimic.leader)
-        else {
+            .find(|other| joints[**other].name == mimic.leader);
+        let Some(leader) = leader else {
             return Some(", which is not in the chain".to_owned());
         };
+        if self.stays(*leader) {
+            return Some(", which does not move".to_owned());
+        }
         let Some([multiplier, _]) = &mimic.line else {
             return Some(", and not along a line".to_owned());
         };

@@ -1,4 +1,4 @@
-//! Positions of joints that are held: where that is, and whether the joint can be there.
+//! Positions of held joints, checked against their limits.
 
 use std::cmp::Ordering;
 use std::fmt::Display;

@@ -1,5 +1,5 @@
-//! Where an arm ends, when nobody says: at the palm that its fingers hang on, or at the
-//! end of its longest chain.
+//! Finds the end of an arm if no tip is given: the palm that holds the fingers, or the end of the
+//! longest chain.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
@@ -10,8 +10,7 @@ use crate::select::Select;
 
 /// Arms have more joints that move than this before their hand.
 const ARM: usize = 3;
-/// Fingers have at most so many joints that move behind each other; of a hand with three or
-/// more, any number.
+/// The most moving joints of a finger. A hand with three or more fingers may have any number.
 const FINGER: usize = 4;
 /// Parts of the names of fingers; a link called gripper is the palm.
 const FINGERS: [&str; 4] = ["finger", "jaw", "claw", "thumb"];
@@ -173,12 +172,6 @@ impl Select<'_, '_, '_> {
             at += 1;
             let hanging = self.hanging(link).into_iter();
             order.extend(hanging.map(|joint| self.model.ends[joint][1]));
-            // Every link hangs on one joint: only the base can come again.
-            if order[1..].contains(&base) {
-                return self
-                    .problems
-                    .refuse("circle", &self.model.links[base].at, &[]);
-            }
         }
         let mut heights = Heights::new();
         for link in order.into_iter().rev() {
@@ -211,7 +204,7 @@ impl Select<'_, '_, '_> {
     fn hanging(&self, link: usize) -> Vec<usize> {
         let is_part = |joint: &usize| {
             let child = self.model.ends[*joint][1];
-            // What floats or drives away is not the end of an arm.
+            // A link that floats or drives away does not end an arm.
             let kind = self.model.joints[*joint].kind;
             let is_apart = matches!(kind, Kind::Floating | Kind::Planar);
             let is_mark = self.model.links[child].role == Role::Mark;

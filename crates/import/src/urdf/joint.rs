@@ -1,5 +1,7 @@
 //! A joint, its limits, and what drives it.
 
+use std::collections::BTreeMap;
+
 use dalembert_model::number::Rational;
 use num_traits::Zero;
 
@@ -32,7 +34,7 @@ pub(super) fn joint(element: &Element, reader: &mut Reader) -> Joint {
             (String::new(), element.at.clone())
         }
     });
-    let count = reader.problems.count();
+    let before = reader.problems.begin();
     reader.check("robot", element, &format!("joint `{name}`"));
     reader.required(element, "type");
     let kind = reader
@@ -100,7 +102,7 @@ pub(super) fn joint(element: &Element, reader: &mut Reader) -> Joint {
         acceleration,
         mimic,
         name,
-        problems: reader.problems.since(count),
+        problems: reader.problems.end(before),
         ..loads
     }
 }
@@ -108,36 +110,40 @@ pub(super) fn joint(element: &Element, reader: &mut Reader) -> Joint {
 /// Reads damping, friction and armature, which files have under several names.
 fn loads(element: &Element, name: &str, reader: &mut Reader) -> Joint {
     let of = format!("joint `{name}`");
-    let older = element.first("joint_properties");
-    let Some(dynamics) = only(element, "dynamics", reader).or(older) else {
-        return Joint::default();
+    let older = only(element, "joint_properties", reader);
+    let dynamics = match (only(element, "dynamics", reader), older) {
+        (Some(dynamics), Some(older)) => {
+            reader.problems.say("beside_properties", &older.at, &[&of]);
+            dynamics
+        }
+        (Some(dynamics), None) => dynamics,
+        (None, Some(older)) => {
+            reader.problems.say("older_dynamics", &older.at, &[&of]);
+            older
+        }
+        (None, None) => return Joint::default(),
     };
-    if dynamics.tag == "joint_properties" {
-        reader.problems.say("older_dynamics", &dynamics.at, &[&of]);
-    }
-    let mut number = |key| reader.number(dynamics, key);
-    let [damping, friction] = ["damping", "friction"].map(&mut number);
-    let [viscous, coulomb] = ["mu_viscous", "mu_coulomb"].map(&mut number);
-    let [armature, rotor] = ["armature", "rotor_inertia"].map(&mut number);
-    for (key, known, other) in [
-        ("mu_viscous", &damping, &viscous),
-        ("mu_coulomb", &friction, &coulomb),
-    ] {
-        let other = other
-            .as_ref()
-            .filter(|other| known.is_some() && !other.value.is_zero());
-        other.iter().for_each(|other| {
+    // Of two names the first counts, unless it says nothing.
+    let mut load = |[first, second]: [&str; 2]| {
+        let [first, other] = [first, second].map(|key| {
+            let number = reader.number(dynamics, key);
+            number.filter(|number| !number.value.is_zero())
+        });
+        if let (Some(_), Some(other)) = (&first, &other) {
             reader
                 .problems
-                .say("beside_dynamics", &other.at, &[&of, &key])
-        });
-    }
-    let armature = armature.or(rotor);
+                .say("beside_dynamics", &other.at, &[&of, &second]);
+        }
+        first.or(other)
+    };
+    let damping = load(["damping", "mu_viscous"]);
+    let friction = load(["friction", "mu_coulomb"]);
+    let armature = load(["armature", "rotor_inertia"]);
     let what = format!("the armature of {of}");
     reader.not_negative(armature.as_ref(), &what, "it adds inertia: zero or more");
     Joint {
-        damping: damping.or(viscous),
-        friction: friction.or(coulomb),
+        damping,
+        friction,
         armature: armature.map_or_else(Rational::zero, |armature| armature.value),
         ..Joint::default()
     }
@@ -146,45 +152,23 @@ fn loads(element: &Element, name: &str, reader: &mut Reader) -> Joint {
 /// Adds the rotors of a transmission, inertia times the square of the reduction, to the armature of
 /// every joint that it drives.
 pub(super) fn transmission(element: &Element, joints: &mut [Joint], reader: &mut Reader) {
-    let of = format!(
-        "transmission `{}`",
-        element.value("name").unwrap_or_default()
-    );
+    let of = element.named("transmission");
     reader.check("robot", element, &of);
-    let named: Vec<&Element> = element.all("joint").collect();
-    let mut driven = Vec::new();
-    for joint in &named {
-        let (name, at) = reader.required(joint, "name");
-        match joints.iter().position(|joint| joint.name == name) {
-            Some(joint) => driven.push(joint),
-            None => reader.problems.say("rotor_of_nothing", &at, &[&of, &name]),
-        }
+    let is_actuator = |inside: &&Element| local(&inside.tag) == "actuator";
+    let actuators: Vec<&Element> = element.inside.iter().filter(is_actuator).collect();
+    let mut named: BTreeMap<&str, &Element> = BTreeMap::new();
+    for joint in element.all("joint") {
+        named.extend(joint.value("name").map(|name| (name, joint)));
     }
-    let actuators = element
-        .inside
-        .iter()
-        .filter(|inside| local(&inside.tag) == "actuator");
-    let actuators: Vec<&Element> = actuators.collect();
     let kind = element
         .get("type")
         .or(element.first("type").and_then(Element::content));
     let kind = kind.map_or("", |kind| &kind.value);
-    // The reduction may stand in the joint, or beside joint and actuator.
-    let mut beside = vec![element];
-    beside.extend(named);
-    beside.extend(actuators.iter().filter(|_| actuators.len() == 1));
     for place in actuators.iter().copied().chain([element]) {
-        // Files that were written for several tools have several reductions: the rotor's is in
-        // the spelling of its name.
-        let rotor = ROTORS.iter().find_map(|(rotors, ratios)| {
-            let inertia = number_named(place, rotors)?;
-            let mut places = [place].into_iter().chain(beside.iter().copied());
-            Some((
-                inertia,
-                places.find_map(|place| number_named(place, ratios)),
-            ))
-        });
-        let Some((inertia, ratio)) = rotor else {
+        let rotor = ROTORS
+            .iter()
+            .find_map(|(rotors, ratios)| Some((number_named(place, rotors)?, ratios)));
+        let Some((inertia, ratios)) = rotor else {
             continue;
         };
         if COUPLED.iter().any(|word| kind.contains(word)) {
@@ -193,14 +177,29 @@ pub(super) fn transmission(element: &Element, joints: &mut [Joint], reader: &mut
                 .say("rotors_coupled", &inertia.at, &[&of, &kind]);
             continue;
         }
-        let mut number = |own: &Attribute| reader.parse(own.value.trim(), &own.at);
-        let one = || Some(Number::constant("1", &inertia.at));
-        let ratio = ratio.map_or_else(one, &mut number);
-        let Some((inertia, ratio)) = number(inertia).zip(ratio) else {
+        if named.is_empty() {
+            reader
+                .problems
+                .say("rotor_of_nothing", &inertia.at, &[&of, &""]);
+        }
+        let Some(rotor) = reader.parse(inertia.value.trim(), &inertia.at) else {
             continue;
         };
-        for joint in &driven {
-            joints[*joint].add_rotor(inertia.clone(), ratio.clone());
+        for (name, driven) in &named {
+            // Files that were written for several tools have several reductions: the rotor's is in
+            // the spelling of its name, and may stand in the joint, or beside joint and actuator.
+            let mut places = vec![place, driven, element];
+            places.extend(actuators.iter().filter(|_| actuators.len() == 1));
+            let ratio = places.iter().find_map(|place| number_named(place, ratios));
+            let one = || Some(Number::constant("1", &inertia.at));
+            let ratio = ratio.map_or_else(one, |ratio| reader.parse(ratio.value.trim(), &ratio.at));
+            match (joints.iter_mut().find(|joint| joint.name == **name), ratio) {
+                (Some(joint), Some(ratio)) => joint.add_rotor(rotor.clone(), ratio),
+                (None, _) => reader
+                    .problems
+                    .say("rotor_of_nothing", &driven.at, &[&of, name]),
+                (Some(_), None) => {}
+            }
         }
     }
 }

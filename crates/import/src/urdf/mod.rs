@@ -2,7 +2,8 @@
 
 mod joint;
 
-use crate::bounds::Bounds;
+use crate::keywords::MJCF;
+use crate::mjcf::Settings;
 use crate::model::{Inertial, Joint, Link, MAX_LINKS, Model, Number, Origin, Role, Tie, Tied};
 use crate::orientation::{Pose, of_quaternion};
 use crate::read::Reader;
@@ -49,6 +50,8 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
             .collect(),
         ..Model::default()
     };
+    let frames = root.all("frame").take(MAX_LINKS + 1);
+    frames.for_each(|element| frame(element, &mut model, reader));
     for (what, count) in [("links", model.links.len()), ("joints", model.joints.len())] {
         if !reader.are_few(&root.at, what, count, MAX_LINKS) {
             return None;
@@ -57,8 +60,6 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
     if model.links.is_empty() {
         return reader.problems.refuse("no_links", &root.at, &[]);
     }
-    root.all("frame")
-        .for_each(|element| frame(element, &mut model, reader));
     reader.unique(
         "link",
         model.links.iter().map(|link| (&link.name, &link.at)),
@@ -76,29 +77,35 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
     reader.check_inside("", root, "the robot", enter);
     let loops = LOOPS.into_iter().flat_map(|tag| root.all_inside(tag));
     model.ties = loops.map(|element| tie(element, &model)).collect();
-    let mut bounds = Bounds::default();
-    for settings in root.all("mujoco") {
-        settings
-            .all("compiler")
-            .for_each(|compiler| bounds.read(compiler, reader));
-        for option in settings.all("option") {
-            model.gravity = reader.numbers(option, "gravity").or(model.gravity.take());
+    for element in root.all("mujoco") {
+        let mut mjcf = reader.with(&MJCF);
+        mjcf.check("", element, "the robot");
+        mjcf.say_unknown();
+        let (bounds, gravity) = Settings::of_urdf(element, &mut mjcf);
+        model.gravity = gravity.or(model.gravity.take());
+        bounds.apply(&mut model, reader);
+    }
+    for param in root.all_inside("param") {
+        let value = param.text.as_ref().map_or("", |text| &text.value);
+        if param.value("name") == Some("mimic") {
+            reader
+                .problems
+                .say("plugin mimicJoint", &param.at, &[&value]);
         }
     }
-    bounds.apply(&mut model, reader);
     Some(model)
 }
 
 fn link(element: &Element, reader: &mut Reader) -> Link {
     let (name, _) = reader.required(element, "name");
-    let count = reader.problems.count();
+    let before = reader.problems.begin();
     reader.check("robot", element, &format!("link `{name}`"));
     let inertial = only(element, "inertial", reader);
     Link {
         at: element.at.clone(),
         inertial: inertial.and_then(|inertial| self::inertial(inertial, &name, reader)),
         name,
-        problems: reader.problems.since(count),
+        problems: reader.problems.end(before),
         ..Link::default()
     }
 }
@@ -150,7 +157,7 @@ fn origin(element: &Element, reader: &mut Reader) -> Origin {
     if let Some(rpy) = origin.get("rpy") {
         reader
             .problems
-            .say("two_orientations", &rpy.at, &[&"rpy` and by `quat_xyzw"]);
+            .say("two_orientations", &rpy.at, &[&"rpy` and `quat_xyzw"]);
     }
     let numbers = reader.numbers(origin, "quat_xyzw");
     match numbers.map(|[x, y, z, w]| of_quaternion(&[w, x, y, z])) {
@@ -177,14 +184,14 @@ fn rolled(xyz: [Number; 3], rpy: [Number; 3]) -> Origin {
 
 /// Reads a frame of Drake's: a name for a place on a link.
 fn frame(element: &Element, model: &mut Model, reader: &mut Reader) {
-    let count = reader.problems.count();
+    let before = reader.problems.begin();
     let [parent, child] = ["link", "name"].map(|key| reader.required(element, key));
     let [xyz, rpy] = ["xyz", "rpy"].map(|key| reader.vector(element, key));
     model.links.push(Link {
         name: child.0.clone(),
         at: element.at.clone(),
         role: Role::Mark,
-        problems: reader.problems.since(count),
+        problems: reader.problems.end(before),
         ..Link::default()
     });
     let origin = rolled(xyz, rpy);
@@ -196,7 +203,7 @@ fn frame(element: &Element, model: &mut Model, reader: &mut Reader) {
 /// Says what Gazebo's extension of a link or a joint has that is left out.
 fn gazebo(element: &Element, model: &mut Model, reader: &mut Reader) {
     let reference = element.value("reference").unwrap_or_default();
-    let count = reader.problems.count();
+    let before = reader.problems.begin();
     let link = model.links.iter_mut().find(|link| link.name == reference);
     let joint = model
         .joints
@@ -209,7 +216,7 @@ fn gazebo(element: &Element, model: &mut Model, reader: &mut Reader) {
     };
     reader.check("robot", element, &of);
     if let Some(problems) = problems {
-        problems.extend(reader.problems.since(count));
+        problems.extend(reader.problems.end(before));
     }
 }
 
