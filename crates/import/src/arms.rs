@@ -8,7 +8,7 @@ use dalembert_model::robot::suggested_name;
 use crate::model::Model;
 use crate::problems::Problems;
 use crate::select::{OTHERS, Select};
-use crate::{Imported, Options, Text, import_text, read_model};
+use crate::{Imported, Options, Text, import_text, read_model, said};
 
 /// Two arms that hang on joints which both have.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,7 +28,13 @@ pub struct Shared {
 pub fn arms(text: &Text, options: &Options) -> Result<(Vec<Imported>, Vec<Shared>), Diagnostics> {
     let mut problems = Problems::of(text);
     let model = read_model(text, options, &mut problems);
-    let tips = model.and_then(|model| Some((tips(&model, options, &mut problems)?, model.name)));
+    let tips = model.and_then(|model| match tips(&model, options, &mut problems) {
+        Some(tips) => Some((tips, model.name)),
+        None => {
+            said(&model, &mut problems, |_| true, |_| true);
+            None
+        }
+    });
     let notes = problems.finish()?;
     let Some((tips, robot)) = tips else {
         return Err(Diagnostics(notes));
@@ -47,13 +53,13 @@ pub fn arms(text: &Text, options: &Options) -> Result<(Vec<Imported>, Vec<Shared
         while !names.insert(name.clone()) {
             name = format!("{wish}_{}", names.len());
         }
-        let own = Options {
+        let of_arm = Options {
             tip: Some(tip),
             lock: lock.clone(),
             name: Some(name.clone()),
             ..options.clone()
         };
-        match import_text(text, &own) {
+        match import_text(text, &of_arm) {
             Ok(imported) => arms.push((name, imported)),
             Err(Diagnostics(found)) => {
                 for error in found {

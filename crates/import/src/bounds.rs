@@ -6,13 +6,12 @@ use dalembert_model::number::recover::rounded;
 use dalembert_model::number::{Rational, Wide};
 use dalembert_model::placed::Body;
 use dalembert_model::placed::frame::{moved, pose};
-use dalembert_model::robot::values::number;
 use dalembert_model::robot::{Defect, Inertia};
 use dalembert_model::scalar::Scalar;
 use num_traits::{One, Signed, Zero};
 
-use crate::merge::{combined, size_of};
-use crate::model::{Inertial, Joint, Kind, Model, Number, Origin, Role, Value};
+use crate::merge::{combined, shifted, size_of};
+use crate::model::{Inertial, Joint, Kind, Model, Number, Origin, Role};
 use crate::read::Reader;
 use crate::xml::Element;
 
@@ -62,9 +61,7 @@ impl Bounds {
             ];
             let keys: Vec<&str> = keys.into_iter().flatten().collect();
             let names = changed.join("`, `");
-            reader
-                .problems
-                .say("bounded", &model.at, &[&keys.join(", "), &names]);
+            reader.say("bounded", &model.at, &[&keys.join(", "), &names]);
         }
         if let Some(total) = &self.total {
             scale(total, model, reader);
@@ -73,9 +70,9 @@ impl Bounds {
 
     /// Applies the bounds to the body of a link; returns its name if that changes something.
     fn apply_to(&self, link: usize, model: &mut Model) -> Option<String> {
-        let joint = above(model, link)?;
-        let own = &model.links[link];
-        if own.role != Role::Body || own.has_unknown_mass {
+        let joint = &model.joints[model.above[link]?];
+        let body = &model.links[link];
+        if body.role != Role::Body || body.has_unknown_mass {
             return None;
         }
         let mut parts: Vec<(usize, &Joint)> = vec![(link, joint)];
@@ -122,7 +119,7 @@ impl Bounds {
         parts
             .iter()
             .for_each(|part| model.links[*part].inertial = None);
-        let entry = |value: &Rational| Value::new(value.clone(), number(value), &before.mass.at);
+        let entry = |value: &Rational| Number::of(value, &before.mass.at);
         let inertia = bounded.map(entry);
         model.links[holder].inertial = Some(Inertial {
             mass,
@@ -131,12 +128,6 @@ impl Bounds {
         });
         Some(model.links[link].name.clone())
     }
-}
-
-/// Returns the joint that a link hangs on.
-fn above(model: &Model, link: usize) -> Option<&Joint> {
-    let index = model.ends.iter().position(|[_, child]| *child == link)?;
-    model.joints.get(index)
 }
 
 fn diagonal(entry: impl Fn(usize) -> Rational) -> Inertia<Rational> {
@@ -160,26 +151,18 @@ pub(crate) fn massless(xyz: [Number; 3]) -> Inertial {
 fn in_one_frame(parts: &[(usize, &Joint)], link: usize, model: &Model) -> Option<Inertial> {
     let mut bodies = Vec::new();
     for (part, joint) in parts {
-        let Inertial {
-            origin,
-            mass,
-            inertia,
-        } = model.links[*part].inertial.as_ref()?;
-        let body = Body {
-            mass: mass.value.clone(),
-            com: [(); 3].map(|()| Rational::zero()),
-            inertia: inertia.map(|entry| entry.value.clone()),
-        };
-        let (mut way, mut size) = (pose(&origin.placement()), origin.placement().size());
+        let inertial = model.links[*part].inertial.as_ref()?;
+        let origin = inertial.origin.placement();
+        let (mut way, mut size) = (pose(&origin), origin.size());
         if *part != link {
             let placement = joint.origin.placement();
             (way, size) = (pose(&placement).then(&way), size + placement.size());
         }
-        bodies.push(moved(&body, &way, &size_of(size)));
+        bodies.push(moved(&inertial.body(), &way, &size_of(size)));
     }
     let Body { mass, com, inertia } = combined(&bodies);
     let at = &model.links[link].at;
-    let entry = |value: &Rational| Value::new(value.clone(), number(value), at);
+    let entry = |value: &Rational| Number::of(value, at);
     Some(Inertial {
         origin: Origin {
             xyz: com.each_ref().map(entry),
@@ -193,11 +176,7 @@ fn in_one_frame(parts: &[(usize, &Joint)], link: usize, model: &Model) -> Option
 /// Returns a tensor whose principal moments are at least this.
 fn with_moments_of(tensor: &Inertia<Rational>, least: &Rational) -> Inertia<Rational> {
     let rows = tensor.rows();
-    let rest = Inertia::symmetric(|i, k| match i == k {
-        true => &rows[i][k] - least,
-        false => rows[i][k].clone(),
-    });
-    if rest.defect(&Rational::one()) != Some(Defect::NegativeMoment) {
+    if shifted(tensor, &-least).defect(&Rational::one()) != Some(Defect::NegativeMoment) {
         return tensor.clone();
     }
     if [&tensor.xy, &tensor.yz, &tensor.xz]
@@ -259,39 +238,28 @@ fn principal(rows: [[Rational; 3]; 3]) -> ([Wide; 3], [[Wide; 3]; 3]) {
     ([a[0][0], a[1][1], a[2][2]], axes)
 }
 
-/// True if only fixed joints are above a link.
-fn is_static(model: &Model, mut link: usize) -> bool {
-    // In a circle there is no end.
-    for _ in 0..model.links.len() {
-        let Some(index) = model.ends.iter().position(|[_, child]| *child == link) else {
-            break;
-        };
-        if model.joints[index].kind != Kind::Fixed {
-            return false;
-        }
-        link = model.ends[index][0];
-    }
-    true
+/// True if only fixed joints are above a link; in a circle there is no end.
+fn is_static(model: &Model, link: usize) -> bool {
+    let up = |joint: &usize| model.above[model.ends[*joint][0]];
+    let mut way = std::iter::successors(model.above[link], up).take(model.joints.len());
+    way.all(|joint| model.joints[joint].kind == Kind::Fixed)
 }
 
 /// Scales all masses to a total, in a URDF without the links that MuJoCo makes part of the world.
 fn scale(total: &Number, model: &mut Model, reader: &mut Reader) {
     let is_body = |link: &usize| model.format != "a URDF" || !is_static(model, *link);
     let links: Vec<usize> = (0..model.links.len()).filter(is_body).collect();
-    let own = links.iter().map(|link| &model.links[*link]);
-    let sum: Rational = own
+    let bodies = links.iter().map(|link| &model.links[*link]);
+    let sum: Rational = bodies
         .clone()
         .flat_map(|link| &link.inertial)
-        .map(|own| &own.mass.value)
+        .map(|bodies| &bodies.mass.value)
         .sum();
-    if own.into_iter().any(|link| link.has_unknown_mass) || sum.is_zero() {
-        return reader.problems.say("total_unknown", &total.at, &[]);
+    if bodies.into_iter().any(|link| link.has_unknown_mass) || sum.is_zero() {
+        return reader.say("total_unknown", &total.at, &[]);
     }
     let ratio = &total.value / sum;
-    let scaled = |own: &Number| {
-        let value = &own.value * &ratio;
-        Number::new(value.clone(), number(&value), &own.at)
-    };
+    let scaled = |before: &Number| Number::of(&(&before.value * &ratio), &before.at);
     for link in links {
         if let Some(inertial) = &mut model.links[link].inertial {
             inertial.mass = scaled(&inertial.mass);

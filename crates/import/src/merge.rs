@@ -112,9 +112,8 @@ pub(crate) fn merged(
                 continue;
             };
             let body = Body {
-                mass: inertial.mass.value.clone(),
-                com: [(); 3].map(|()| Rational::zero()),
                 inertia,
+                ..inertial.body()
             };
             let pose = way.then(&pose(&origin));
             parts.push(moved(&body, &pose, &(&size + origin.size())));
@@ -181,25 +180,23 @@ fn possible(
         true => Rational::zero(),
         false => entry.clone(),
     });
-    let rows = swept.rows();
-    let lifted = Inertia::symmetric(|i, k| match i == k {
-        true => &rows[i][k] + &dust,
-        false => rows[i][k].clone(),
-    });
+    let lifted = shifted(&swept, &dust);
     let is_possible = |inertia: &Inertia<Rational>| {
         inertia.defect(&Rational::one()) != Some(Defect::NegativeMoment)
     };
     let found = [swept, lifted].into_iter().find(is_possible);
-    problems.say(
-        if found.is_some() {
-            "dust"
-        } else {
-            "negative_moment"
-        },
-        at,
-        &words,
-    );
+    let id = found.as_ref().map_or("negative_moment", |_| "dust");
+    problems.say(id, at, &words);
     found
+}
+
+/// Returns a tensor with all principal moments larger by this.
+pub(crate) fn shifted(tensor: &Inertia<Rational>, by: &Rational) -> Inertia<Rational> {
+    let rows = tensor.rows();
+    Inertia::symmetric(|i, k| match i == k {
+        true => &rows[i][k] + by,
+        false => rows[i][k].clone(),
+    })
 }
 
 /// Returns the length scale: the sum of all lengths, or 1 without any.
@@ -255,5 +252,57 @@ fn short(value: Rational) -> Rational {
     match write_decimal(&value) {
         Some(text) if text.len() < 28 => value,
         _ => rounded(&value),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::select::select;
+    use crate::{Options, Text, read_model};
+
+    /// Two arms on one torso are a tree, whose branches are those of each arm by itself.
+    #[test]
+    fn several_tips_make_a_tree() {
+        let path = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../../gallery/urdf/baxter.urdf"
+        );
+        let text = Text::of("baxter", std::fs::read_to_string(path).unwrap());
+        let tree = |tips: &[&str]| {
+            let mut problems = Problems::of(&text);
+            let options = Options {
+                lock: vec![("*".to_owned(), "0".to_owned())],
+                ..Options::default()
+            };
+            let model = read_model(&text, &options, &mut problems).unwrap();
+            let selection = select(&model, &options, tips, &mut problems).unwrap();
+            merged(&model, &selection, &mut problems).unwrap()
+        };
+        let hands = ["left_hand_link", "right_hand_link"];
+        let both = tree(&hands);
+        assert_eq!((both.bodies.len(), both.tools.len()), (14, 2));
+        assert_eq!(
+            both.bodies
+                .iter()
+                .filter(|body| body.parent.is_none())
+                .count(),
+            2
+        );
+        for (tip, tool) in hands.iter().zip(&both.tools) {
+            let alone = tree(&[tip]);
+            assert_eq!((alone.bodies.len(), &alone.tools[0]), (7, tool));
+            for (index, body) in alone.bodies.iter().enumerate() {
+                assert_eq!(body.parent, index.checked_sub(1));
+                let same = both
+                    .bodies
+                    .iter()
+                    .find(|other| other.joint == body.joint)
+                    .unwrap();
+                assert_eq!((&same.body, &same.placement), (&body.body, &body.placement));
+                let parent = |tree: &Tree, of: &Branch| Some(tree.bodies[of.parent?].joint);
+                assert_eq!(parent(&both, same), parent(&alone, body));
+            }
+        }
     }
 }

@@ -2,8 +2,10 @@
 
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Angle, Rational};
+use dalembert_model::placed::Body;
+use dalembert_model::robot::values::number;
 use dalembert_model::robot::{Inertia, Placement, Position};
-use num_traits::Signed;
+use num_traits::{Signed, Zero};
 
 use crate::problems::{Problem, Problems, instead};
 use crate::text::Span;
@@ -20,6 +22,8 @@ pub(crate) struct Model {
     pub(crate) joints: Vec<Joint>,
     /// The parent and the child of each joint, by their places among the links.
     pub(crate) ends: Vec<[usize; 2]>,
+    /// The joint that each link hangs on.
+    pub(crate) above: Vec<Option<usize>>,
     /// Gravity in the axes of the root, where the file says it.
     pub(crate) gravity: Option<[Number; 3]>,
     pub(crate) ties: Vec<Tie>,
@@ -186,8 +190,24 @@ impl Number {
         Value::new(parse_decimal(text).unwrap_or_default(), text, at)
     }
 
+    /// Returns a number that was computed.
+    pub(crate) fn of(value: &Rational, at: &Span) -> Number {
+        Value::new(value.clone(), number(value), at)
+    }
+
     pub(crate) fn constants<const N: usize>(texts: [&str; N], at: &Span) -> [Number; N] {
         texts.map(|text| Number::constant(text, at))
+    }
+}
+
+impl Inertial {
+    /// Returns the weight in the frame of its centre of mass.
+    pub(crate) fn body(&self) -> Body {
+        Body {
+            mass: self.mass.value.clone(),
+            com: [(); 3].map(|()| Rational::zero()),
+            inertia: self.inertia.map(|entry| entry.value.clone()),
+        }
     }
 }
 
@@ -220,6 +240,14 @@ impl Joint {
             parent,
             child,
             ..Joint::default()
+        }
+    }
+
+    /// Adds damping, which is times the square of a ratio.
+    pub(crate) fn add_damping(&mut self, damping: Option<Number>, ratio: &Rational) {
+        if let Some(damping) = damping.filter(|damping| !damping.value.is_zero()) {
+            let more = damping.map(|value| value * ratio * ratio);
+            self.damping = Some(added(self.damping.take(), more));
         }
     }
 
@@ -263,9 +291,20 @@ impl Model {
             found.unwrap_or_default()
         };
         let joints = self.joints.iter();
-        self.ends = joints
-            .map(|joint| [end(&joint.parent), end(&joint.child)])
-            .collect();
+        let ends = joints.map(|joint| [end(&joint.parent), end(&joint.child)]);
+        self.ends = ends.collect();
+        self.above = vec![None; self.links.len()];
+        for (joint, [_, child]) in self.ends.iter().enumerate() {
+            let above = self.above.get_mut(*child);
+            let (link, at) = &self.joints[joint].child;
+            // A name that two links have is an error by itself.
+            let links = self.links.iter().filter(|other| other.name == *link);
+            if let Some(other) = above.and_then(|above| above.replace(joint))
+                && links.count() == 1
+            {
+                problems.say("hangs_already", at, &[link, &self.joints[other].name]);
+            }
+        }
     }
 
     pub(crate) fn link(&self, name: &str) -> Option<usize> {
@@ -295,4 +334,10 @@ impl Model {
             problems.say("ignored_ties", first, &[&names.join(", ")]);
         }
     }
+}
+
+/// Returns the sum of two numbers, of which the first may be missing.
+pub(crate) fn added(sum: Option<Number>, more: Number) -> Number {
+    let before = sum.map_or_else(Rational::zero, |sum| sum.value);
+    more.map(|value| before + value)
 }

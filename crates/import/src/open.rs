@@ -22,7 +22,7 @@ pub struct Opened {
     pub imported: Option<Imported>,
 }
 
-/// Why a path gives no robot.
+/// The reason why a path gives no robot.
 #[derive(Debug)]
 pub enum Unopened {
     /// The system's error.
@@ -96,7 +96,9 @@ pub fn read_robot(source: Text, options: &Options) -> Result<Opened, String> {
         }
         true => Some(import_text(&source, options).map_err(|errors| source.render(&errors.0))?),
     };
-    let robot_file = imported.as_ref().map_or(source.as_str(), |own| &own.text);
+    let robot_file = imported
+        .as_ref()
+        .map_or(source.as_str(), |imported| &imported.text);
     let robot_file = robot_file.to_owned();
     let reading = read::parse(&robot_file);
     // What was imported was read once already.
@@ -134,7 +136,7 @@ impl Options {
     }
 }
 
-/// Returns whether a text is a model's: XML, and not TOML.
+/// True if a text is a model's: XML, and not TOML.
 pub fn is_model(text: &[u8]) -> bool {
     let text = text.strip_prefix("\u{feff}".as_bytes()).unwrap_or(text);
     text.trim_ascii_start().starts_with(b"<")

@@ -39,7 +39,7 @@ pub(crate) struct Pose {
     at: Span,
 }
 
-fn shifted(by: &[Rational; 3]) -> Columns<Wide> {
+fn moved_by(by: &[Rational; 3]) -> Columns<Wide> {
     Columns {
         origin: by.each_ref().map(Wide::from_rational),
         ..Columns::identity()
@@ -84,9 +84,9 @@ impl Pose {
             return self.clone();
         }
         let size = by.iter().map(Signed::abs).sum::<Rational>();
-        let shifted = shifted(by);
+        let shifted = moved_by(by);
         Pose {
-            both: self.both.each_ref().map(|own| own.then(&shifted)),
+            both: self.both.each_ref().map(|pose| pose.then(&shifted)),
             size: &self.size + size,
             xyz: None,
             at: self.at.clone(),
@@ -96,7 +96,7 @@ impl Pose {
     pub(crate) fn turn(&self, axis: &Vector<Wide>, by: &Angle) -> Pose {
         let turned = turned(axis, by);
         Pose {
-            both: self.both.each_ref().map(|own| own.then(&turned)),
+            both: self.both.each_ref().map(|pose| pose.then(&turned)),
             ..self.clone()
         }
     }
@@ -118,7 +118,7 @@ impl Pose {
 
     pub(crate) fn apply(&self, point: &[Rational; 3]) -> [Rational; 3] {
         let size = &self.size + point.iter().map(Signed::abs).sum::<Rational>();
-        placement(&self.both[1].then(&shifted(point)), &size_of(size)).xyz
+        placement(&self.both[1].then(&moved_by(point)), &size_of(size)).xyz
     }
 
     pub(crate) fn origin(&self) -> Origin {

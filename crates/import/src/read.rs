@@ -2,8 +2,8 @@
 //! that reading goes on and finds all of them.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Display;
 
-use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use num_traits::Signed;
 
@@ -31,6 +31,15 @@ impl<'p, 't> Reader<'p, 't> {
             table,
             unknown,
         }
+    }
+
+    pub(crate) fn say(&mut self, id: &str, at: &Span, words: &[&dyn Display]) {
+        self.problems.say(id, at, words);
+    }
+
+    /// Says an error where a value cannot be returned.
+    pub(crate) fn refuse<T>(&mut self, id: &str, at: &Span, words: &[&dyn Display]) -> Option<T> {
+        self.problems.refuse(id, at, words)
     }
 
     /// Says the names of an element, and of those inside, that are unknown or left out; `of` is the
@@ -132,8 +141,7 @@ impl<'p, 't> Reader<'p, 't> {
             } else {
                 String::new()
             };
-            self.problems
-                .say("unknown", &at, &[&name, &tag, &times, &help]);
+            self.say("unknown", &at, &[&name, &tag, &times, &help]);
         }
     }
 
@@ -150,8 +158,7 @@ impl<'p, 't> Reader<'p, 't> {
         {
             return (found.value.clone(), found.at.clone());
         }
-        self.problems
-            .say("no_attribute", &element.at, &[&element.tag, &key]);
+        self.say("no_attribute", &element.at, &[&element.tag, &key]);
         (String::new(), element.at.clone())
     }
 
@@ -170,8 +177,7 @@ impl<'p, 't> Reader<'p, 't> {
                 ..4 => words.join(" or "),
                 _ => instead(value, words),
             };
-            self.problems
-                .say("not_a_word", at, &[value, &key, &element.tag, &help]);
+            self.say("not_a_word", at, &[value, &key, &element.tag, &help]);
         }
         found.map(|(_, value)| *value)
     }
@@ -189,8 +195,7 @@ impl<'p, 't> Reader<'p, 't> {
         }
         let names = ["x", "y", "z", "u", "v", "w"][..N.min(6)].join(" ");
         let count = format!("{count} number{}", if count == 1 { "" } else { "s" });
-        self.problems
-            .refuse("not_so_many", &attribute.at, &[&key, &count, &N, &names])
+        self.refuse("not_so_many", &attribute.at, &[&key, &count, &N, &names])
     }
 
     /// Reads three numbers, which are zero where there are none.
@@ -205,9 +210,7 @@ impl<'p, 't> Reader<'p, 't> {
         let mut numbers = Vec::new();
         let (mut from, mut count) = (0, 0);
         if value.split_ascii_whitespace().nth(MANY).is_some() {
-            return self
-                .problems
-                .refuse("too_many", at, &[&"numbers", &"", &MANY]);
+            return self.refuse("too_many", at, &[&"numbers", &"", &MANY]);
         }
         for word in value.split_ascii_whitespace() {
             let start = value[from..].find(word).map_or(from, |start| from + start);
@@ -238,15 +241,13 @@ impl<'p, 't> Reader<'p, 't> {
         // A robot file takes 1_000; a model does not.
         match parse_decimal(&spelled_out(&text.replace('_', "?"))) {
             Ok(value) => Some(Value::new(value, text, at)),
-            Err(error) => self
-                .problems
-                .refuse("not_a_number", at, &[&text, &error, &error.help()]),
+            Err(error) => self.refuse("not_a_number", at, &[&text, &error, &error.help()]),
         }
     }
 
     pub(crate) fn not_negative(&mut self, number: Option<&Number>, what: &str, help: &str) {
         if let Some(number) = number.filter(|number| number.value.is_negative()) {
-            self.problems.say("negative", &number.at, &[&what, &help]);
+            self.say("negative", &number.at, &[&what, &help]);
         }
     }
 
@@ -257,12 +258,10 @@ impl<'p, 't> Reader<'p, 't> {
         match lower.value.cmp(&upper.value) {
             std::cmp::Ordering::Less => Some([lower, upper]),
             std::cmp::Ordering::Equal => {
-                self.problems
-                    .refuse("equal_limits", &lower.at, &[&joint, &lower.text])
+                self.refuse("equal_limits", &lower.at, &[&joint, &lower.text])
             }
             std::cmp::Ordering::Greater => {
-                self.problems
-                    .refuse("reversed", &lower.at, &[&joint, &lower.text, &upper.text])
+                self.refuse("reversed", &lower.at, &[&joint, &lower.text, &upper.text])
             }
         }
     }
@@ -275,13 +274,13 @@ impl<'p, 't> Reader<'p, 't> {
         let mut seen = BTreeSet::new();
         let help = "names tell them apart: give it another";
         for (name, at) in names.filter(|(name, _)| !seen.insert(*name)) {
-            self.problems.say("twice", at, &[&what, name, &help]);
+            self.say("twice", at, &[&what, name, &help]);
         }
     }
 
     pub(crate) fn are_few(&mut self, at: &Span, what: &str, count: usize, few: usize) -> bool {
         if count > few {
-            self.problems.say("too_many", at, &[&count, &what, &few]);
+            self.say("too_many", at, &[&count, &what, &few]);
         }
         count <= few
     }
@@ -297,10 +296,4 @@ fn spelled_out(text: &str) -> String {
     };
     let zero = if digits.starts_with('.') { "0" } else { "" };
     format!("{sign}{zero}{digits}{exponent}")
-}
-
-/// Returns the sum of two numbers, of which the first may be missing.
-pub(crate) fn added(sum: Option<Number>, more: Number) -> Number {
-    let before = sum.map_or_else(Rational::default, |sum| sum.value);
-    more.map(|value| before + value)
 }

@@ -153,9 +153,9 @@ impl Snaps {
         let mut off = Rational::zero();
         for angle in &mut origin.rpy {
             if let Some(meant) = self.meant(&angle.value, &angle.text) {
-                let own = (angle.value.radians() - meant.radians()).abs();
-                let changes = &own / power(DIGITS) > meant.radians().abs();
-                off = off.max(own);
+                let error = (angle.value.radians() - meant.radians()).abs();
+                let changes = &error / power(DIGITS) > meant.radians().abs();
+                off = off.max(error);
                 let to = meant.to_string();
                 self.take(angle, meant, to, rpy, changes);
             }

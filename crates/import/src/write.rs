@@ -71,23 +71,23 @@ pub(crate) fn file(
     let differences: Vec<String> = differences.map(|message| one_line(&message)).collect();
     let notes = ("notes", texts(&differences));
     lines(&mut text, [name, gravity, tool, allow, notes]);
-    for (index, (own, link)) in joints.iter().zip(&tree.bodies).enumerate() {
+    for (index, (model_joint, link)) in joints.iter().zip(&tree.bodies).enumerate() {
         text.push_str("\n[[joint]]\n");
-        let name = name_of(own, index, problems);
+        let name = name_of(model_joint, index, problems);
         lines(&mut text, [("name", Some(quoted(&name)))]);
-        joint(&mut text, own, link, options);
-        lines(&mut text, [("mimic", mimic(own, &joints))]);
+        joint(&mut text, model_joint, link, options);
+        lines(&mut text, [("mimic", mimic(model_joint, &joints))]);
     }
     frames(&mut text, model, tree);
     text
 }
 
-fn mimic(own: &Joint, joints: &[&Joint]) -> Option<String> {
-    let mimic = own.mimic.as_ref()?;
+fn mimic(follower: &Joint, joints: &[&Joint]) -> Option<String> {
+    let mimic = follower.mimic.as_ref()?;
     let [multiplier, offset] = mimic.line.as_ref()?;
     let mut leaders = joints.iter();
     let leader = leaders.position(|joint| joint.name == mimic.leader)?;
-    let offset = match own.kind {
+    let offset = match follower.kind {
         Kind::Prismatic => Position::Length(offset.clone()),
         _ => Position::Angle(right(Angle::Radians(offset.clone()).canonical())),
     };
@@ -101,13 +101,13 @@ fn mimic(own: &Joint, joints: &[&Joint]) -> Option<String> {
 fn frames(text: &mut String, model: &Model, tree: &Tree) {
     let mut taken = BTreeSet::from([HAND.to_owned()]);
     for frame in tree.frames.iter().take(Robot::MAX_FRAMES) {
-        let own = model.links[frame.link].name.as_str();
-        let Some(name) = frame_name(own, &taken) else {
+        let link_name = model.links[frame.link].name.as_str();
+        let Some(name) = frame_name(link_name, &taken) else {
             continue;
         };
         text.push('\n');
-        if name != own {
-            text.push_str(&comment(&format!("Link {own}.")));
+        if name != link_name {
+            text.push_str(&comment(&format!("Link {link_name}.")));
         }
         text.push_str("[[frame]]\n");
         let link = (frame.body + 1).to_string();
@@ -117,8 +117,8 @@ fn frames(text: &mut String, model: &Model, tree: &Tree) {
     }
 }
 
-fn frame_name(own: &str, taken: &BTreeSet<String>) -> Option<String> {
-    let words = suggested_name(own)?;
+fn frame_name(link_name: &str, taken: &BTreeSet<String>) -> Option<String> {
+    let words = suggested_name(link_name)?;
     let words = words.split('_').filter(|word| !word.is_empty());
     let name = words.collect::<Vec<_>>().join("_");
     let numbered = (2..=taken.len() + 2).map(|number| format!("{name}_{number}"));
@@ -126,7 +126,7 @@ fn frame_name(own: &str, taken: &BTreeSet<String>) -> Option<String> {
     names.find(|name| !taken.contains(name) && is_frame_name(name))
 }
 
-/// Returns what a joint is called in the robot file: not by another one's number.
+/// Returns the name of a joint in the robot file, which is not the number of another one.
 fn name_of(joint: &Joint, index: usize, problems: &mut Problems) -> String {
     let name = &joint.name;
     match name.trim().parse::<i64>() {
@@ -150,7 +150,7 @@ fn joint(text: &mut String, joint: &Joint, link: &Branch, options: &Options) {
             length => position(length),
         }))
     });
-    let limit = |own: &Option<Number>| positive(own).map(|own| number(&own.value));
+    let limit = |limit: &Option<Number>| positive(limit).map(|limit| number(&limit.value));
     let acceleration = limit(&joint.acceleration).or(options.acceleration.as_ref().map(number));
     let limits = table([
         ("position", range),
@@ -176,10 +176,10 @@ fn joint(text: &mut String, joint: &Joint, link: &Branch, options: &Options) {
 }
 
 /// Writes angles as the robot-file reader takes them, so that it gives no warning.
-fn as_read(own: &Placement) -> Placement {
+fn as_read(placement: &Placement) -> Placement {
     Placement {
-        xyz: own.xyz.clone(),
-        rpy: own.rpy.clone().map(right),
+        xyz: placement.xyz.clone(),
+        rpy: placement.rpy.clone().map(right),
     }
 }
 
@@ -187,8 +187,8 @@ fn having<'u>(
     joints: &[&'u Joint],
     number: fn(&Joint) -> Option<&Number>,
 ) -> Vec<(&'u Joint, &'u Number)> {
-    let own = |&joint: &&'u Joint| Some((joint, number(joint)?));
-    joints.iter().filter_map(own).collect()
+    let with_number = |&joint: &&'u Joint| Some((joint, number(joint)?));
+    joints.iter().filter_map(with_number).collect()
 }
 
 fn is_no_limit(limit: &&Number) -> bool {
@@ -204,13 +204,13 @@ fn say_left_out(joints: &[&Joint], problems: &mut Problems) {
     }
     let velocity = having(joints, |joint| joint.velocity.as_ref().filter(is_no_limit));
     let torque = having(joints, |joint| joint.effort.as_ref().filter(is_no_limit));
-    for (key, own) in [("velocity", velocity), ("torque", torque)] {
-        match own.as_slice() {
+    for (key, found) in [("velocity", velocity), ("torque", torque)] {
+        match found.as_slice() {
             [] => {}
             [(joint, limit)] => {
                 problems.say("no_limit", &limit.at, &[&key, &joint.name, &limit.text]);
             }
-            [(_, first), ..] => problems.say("no_limits", &first.at, &[&key, &names(&own)]),
+            [(_, first), ..] => problems.say("no_limits", &first.at, &[&key, &names(&found)]),
         }
     }
 }
@@ -247,7 +247,10 @@ fn say_rotors(joints: &[&Joint], problems: &mut Problems) {
 
 fn say_friction(joints: &[&Joint], problems: &mut Problems) {
     let friction = having(joints, |joint| {
-        joint.friction.as_ref().filter(|own| !own.value.is_zero())
+        joint
+            .friction
+            .as_ref()
+            .filter(|friction| !friction.value.is_zero())
     });
     let Some((joint, first)) = friction.first() else {
         return;

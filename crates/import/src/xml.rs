@@ -75,8 +75,8 @@ impl Element {
     /// Returns all elements of a tag inside, in the order of the file.
     pub(crate) fn all_inside(&self, tag: &str) -> Vec<&Element> {
         let inside = self.inside.iter().flat_map(|inside| {
-            let own = (inside.tag == tag).then_some(inside);
-            own.into_iter().chain(inside.all_inside(tag))
+            let found = (inside.tag == tag).then_some(inside);
+            found.into_iter().chain(inside.all_inside(tag))
         });
         inside.collect()
     }

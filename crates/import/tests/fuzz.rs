@@ -1,5 +1,5 @@
-//! Whatever the bytes are: an answer, never a panic, and the same one twice; and
-//! a robot file that was made reads.
+//! Any bytes get an answer, never a panic, and the same one twice; a robot file that was made
+//! reads.
 
 use crate::support::{URDFS, snapped, source, to};
 use dalembert_import::{Options, import};

@@ -78,7 +78,7 @@ impl Change {
         &self.limits
     }
 
-    /// Returns what each torque may be off over a motion, N·m or N; joints
+    /// Returns bounds of the torques' changes over a motion, N·m or N; joints
     /// beyond the motion's are taken not to move.
     pub fn torques(&self, motion: &Motion) -> Vec<f64> {
         let torques = self.pairs(motion).into_iter();

@@ -130,7 +130,8 @@ mod tests {
         assert!(missing.is_empty(), "nobody reads {missing:?}");
         let mut unlisted = Vec::new();
         for [element, name] in &asked {
-            let mut of = rows().filter(|row| row.elements.iter().any(|own| tag(own) == element));
+            let mut of =
+                rows().filter(|row| row.elements.iter().any(|known| tag(known) == element));
             if !of.any(|row| matches!(row.verdict(name), Verdict::Read | Verdict::Irrelevant)) {
                 unlisted.push(format!("{element} {name}"));
             }

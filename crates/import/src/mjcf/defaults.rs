@@ -69,7 +69,7 @@ fn inner(outer: &Element, around: &Values, classes: &mut Classes, reader: &mut R
         inner(class, &values, classes, reader);
         if !name.is_empty() && classes.insert(name.clone(), values).is_some() {
             let help = "each class has its settings in one place: give it another name";
-            reader.problems.say("twice", &at, &[&"class", &name, &help]);
+            reader.say("twice", &at, &[&"class", &name, &help]);
         }
     }
 }
@@ -107,18 +107,16 @@ fn fill(
         let found = classes.get(&class.value);
         if found.is_none() {
             let help = instead(&class.value, classes.keys());
-            reader
-                .problems
-                .say("no_class", &class.at, &[&class.value, &help]);
+            reader.say("no_class", &class.at, &[&class.value, &help]);
         }
         found
     };
     let kind = kind(parent, &element.tag);
-    let own = kind.and_then(|_| named("class")).unwrap_or(around);
+    let values = kind.and_then(|_| named("class")).unwrap_or(around);
     let has_children = matches!(element.tag.as_str(), "body" | "frame" | "worldbody");
     let inside = has_children.then(|| named("childclass")).flatten();
     let inside = inside.unwrap_or(around);
-    let more = kind.and_then(|kind| own.get(kind)).into_iter().flatten();
+    let more = kind.and_then(|kind| values.get(kind)).into_iter().flatten();
     let more = more.filter(|value| !has(element, value));
     let more: Vec<Attribute> = more.cloned().collect();
     element.attributes.extend(more);

@@ -3,13 +3,11 @@
 use std::collections::BTreeMap;
 
 use dalembert_model::number::Rational;
-use dalembert_model::robot::values::number;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Signed};
 
 use super::Mjcf;
 use super::tie::Tendons;
-use crate::model::{Number, Value};
-use crate::read::added;
+use crate::model::{Number, added};
 use crate::xml::{Attribute, Element};
 
 impl Mjcf<'_, '_, '_> {
@@ -49,7 +47,7 @@ impl Mjcf<'_, '_, '_> {
             self.rotor(element, joint, gear, &of);
             let input = element.value("input");
             if element.tag == "dcmotor" && input == Some("none") {
-                self.reader.problems.say("brake", &element.at, &[&of]);
+                self.reader.say("brake", &element.at, &[&of]);
             }
             let problems = self.reader.problems.end(before);
             self.model.joints[joint].problems.extend(problems);
@@ -59,8 +57,11 @@ impl Mjcf<'_, '_, '_> {
                 continue;
             };
             let joint = &mut self.model.joints[joint];
-            let own = joint.effort.take().filter(|own| own.value < limit.value);
-            joint.effort = own.or(Some(limit));
+            let effort = joint
+                .effort
+                .take()
+                .filter(|effort| effort.value < limit.value);
+            joint.effort = effort.or(Some(limit));
         }
     }
 
@@ -72,7 +73,6 @@ impl Mjcf<'_, '_, '_> {
             let second = targets.get(1)?;
             return self
                 .reader
-                .problems
                 .refuse("two_targets", &second.at, &[&element.tag]);
         };
         if target.key != "tendon" {
@@ -109,17 +109,11 @@ impl Mjcf<'_, '_, '_> {
         let armature = self.reader.number(element, "armature");
         let damping = self.first_term(element, "damping", of);
         self.check_loads(of, &[("armature", &armature), ("damping", &damping)]);
+        let damping = damping.filter(|_| !self.settings.is_off("damper"));
         let joint = &mut self.model.joints[joint];
-        let damping = damping.filter(|own| !own.value.is_zero() && !self.settings.is_off("damper"));
-        if let Some(damping) = damping {
-            let damping = damping.map(|value| value * &gear.value * &gear.value);
-            joint.damping = Some(added(joint.damping.take(), damping));
-        }
+        joint.add_damping(damping, &gear.value);
         if let Some(armature) = armature {
-            joint.add_rotor(
-                armature,
-                Value::new(gear.value.clone(), number(&gear.value), &gear.at),
-            );
+            joint.add_rotor(armature, Number::of(&gear.value, &gear.at));
         }
     }
 }

@@ -52,7 +52,6 @@ impl Mjcf<'_, '_, '_> {
         let along = direction(&axis.each_ref().map(|x| x.value.clone()));
         if along.is_none() && kind.has_one_axis() {
             self.reader
-                .problems
                 .say("no_direction", &axis[0].at, &[&name, &"axis=\"0 0 1\""]);
         }
         let along = along.unwrap_or([(); 3].map(|()| Wide::zero()));

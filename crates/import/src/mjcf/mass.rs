@@ -34,16 +34,15 @@ impl Mjcf<'_, '_, '_> {
         for item in of("inertial").chain(of("geom")) {
             self.reader.check("body", item.element, &named);
         }
-        let own = of("inertial").next();
+        let inertial = of("inertial").next();
         if let Some(second) = of("inertial").nth(1) {
             self.reader
-                .problems
                 .say("second", &second.element.at, &[&"inertial"]);
         }
-        link.inertial = own.and_then(|item| self.inertial(item, &link.name));
+        link.inertial = inertial.and_then(|item| self.inertial(item, &link.name));
         let geoms: Vec<&Item> = match self.settings.from_geoms {
             FromGeoms::None => Vec::new(),
-            FromGeoms::Some if own.is_some() => Vec::new(),
+            FromGeoms::Some if inertial.is_some() => Vec::new(),
             _ => of("geom").collect(),
         };
         let mut solids = Vec::new();
@@ -56,11 +55,9 @@ impl Mjcf<'_, '_, '_> {
                     continue;
                 }
                 (Weight::Unknown, Some(mesh)) => {
-                    self.reader
-                        .problems
-                        .say("mass_of_mesh", at, &[&named, &mesh.value]);
+                    self.reader.say("mass_of_mesh", at, &[&named, &mesh.value]);
                 }
-                (Weight::Unknown, None) => self.reader.problems.say("mass_of_geoms", at, &[&named]),
+                (Weight::Unknown, None) => self.reader.say("mass_of_geoms", at, &[&named]),
             }
             link.has_unknown_mass = true;
         }
@@ -77,7 +74,7 @@ impl Mjcf<'_, '_, '_> {
         let mass = self.reader.required_number(element, "mass");
         let full = element.get("fullinertia");
         if let (Some(full), Some(_)) = (full, element.get("diaginertia")) {
-            self.reader.problems.say("two_inertias", &full.at, &[&body]);
+            self.reader.say("two_inertias", &full.at, &[&body]);
         }
         let inertia = match full {
             None => {

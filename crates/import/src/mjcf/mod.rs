@@ -112,9 +112,7 @@ impl Mjcf<'_, '_, '_> {
             .any(|term| term.value != Default::default())
         {
             let words: [&dyn std::fmt::Display; 3] = [&key, &of, &attribute.value];
-            self.reader
-                .problems
-                .say("polynomial", &attribute.at, &words);
+            self.reader.say("polynomial", &attribute.at, &words);
         }
         terms.into_iter().next()
     }

@@ -32,11 +32,12 @@ impl Mjcf<'_, '_, '_> {
             return (both_identities(), element.at.clone());
         };
         if let Some(second) = found.get(1) {
-            let keys: Vec<&str> = found.iter().map(|own| own.key.as_str()).collect();
+            let keys: Vec<&str> = found
+                .iter()
+                .map(|orientation| orientation.key.as_str())
+                .collect();
             let keys = keys.join("` and `");
-            self.reader
-                .problems
-                .say("two_orientations", &second.at, &[&keys]);
+            self.reader.say("two_orientations", &second.at, &[&keys]);
         }
         let reader = &mut *self.reader;
         let rotation = match key.as_str() {
@@ -59,7 +60,7 @@ impl Mjcf<'_, '_, '_> {
             }
         };
         if let Some(None) = rotation {
-            self.reader.problems.say("orientation_of_zero", at, &[key]);
+            self.reader.say("orientation_of_zero", at, &[key]);
         }
         (
             rotation.flatten().unwrap_or_else(both_identities),

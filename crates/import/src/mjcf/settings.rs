@@ -71,16 +71,14 @@ impl Settings {
         settings
     }
 
-    /// Returns what the `<mujoco>` element of a URDF sets: bounds of masses, and gravity.
+    /// Returns the settings of a `<mujoco>` element in a URDF: bounds of masses, and gravity.
     pub(crate) fn of_urdf(root: &Element, reader: &mut Reader) -> (Bounds, Option<[Number; 3]>) {
         let settings = Settings::read(root, reader);
         for flag in settings.off.iter().filter(|flag| **flag != "gravity") {
-            reader.problems.say("flag_off", &root.at, &[flag]);
+            reader.say("flag_off", &root.at, &[flag]);
         }
         if settings.from_geoms == FromGeoms::All {
-            reader
-                .problems
-                .say("compiler inertiafromgeom", &root.at, &[]);
+            reader.say("compiler inertiafromgeom", &root.at, &[]);
         }
         let is_said = settings.gravity.is_some() || settings.is_off("gravity");
         let gravity = is_said.then(|| settings.gravity(root));
@@ -107,7 +105,7 @@ impl Settings {
         self.degrees = is("angle", ["radian", "degree"], self.degrees);
         self.auto_limits = is("autolimits", ["false", "true"], self.auto_limits);
         if is("coordinate", ["local", "global"], false) {
-            reader.problems.say("global", &element.at, &[]);
+            reader.say("global", &element.at, &[]);
         }
         let from_geoms = reader.word(element, "inertiafromgeom", &FROM_GEOMS);
         self.from_geoms = from_geoms.unwrap_or(self.from_geoms);
@@ -122,7 +120,7 @@ impl Settings {
                 .and_then(|turns| turns.try_into().ok())
             {
                 Some(turns) => self.euler = turns,
-                None => reader.problems.say("eulerseq", &order.at, &[&order.value]),
+                None => reader.say("eulerseq", &order.at, &[&order.value]),
             }
         }
         self.bounds.read(element, reader);
@@ -148,7 +146,7 @@ impl Settings {
                 .filter(|medium| !medium.value.is_zero());
             medium
                 .iter()
-                .for_each(|medium| reader.problems.say("medium", &medium.at, &[&key]));
+                .for_each(|medium| reader.say("medium", &medium.at, &[&key]));
         }
     }
 }

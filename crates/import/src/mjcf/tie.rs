@@ -9,7 +9,6 @@ use num_traits::{One, Signed, Zero};
 use super::Mjcf;
 use crate::model::{Kind, Mimic, Tie, Tied, Value};
 use crate::problems::instead;
-use crate::read::added;
 use crate::select::position::compare;
 use crate::text::Span;
 use crate::xml::Element;
@@ -151,26 +150,19 @@ impl Mjcf<'_, '_, '_> {
         let armature = self.reader.number(element, "armature");
         let of = format!("the tendon over joint `{name}`");
         let damping = self.first_term(element, "damping", &of);
+        self.check_loads(&of, &[("armature", &armature), ("damping", &damping)]);
         for key in ["stiffness", "frictionloss"] {
             let terms = element
                 .get(key)
                 .and_then(|attribute| self.reader.list(attribute));
             if terms.is_some_and(|terms| terms.iter().any(|term| !term.value.is_zero())) {
-                self.reader
-                    .problems
-                    .say("of_tendon", &element.at, &[&key, &name]);
+                self.reader.say("of_tendon", &element.at, &[&key, &name]);
             }
         }
-        let square = by * by;
-        let own = &mut self.model.joints[joint];
-        own.armature += armature.map_or_else(Rational::zero, |own| own.value) * &square;
-        let damping = damping.filter(|own| !own.value.is_zero() && !self.settings.is_off("damper"));
-        if let Some(damping) = damping {
-            own.damping = Some(added(
-                own.damping.take(),
-                damping.map(|value| value * square),
-            ));
-        }
+        let damping = damping.filter(|_| !self.settings.is_off("damper"));
+        let tied = &mut self.model.joints[joint];
+        tied.armature += armature.map_or_else(Rational::zero, |armature| armature.value) * by * by;
+        tied.add_damping(damping, by);
         let Some(mut range) = range.filter(|_| !by.is_zero()) else {
             return;
         };
@@ -184,9 +176,9 @@ impl Mjcf<'_, '_, '_> {
             } else {
                 number(&value)
             };
-            Value::new(own.kind.position(value), text, &end.at)
+            Value::new(tied.kind.position(value), text, &end.at)
         });
-        let mut position = own.position.take().unwrap_or([low.clone(), high.clone()]);
+        let mut position = tied.position.take().unwrap_or([low.clone(), high.clone()]);
         if compare(&low.value, &position[0].value).is_gt() {
             position[0] = low;
         }
@@ -195,10 +187,9 @@ impl Mjcf<'_, '_, '_> {
         }
         if compare(&position[0].value, &position[1].value).is_gt() {
             self.reader
-                .problems
                 .say("tendon_leaves_nothing", &element.at, &[&name]);
         }
-        own.position = Some(position);
+        tied.position = Some(position);
     }
 
     pub(super) fn joint_named(&mut self, name: &str, at: &Span) -> Option<usize> {
@@ -207,7 +198,7 @@ impl Mjcf<'_, '_, '_> {
         if found.is_none() {
             let moving = joints().filter(|joint| joint.kind != Kind::Fixed);
             let help = instead(name, moving.map(|joint| &joint.name));
-            self.reader.problems.say("no_joint", at, &[&name, &help]);
+            self.reader.say("no_joint", at, &[&name, &help]);
         }
         found
     }
@@ -215,7 +206,7 @@ impl Mjcf<'_, '_, '_> {
     /// Reads a joint that follows another; returns one that stands still.
     fn follower(&mut self, element: &Element) -> Option<Tied> {
         let (name, at) = self.reader.required(element, "joint1");
-        let own = self.joint_named(&name, &at)?;
+        let follower = self.joint_named(&name, &at)?;
         let Some(leader) = element.get("joint2") else {
             return Some(Tied::Joints(vec![name]));
         };
@@ -225,13 +216,13 @@ impl Mjcf<'_, '_, '_> {
         if let Some(given) = element.get("polycoef") {
             let numbers = self.reader.list(given)?;
             if numbers.len() > terms.len() {
-                return self.reader.problems.refuse("polycoef", &given.at, &[]);
+                return self.reader.refuse("polycoef", &given.at, &[]);
             }
             let given = terms.iter_mut().zip(numbers);
             given.for_each(|(term, number)| *term = number.value);
         }
         // Both are counted from their positions in the model's first pose.
-        let [start, from] = [own, other].map(|joint| &self.model.joints[joint].start);
+        let [start, from] = [follower, other].map(|joint| &self.model.joints[joint].start);
         let is_line = terms[2..].iter().all(Zero::is_zero);
         let line = is_line.then(|| {
             let [offset, multiplier] = [&terms[0], &terms[1]];
@@ -243,7 +234,7 @@ impl Mjcf<'_, '_, '_> {
             line,
         };
         // A second leader holds the joint where both agree.
-        let is_second = self.model.joints[own].mimic.replace(mimic).is_some();
+        let is_second = self.model.joints[follower].mimic.replace(mimic).is_some();
         is_second.then(|| Tied::Joints(vec![name]))
     }
 }

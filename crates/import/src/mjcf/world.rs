@@ -83,7 +83,7 @@ impl Mjcf<'_, '_, '_> {
             "made_elsewhere"
         };
         made.iter()
-            .for_each(|made| self.reader.problems.say(id, &made.at, &[&made.tag]));
+            .for_each(|made| self.reader.say(id, &made.at, &[&made.tag]));
         open.reverse();
         while let Some((item, on)) = open.pop() {
             let inside = self.body(&item, on, &mut names);
@@ -94,7 +94,7 @@ impl Mjcf<'_, '_, '_> {
             }
         }
         if self.model.links.len() == 1 {
-            return self.reader.problems.refuse("no_bodies", &at, &[]);
+            return self.reader.refuse("no_bodies", &at, &[]);
         }
         self.say_weightless(root);
         let links = self.model.links.iter().map(|link| (&link.name, &link.at));
@@ -118,9 +118,7 @@ impl Mjcf<'_, '_, '_> {
             .filter(|part| part.value.trim().parse() != Ok(0.0))
             .collect();
         if let Some(first) = held.first() {
-            self.reader
-                .problems
-                .say("weightless", &first.at, &[&held.len()]);
+            self.reader.say("weightless", &first.at, &[&held.len()]);
         }
     }
 
@@ -175,7 +173,7 @@ impl Mjcf<'_, '_, '_> {
         let solids = self.mass(&items, &mut link);
         for part in items.iter().filter(|item| is_made_elsewhere(item)) {
             let Element { tag, at, .. } = part.element;
-            self.reader.problems.say("made_on_body", at, &[tag, &of]);
+            self.reader.say("made_on_body", at, &[tag, &of]);
         }
         link.problems = self.reader.problems.end(before);
         if self.settings.bounds.bound_bodies() && link.inertial.is_none() && solids.is_empty() {
@@ -211,14 +209,14 @@ impl Mjcf<'_, '_, '_> {
         names: &mut Names,
     ) {
         let is_joint = |item: &&Item| ["joint", "freejoint"].contains(&item.element.tag.as_str());
-        let own: Vec<&Item> = items.iter().filter(is_joint).collect();
-        for (index, item) in own.iter().enumerate() {
+        let found: Vec<&Item> = items.iter().filter(is_joint).collect();
+        for (index, item) in found.iter().enumerate() {
             let name = item.element.get("name").map(|name| name.value.clone());
             let name = name.unwrap_or_else(|| fresh(&mut names.joints, format!("{body}_joint")));
             let (joint, anchor) = self.joint(item, name, &at);
             let back = anchor.each_ref().map(|x| -x);
             at = Pose::identity(joint.at.clone()).shift(&back);
-            let is_last = index + 1 == own.len() && anchor.iter().all(Rational::is_zero);
+            let is_last = index + 1 == found.len() && anchor.iter().all(Rational::is_zero);
             let child = match is_last {
                 true => body.to_owned(),
                 false => {

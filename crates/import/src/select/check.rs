@@ -14,14 +14,17 @@ impl<'m> Select<'m, '_, '_> {
     /// Checks that no joint which `others` holds follows one that moves.
     pub(super) fn check_followers_beside(&mut self, selection: &Selection) {
         for joint in &self.held {
-            let own = &self.model.joints[*joint];
-            let mimic = own.mimic.as_ref().filter(|mimic| {
+            let found = &self.model.joints[*joint];
+            let mimic = found.mimic.as_ref().filter(|mimic| {
                 let mut moving = selection.moving().into_iter();
                 moving.any(|leader| self.model.joints[leader].name == mimic.leader)
             });
             if let Some(Mimic { at, leader, .. }) = mimic {
-                self.problems
-                    .say("follows_beside", at, &[&own.name, leader, &advised(own)]);
+                self.problems.say(
+                    "follows_beside",
+                    at,
+                    &[&found.name, leader, &advised(found)],
+                );
             }
         }
     }
@@ -67,7 +70,7 @@ impl<'m> Select<'m, '_, '_> {
     }
 
     pub(super) fn say_base(&mut self, base: usize) {
-        if self.above[base].is_none() {
+        if self.model.above[base].is_none() {
             return;
         }
         let link = &self.model.links[base];

@@ -59,8 +59,6 @@ impl Selection {
 pub(crate) struct Select<'m, 'p, 't> {
     pub(crate) model: &'m Model,
     pub(crate) problems: &'p mut Problems<'t>,
-    /// The joint that each link hangs on.
-    pub(crate) above: Vec<Option<usize>>,
     /// The joints that hang on each link.
     pub(crate) below: Vec<Vec<usize>>,
     pub(crate) states: Vec<State>,
@@ -81,7 +79,10 @@ pub(crate) fn select(
     let base = select.base(options)?;
     let tips = match tips {
         [] => vec![select.tip(base)?],
-        names => names.iter().filter_map(|name| model.link(name)).collect(),
+        names => {
+            let links = names.iter().map(|name| model.link(name));
+            links.collect::<Option<Vec<_>>>()?
+        }
     };
     let mut wanted = BTreeSet::new();
     for tip in &tips {
@@ -121,7 +122,6 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
         let mut select = Select {
             model,
             problems,
-            above: vec![None; model.links.len()],
             below: vec![Vec::new(); model.links.len()],
             states: kinds.collect(),
             others: None,
@@ -132,14 +132,8 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
                 .collect(),
             held: BTreeSet::new(),
         };
-        for (joint, [parent, child]) in model.ends.iter().enumerate() {
+        for (joint, [parent, _]) in model.ends.iter().enumerate() {
             select.below[*parent].push(joint);
-            if let Some(other) = select.above[*child].replace(joint) {
-                let ((link, at), other) = (&model.joints[joint].child, &model.joints[other]);
-                select
-                    .problems
-                    .say("hangs_already", at, &[link, &other.name]);
-            }
         }
         for (name, text) in &options.lock {
             if name == OTHERS {
@@ -176,13 +170,15 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
 
     /// Returns the joints from a link up to the root, or once around a circle.
     fn way(&self, link: usize) -> impl Iterator<Item = usize> {
-        let up = |joint: &usize| self.above[self.model.ends[*joint][0]];
-        std::iter::successors(self.above[link], up).take(self.model.ends.len())
+        let up = |joint: &usize| self.model.above[self.model.ends[*joint][0]];
+        std::iter::successors(self.model.above[link], up).take(self.model.ends.len())
     }
 
     fn root(&mut self) -> Option<usize> {
         let links = 0..self.model.links.len();
-        let roots: Vec<usize> = links.filter(|link| self.above[*link].is_none()).collect();
+        let roots: Vec<usize> = links
+            .filter(|link| self.model.above[*link].is_none())
+            .collect();
         let names = roots
             .iter()
             .map(|root| self.model.links[*root].name.as_str());
@@ -241,7 +237,7 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
         let mut path = Vec::new();
         let mut link = tip;
         while link != base {
-            let above = self.above[link];
+            let above = self.model.above[link];
             // In a circle there is no end.
             let Some(joint) = above.filter(|_| path.len() <= self.model.ends.len()) else {
                 let [base, tip] = [base, tip].map(|link| &self.model.links[link]);
@@ -313,11 +309,11 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
 
     /// Holds a joint that leads to no tip.
     fn hold(&mut self, joint: usize) -> Option<State> {
-        let own = &self.model.joints[joint];
-        let Joint { name, kind, at, .. } = own;
+        let found = &self.model.joints[joint];
+        let Joint { name, kind, at, .. } = found;
         let is_held = kind.has_one_axis() || *kind == Kind::Ball;
         let Some(text) = self.others.clone().filter(|_| is_held) else {
-            let follows = own
+            let follows = found
                 .mimic
                 .as_ref()
                 .map(|mimic| format!(", mimics `{}`", mimic.leader));
@@ -327,8 +323,13 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
             } else {
                 "ball_beside"
             };
-            let words: [&dyn Display; 5] =
-                [name, &kind.word(), &follows, &advised(own), &own.child.0];
+            let words: [&dyn Display; 5] = [
+                name,
+                &kind.word(),
+                &follows,
+                &advised(found),
+                &found.child.0,
+            ];
             return self.problems.refuse(id, at, &words);
         };
         if *kind == Kind::Ball {
@@ -344,7 +345,7 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
                     &lines,
                 )
             }
-            None => position::nearest(own, &text, self.problems)?,
+            None => position::nearest(found, &text, self.problems)?,
         };
         self.held.insert(joint);
         Some(State::Stays(Some(at)))
@@ -392,15 +393,18 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
 
     /// Checks that a joint of the robot has one axis, and a coordinate if it follows another.
     fn check_axis(&mut self, joint: usize, wanted: &BTreeSet<usize>) {
-        let own = &self.model.joints[joint];
-        let (name, kind) = (&own.name, own.kind);
+        let found = &self.model.joints[joint];
+        let (name, kind) = (&found.name, found.kind);
         if !kind.has_one_axis() {
-            self.problems
-                .say("more_axes", &own.at, &[name, &kind.word(), &own.child.0]);
-        } else if let Some(mimic) = own.mimic.as_ref().filter(|_| !self.stays(joint))
+            self.problems.say(
+                "more_axes",
+                &found.at,
+                &[name, &kind.word(), &found.child.0],
+            );
+        } else if let Some(mimic) = found.mimic.as_ref().filter(|_| !self.stays(joint))
             && let Some(why) = self.cannot_follow(joint, mimic, wanted)
         {
-            let words: [&dyn Display; 4] = [name, &mimic.leader, &why, &advised(own)];
+            let words: [&dyn Display; 4] = [name, &mimic.leader, &why, &advised(found)];
             self.problems.say("mimics", &mimic.at, &words);
         }
     }
@@ -421,17 +425,21 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
         if self.stays(*leader) {
             return Some(", which does not move".to_owned());
         }
+        if mimic.line.is_some() && self.leader(joint).is_none() {
+            return Some(", in a circle of joints that follow each other".to_owned());
+        }
         let Some([multiplier, _]) = &mimic.line else {
             return Some(", and not along a line".to_owned());
         };
-        let [own, other] = [joint, *leader].map(|joint| joints[joint].kind == Kind::Prismatic);
-        if own != other {
-            let [own, other] = [own, other].map(|slides| if slides { "slides" } else { "turns" });
-            return Some(format!(", and {own} where that {other}"));
+        let [slides, other] = [joint, *leader].map(|joint| joints[joint].kind == Kind::Prismatic);
+        if slides != other {
+            let [moves, other] =
+                [slides, other].map(|slides| if slides { "slides" } else { "turns" });
+            return Some(format!(", and {moves} where that {other}"));
         }
         let most = Rational::from_integer(Follower::MAX_TURNS.into());
         let is_whole = multiplier.is_integer() && multiplier.abs() <= most;
-        (multiplier.is_zero() || !own && !is_whole).then(|| {
+        (multiplier.is_zero() || !slides && !is_whole).then(|| {
             format!(
                 ", {multiplier} times as far: sines are of whole multiples of an angle, up to {most}"
             )

@@ -1,7 +1,7 @@
 //! Finds the end of an arm if no tip is given: the palm that holds the fingers, or the end of the
 //! longest chain.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fmt::Display;
 
 use crate::model::{Kind, Role};
@@ -17,14 +17,14 @@ const FINGERS: [&str; 4] = ["finger", "jaw", "claw", "thumb"];
 const HANDS: [&str; 7] = ["hand", "flange", "tool", "palm", "tcp", "grasp", "ee_"];
 
 /// The joints that move behind each link, one behind the other.
-type Heights = BTreeMap<usize, usize>;
+type Heights = Vec<usize>;
 
 impl Select<'_, '_, '_> {
     /// Takes the first of several links that one joint moves.
     pub(crate) fn tip(&mut self, base: usize) -> Option<usize> {
-        let heights = self.heights(base)?;
+        let heights = self.heights(base);
         let (tips, holds) = self.chain_ends(base, &heights, false);
-        let most = heights.get(&base).copied().unwrap_or_default();
+        let most = heights[base];
         let name = |link: &usize| self.model.links[*link].name.as_str();
         let moved: BTreeSet<usize> = tips.iter().map(|tip| self.moved_with(*tip, base)).collect();
         if let ([link, rest @ ..], 1) = (tips.as_slice(), moved.len()) {
@@ -70,7 +70,7 @@ impl Select<'_, '_, '_> {
 
     /// Returns one link for each joint that is the last to move.
     pub(crate) fn tips(&mut self, base: usize) -> Option<Vec<usize>> {
-        let heights = self.heights(base)?;
+        let heights = self.heights(base);
         let (tips, _) = self.chain_ends(base, &heights, true);
         let mut last = BTreeSet::new();
         let tips = tips.into_iter().filter(|tip| {
@@ -86,7 +86,7 @@ impl Select<'_, '_, '_> {
     }
 
     fn moved_with(&self, mut link: usize, base: usize) -> usize {
-        while let Some(joint) = self.above[link].filter(|_| link != base)
+        while let Some(joint) = self.model.above[link].filter(|_| link != base)
             && self.stays(joint)
         {
             link = self.model.ends[joint][0];
@@ -95,7 +95,7 @@ impl Select<'_, '_, '_> {
     }
 
     /// Returns the ends, and whether there are fingers, which hold something, on some of them.
-    fn chain_ends(&self, base: usize, heights: &Heights, all: bool) -> (Vec<usize>, bool) {
+    fn chain_ends(&self, base: usize, heights: &[usize], all: bool) -> (Vec<usize>, bool) {
         let mut tips = Vec::new();
         let mut palms = Vec::new();
         let mut open = vec![(base, 0)];
@@ -103,12 +103,7 @@ impl Select<'_, '_, '_> {
             let fixed = self.fixed_to(link);
             let joints = fixed.iter().flat_map(|link| self.hanging(*link));
             let joints: Vec<usize> = joints.filter(|joint| !self.stays(*joint)).collect();
-            let left = |joint: usize| {
-                1 + heights
-                    .get(&self.model.ends[joint][1])
-                    .copied()
-                    .unwrap_or(0)
-            };
+            let left = |joint: usize| 1 + heights[self.model.ends[joint][1]];
             let leaves = fixed.iter().filter(|link| self.hanging(**link).is_empty());
             let Some(longest) = joints.iter().map(|joint| left(*joint)).max() else {
                 // Fingers may be fixed, too.
@@ -145,7 +140,7 @@ impl Select<'_, '_, '_> {
     }
 
     /// Joints that hang on the links that stand still do not count.
-    fn is_loaded(&self, tip: usize, stands: &[usize], heights: &Heights) -> bool {
+    fn is_loaded(&self, tip: usize, stands: &[usize], heights: &[usize]) -> bool {
         let mut chain = vec![tip];
         let mut next = Some(tip);
         // The first of them is the base.
@@ -157,15 +152,15 @@ impl Select<'_, '_, '_> {
         }
         let moves = |joint: usize| {
             let child = self.model.ends[joint][1];
-            let height = heights.get(&child).copied().unwrap_or(0);
+            let height = heights[child];
             !chain.contains(&child) && (!self.stays(joint) || height > 0)
         };
         let links = chain.iter().filter(|link| !stands.contains(link));
         links.flat_map(|link| self.hanging(*link)).any(moves)
     }
 
-    /// Counts the joints that move one behind the other from each link on; a circle is an error.
-    fn heights(&mut self, base: usize) -> Option<Heights> {
+    /// Counts the joints that move one behind the other from each link on.
+    fn heights(&self, base: usize) -> Heights {
         let mut order = vec![base];
         let mut at = 0;
         while let Some(link) = order.get(at).copied() {
@@ -173,20 +168,15 @@ impl Select<'_, '_, '_> {
             let hanging = self.hanging(link).into_iter();
             order.extend(hanging.map(|joint| self.model.ends[joint][1]));
         }
-        let mut heights = Heights::new();
+        let mut heights = vec![0; self.model.links.len()];
         for link in order.into_iter().rev() {
             let below = self.hanging(link).into_iter().map(|joint| {
                 let moves = usize::from(!self.stays(joint));
-                moves
-                    + heights
-                        .get(&self.model.ends[joint][1])
-                        .copied()
-                        .unwrap_or(0)
+                moves + heights[self.model.ends[joint][1]]
             });
-            let height = below.max().unwrap_or(0);
-            heights.insert(link, height);
+            heights[link] = below.max().unwrap_or(0);
         }
-        Some(heights)
+        heights
     }
 
     fn fixed_to(&self, link: usize) -> Vec<usize> {
@@ -214,14 +204,14 @@ impl Select<'_, '_, '_> {
     }
 
     fn on(&self, link: usize) -> Option<usize> {
-        self.above[link].map(|joint| self.model.ends[joint][0])
+        self.model.above[link].map(|joint| self.model.ends[joint][0])
     }
 
     fn follows_beside(&self, joint: usize) -> bool {
         let Some(mimic) = &self.model.joints[joint].mimic else {
             return false;
         };
-        let above = |joint: &usize| self.above[self.model.ends[*joint][0]];
+        let above = |joint: &usize| self.model.above[self.model.ends[*joint][0]];
         // In a circle there is no end.
         let mut all = std::iter::successors(above(&joint), above).take(self.model.ends.len());
         all.all(|above| self.model.joints[above].name != mimic.leader)

@@ -28,9 +28,7 @@ pub(super) fn joint(element: &Element, reader: &mut Reader) -> Joint {
     let [parent, child] = ["parent", "child"].map(|tag| match element.first(tag) {
         Some(end) => reader.required(end, "link"),
         None => {
-            reader
-                .problems
-                .say("joint_without_end", &element.at, &[&name, &tag]);
+            reader.say("joint_without_end", &element.at, &[&name, &tag]);
             (String::new(), element.at.clone())
         }
     });
@@ -44,7 +42,7 @@ pub(super) fn joint(element: &Element, reader: &mut Reader) -> Joint {
     let axis = axis.unwrap_or_else(|| Number::constants(["1", "0", "0"], &element.at));
     let moves = !matches!(kind, Kind::Fixed | Kind::Floating);
     if moves && axis.iter().all(|x| x.value.is_zero()) {
-        reader.problems.say(
+        reader.say(
             "no_direction",
             &axis[0].at,
             &[&name, &"<axis xyz=\"0 0 1\"/>"],
@@ -113,12 +111,12 @@ fn loads(element: &Element, name: &str, reader: &mut Reader) -> Joint {
     let older = only(element, "joint_properties", reader);
     let dynamics = match (only(element, "dynamics", reader), older) {
         (Some(dynamics), Some(older)) => {
-            reader.problems.say("beside_properties", &older.at, &[&of]);
+            reader.say("beside_properties", &older.at, &[&of]);
             dynamics
         }
         (Some(dynamics), None) => dynamics,
         (None, Some(older)) => {
-            reader.problems.say("older_dynamics", &older.at, &[&of]);
+            reader.say("older_dynamics", &older.at, &[&of]);
             older
         }
         (None, None) => return Joint::default(),
@@ -130,9 +128,7 @@ fn loads(element: &Element, name: &str, reader: &mut Reader) -> Joint {
             number.filter(|number| !number.value.is_zero())
         });
         if let (Some(_), Some(other)) = (&first, &other) {
-            reader
-                .problems
-                .say("beside_dynamics", &other.at, &[&of, &second]);
+            reader.say("beside_dynamics", &other.at, &[&of, &second]);
         }
         first.or(other)
     };
@@ -172,19 +168,17 @@ pub(super) fn transmission(element: &Element, joints: &mut [Joint], reader: &mut
             continue;
         };
         if COUPLED.iter().any(|word| kind.contains(word)) {
-            reader
-                .problems
-                .say("rotors_coupled", &inertia.at, &[&of, &kind]);
+            reader.say("rotors_coupled", &inertia.at, &[&of, &kind]);
             continue;
         }
         if named.is_empty() {
-            reader
-                .problems
-                .say("rotor_of_nothing", &inertia.at, &[&of, &""]);
+            reader.say("rotor_of_nothing", &inertia.at, &[&of, &""]);
         }
         let Some(rotor) = reader.parse(inertia.value.trim(), &inertia.at) else {
             continue;
         };
+        let what = format!("the rotor of {of}");
+        reader.not_negative(Some(&rotor), &what, "it adds inertia: zero or more");
         for (name, driven) in &named {
             // Files that were written for several tools have several reductions: the rotor's is in
             // the spelling of its name, and may stand in the joint, or beside joint and actuator.
@@ -195,9 +189,7 @@ pub(super) fn transmission(element: &Element, joints: &mut [Joint], reader: &mut
             let ratio = ratio.map_or_else(one, |ratio| reader.parse(ratio.value.trim(), &ratio.at));
             match (joints.iter_mut().find(|joint| joint.name == **name), ratio) {
                 (Some(joint), Some(ratio)) => joint.add_rotor(rotor.clone(), ratio),
-                (None, _) => reader
-                    .problems
-                    .say("rotor_of_nothing", &driven.at, &[&of, name]),
+                (None, _) => reader.say("rotor_of_nothing", &driven.at, &[&of, name]),
                 (Some(_), None) => {}
             }
         }

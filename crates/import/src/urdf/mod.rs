@@ -31,9 +31,7 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
         _ => "a URDF begins with <robot name=\"arm\">, MJCF with <mujoco>",
     };
     if !help.is_empty() {
-        return reader
-            .problems
-            .refuse("not_a_model", &root.at, &[&root.tag, &help]);
+        return reader.refuse("not_a_model", &root.at, &[&root.tag, &help]);
     }
     reader.check_attributes("", root, "the robot");
     let mut model = Model {
@@ -58,7 +56,7 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
         }
     }
     if model.links.is_empty() {
-        return reader.problems.refuse("no_links", &root.at, &[]);
+        return reader.refuse("no_links", &root.at, &[]);
     }
     reader.unique(
         "link",
@@ -88,9 +86,7 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
     for param in root.all_inside("param") {
         let value = param.text.as_ref().map_or("", |text| &text.value);
         if param.value("name") == Some("mimic") {
-            reader
-                .problems
-                .say("plugin mimicJoint", &param.at, &[&value]);
+            reader.say("plugin mimicJoint", &param.at, &[&value]);
         }
     }
     Some(model)
@@ -113,7 +109,7 @@ fn link(element: &Element, reader: &mut Reader) -> Link {
 /// Returns the first element of a tag, which is the one that counts.
 fn only<'e>(element: &'e Element, tag: &'e str, reader: &mut Reader) -> Option<&'e Element> {
     if let Some(second) = element.all(tag).nth(1) {
-        reader.problems.say("second", &second.at, &[&tag]);
+        reader.say("second", &second.at, &[&tag]);
     }
     element.first(tag)
 }
@@ -122,9 +118,7 @@ fn inertial(element: &Element, link: &str, reader: &mut Reader) -> Option<Inerti
     let [mass, inertia] = ["mass", "inertia"].map(|tag| {
         let found = element.first(tag);
         if found.is_none() {
-            reader
-                .problems
-                .say("no_inertial_part", &element.at, &[&link, &tag]);
+            reader.say("no_inertial_part", &element.at, &[&link, &tag]);
         }
         found
     });
@@ -155,16 +149,12 @@ fn origin(element: &Element, reader: &mut Reader) -> Origin {
         return rolled(xyz, reader.vector(origin, "rpy"));
     };
     if let Some(rpy) = origin.get("rpy") {
-        reader
-            .problems
-            .say("two_orientations", &rpy.at, &[&"rpy` and `quat_xyzw"]);
+        reader.say("two_orientations", &rpy.at, &[&"rpy` and `quat_xyzw"]);
     }
     let numbers = reader.numbers(origin, "quat_xyzw");
     match numbers.map(|[x, y, z, w]| of_quaternion(&[w, x, y, z])) {
         Some(Some(turned)) => return Pose::of(xyz, turned, &quaternion.at).origin(),
-        Some(None) => reader
-            .problems
-            .say("orientation_of_zero", &quaternion.at, &[&"quat_xyzw"]),
+        Some(None) => reader.say("orientation_of_zero", &quaternion.at, &[&"quat_xyzw"]),
         None => {}
     }
     Origin {
