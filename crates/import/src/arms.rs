@@ -8,7 +8,7 @@ use dalembert_model::robot::suggested_name;
 use crate::model::Model;
 use crate::problems::Problems;
 use crate::select::{OTHERS, Select};
-use crate::{Imported, Options, Text, import_text, read_model, said};
+use crate::{Imported, Options, Text, import_text, read_model};
 
 /// Two arms that hang on joints which both have.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,13 +28,8 @@ pub struct Shared {
 pub fn arms(text: &Text, options: &Options) -> Result<(Vec<Imported>, Vec<Shared>), Diagnostics> {
     let mut problems = Problems::of(text);
     let model = read_model(text, options, &mut problems);
-    let tips = model.and_then(|model| match tips(&model, options, &mut problems) {
-        Some(tips) => Some((tips, model.name)),
-        None => {
-            said(&model, &mut problems, |_| true, |_| true);
-            None
-        }
-    });
+    let tips = model.and_then(|model| Some((tips(&model, options, &mut problems)?, model.name)));
+    problems.settle(|_| tips.is_none());
     let notes = problems.finish()?;
     let Some((tips, robot)) = tips else {
         return Err(Diagnostics(notes));

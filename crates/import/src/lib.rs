@@ -41,6 +41,8 @@ mod urdf;
 mod write;
 mod xml;
 
+use std::collections::BTreeSet;
+
 use dalembert_model::number::Rational;
 use dalembert_model::read::{self as robot_file, Diagnostic, Diagnostics};
 use dalembert_model::robot::Robot;
@@ -151,36 +153,26 @@ fn read_model(text: &Text, options: &Options, problems: &mut Problems) -> Option
     }
     if problems.has_errors() {
         // The parts of the robot are unknown here, so all mistakes count.
-        said(&model, problems, |_| true, |_| true);
+        problems.settle(|_| true);
         return None;
     }
     Some(model)
-}
-
-/// Says the problems of links and joints: as they are if they are part of the robot.
-fn said(
-    model: &Model,
-    problems: &mut Problems,
-    is_link: impl Fn(usize) -> bool,
-    is_joint: impl Fn(usize) -> bool,
-) {
-    let links = model.links.iter().enumerate();
-    links.for_each(|(index, link)| problems.said_of(&link.problems, is_link(index)));
-    let joints = model.joints.iter().enumerate();
-    joints.for_each(|(index, joint)| problems.said_of(&joint.problems, is_joint(index)));
 }
 
 fn imported(text: &Text, options: &Options, problems: &mut Problems) -> Option<Imported> {
     let model = read_model(text, options, problems)?;
     let tips: Vec<&str> = options.tip.iter().map(String::as_str).collect();
     let Some(selection) = select::select(&model, options, &tips, problems) else {
-        said(&model, problems, |_| true, |_| true);
+        problems.settle(|_| true);
         return None;
     };
-    let is_link = |link: usize| selection.movers[link].is_some();
-    said(&model, problems, is_link, |joint| {
-        selection.order.contains(&joint)
-    });
+    let joints = selection.order.iter().map(|joint| &model.joints[*joint].at);
+    let links = selection
+        .links()
+        .into_iter()
+        .map(|link| &model.links[link].at);
+    let parts: BTreeSet<usize> = joints.chain(links).map(|at| at.start).collect();
+    problems.settle(|part| parts.contains(&part));
     let as_written = merge::merged(&model, &selection, problems)?;
     if problems.has_errors() {
         return None;

@@ -7,7 +7,7 @@ use dalembert_model::robot::values::number;
 use dalembert_model::robot::{Inertia, Placement, Position};
 use num_traits::{Signed, Zero};
 
-use crate::problems::{Problem, Problems, instead};
+use crate::problems::{Problems, instead};
 use crate::text::Span;
 
 pub(crate) const MAX_LINKS: usize = 1024;
@@ -37,8 +37,6 @@ pub(crate) struct Link {
     pub(crate) inertial: Option<Inertial>,
     pub(crate) role: Role,
     pub(crate) has_unknown_mass: bool,
-    /// To be said where the link is part of the robot.
-    pub(crate) problems: Vec<Problem>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -84,8 +82,6 @@ pub(crate) struct Joint {
     /// The inertia of each rotor, and its reduction.
     pub(crate) rotors: Vec<[Number; 2]>,
     pub(crate) mimic: Option<Mimic>,
-    /// To be said where the joint is part of the robot.
-    pub(crate) problems: Vec<Problem>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

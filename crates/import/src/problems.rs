@@ -10,6 +10,7 @@ use crate::text::{Span, Text};
 
 /// The most messages of a kind that are listed.
 pub(crate) const MAX: usize = 200;
+const MAX_OF_ALL: usize = 10 * MAX;
 pub(crate) const MAX_NAMES: usize = 30;
 
 /// All messages, by their names. `{0}`, `{1}` … stand for words of a place; a message with `{of}`
@@ -80,10 +81,13 @@ pub(crate) struct Problem {
     of: Option<String>,
     more: usize,
     help: String,
+    /// Where the joint, link or body begins that the message is about: to be said if the robot
+    /// has it.
+    part: Option<usize>,
 }
 
 impl Problem {
-    pub(crate) fn new(message: &'static Message, at: &Span, words: &[&dyn Display]) -> Problem {
+    fn new(message: &'static Message, at: &Span, words: &[&dyn Display]) -> Problem {
         let is_of_several = message.text.contains("{of}");
         let of = words.iter().take(usize::from(is_of_several));
         Problem {
@@ -93,7 +97,12 @@ impl Problem {
             of: of.map(ToString::to_string).next(),
             more: 0,
             help: filled(message.help, words),
+            part: None,
         }
+    }
+
+    fn is_error(&self) -> bool {
+        self.message.severity == Severity::Error
     }
 
     fn text(&self) -> String {
@@ -106,7 +115,8 @@ impl Problem {
 
     fn is_like(&self, other: &Problem) -> bool {
         let is_one = self.of.is_some() || self.at == other.at;
-        is_one && self.text == other.text && self.message.text == other.message.text
+        let is_same = self.text == other.text && self.message.text == other.message.text;
+        is_one && is_same && self.part == other.part
     }
 }
 
@@ -114,6 +124,8 @@ pub(crate) struct Problems<'t> {
     pub(crate) text: &'t Text,
     found: Vec<Problem>,
     more: usize,
+    /// The part of the model that is read.
+    part: Option<usize>,
 }
 
 impl<'t> Problems<'t> {
@@ -123,13 +135,28 @@ impl<'t> Problems<'t> {
             text,
             found,
             more: 0,
+            part: None,
         }
     }
 
     /// Says a message of the table.
     pub(crate) fn say(&mut self, id: &str, at: &Span, words: &[&dyn Display]) {
-        let message = Message::of(id).or(Message::of("too_complex"));
-        self.add(message.map(|message| Problem::new(message, at, words)));
+        if let Some(message) = Message::of(id).or(Message::of("too_complex")) {
+            self.say_message(message, at, words);
+        }
+    }
+
+    pub(crate) fn say_message(
+        &mut self,
+        message: &'static Message,
+        at: &Span,
+        words: &[&dyn Display],
+    ) {
+        let part = self.part;
+        self.add(Problem {
+            part,
+            ..Problem::new(message, at, words)
+        });
     }
 
     /// Says an error where a value cannot be returned.
@@ -138,48 +165,48 @@ impl<'t> Problems<'t> {
         None
     }
 
-    pub(crate) fn add(&mut self, problems: impl IntoIterator<Item = Problem>) {
-        for problem in problems {
-            let Message {
-                severity, differs, ..
-            } = problem.message;
-            let is_of_kind = |other: &&Problem| {
-                (other.message.severity, other.message.differs) == (*severity, *differs)
-            };
-            let count = self.found.iter().filter(is_of_kind).count();
-            match self.found.iter_mut().find(|other| other.is_like(&problem)) {
-                Some(same) => same.more += 1 + problem.more,
-                None if count < MAX => self.found.push(problem),
-                None => self.more += usize::from(*severity == Severity::Error),
+    fn add(&mut self, problem: Problem) {
+        let Message {
+            severity, differs, ..
+        } = problem.message;
+        let is_of_kind = |other: &&Problem| {
+            let kind = (other.message.severity, other.message.differs);
+            kind == (*severity, *differs) && other.part == problem.part
+        };
+        let count = self.found.iter().filter(is_of_kind).count();
+        let has_room = count < MAX && self.found.len() < MAX_OF_ALL;
+        match self.found.iter_mut().find(|other| other.is_like(&problem)) {
+            Some(same) => same.more += 1 + problem.more,
+            None if has_room => self.found.push(problem),
+            None => self.more += usize::from(problem.is_error()),
+        }
+    }
+
+    /// Begins a part of the model, a joint, a link or a body; returns the one around it.
+    pub(crate) fn enter(&mut self, part: &Span) -> Option<usize> {
+        self.part.replace(part.start)
+    }
+
+    pub(crate) fn leave(&mut self, around: Option<usize>) {
+        self.part = around;
+    }
+
+    /// Decides which parts the robot has: mistakes in others are notes.
+    pub(crate) fn settle(&mut self, is_part: impl Fn(usize) -> bool) {
+        for mut problem in std::mem::take(&mut self.found) {
+            let part = problem.part.take();
+            if part.is_none_or(&is_part) {
+                self.add(problem);
+            } else if problem.is_error() {
+                self.say("outside", &problem.at, &[&problem.text(), &problem.help]);
             }
         }
     }
 
-    /// Begins a part of the model, whose problems are said where it turns out to matter; returns
-    /// those before it.
-    pub(crate) fn begin(&mut self) -> Vec<Problem> {
-        std::mem::take(&mut self.found)
-    }
-
-    /// Ends a part of the model; returns its problems.
-    pub(crate) fn end(&mut self, before: Vec<Problem>) -> Vec<Problem> {
-        std::mem::replace(&mut self.found, before)
-    }
-
-    /// Says the problems of a part of the model: its mistakes are notes if the robot lacks it.
-    pub(crate) fn said_of(&mut self, problems: &[Problem], is_part: bool) {
-        if is_part {
-            return self.add(problems.iter().cloned());
-        }
-        let is_error = |problem: &&Problem| problem.message.severity == Severity::Error;
-        for problem in problems.iter().filter(is_error) {
-            self.say("outside", &problem.at, &[&problem.text(), &problem.help]);
-        }
-    }
-
+    /// True if there are errors, not counting those in parts that the robot may lack.
     pub(crate) fn has_errors(&self) -> bool {
         let mut found = self.found.iter();
-        found.any(|problem| problem.message.severity == Severity::Error)
+        found.any(|problem| problem.part.is_none() && problem.is_error())
     }
 
     /// Returns the messages of the differences, in the order of the file.
@@ -194,9 +221,8 @@ impl<'t> Problems<'t> {
     /// alone.
     pub(crate) fn finish(mut self) -> Result<Vec<Diagnostic>, Diagnostics> {
         let has_errors = self.has_errors();
-        let is_error = |problem: &Problem| problem.message.severity == Severity::Error;
         self.found
-            .retain(|problem| is_error(problem) || !has_errors);
+            .retain(|problem| problem.is_error() || !has_errors);
         self.found
             .sort_by_key(|problem| (!problem.message.differs, problem.at.start));
         let found = self.found.iter().map(|problem| {

@@ -9,7 +9,7 @@ use num_traits::Signed;
 
 use crate::keywords::{Table, Verdict};
 use crate::model::{Number, Value};
-use crate::problems::{MAX, Message, Problem, Problems, instead};
+use crate::problems::{MAX, Message, Problems, instead};
 use crate::text::Span;
 use crate::xml::{Attribute, Element};
 
@@ -98,6 +98,14 @@ impl<'p, 't> Reader<'p, 't> {
         }
     }
 
+    /// Says the unknown names of a class; what it leaves out is said at the elements that have it.
+    pub(crate) fn check_class(&mut self, root: &Element, class: &Element) {
+        let found = Problems::of(self.problems.text);
+        let found = std::mem::replace(self.problems, found);
+        self.check(&root.tag, class, "a class");
+        *self.problems = found;
+    }
+
     /// Says a name that is left out, unless its value has no effect.
     fn leave_out(&mut self, tag: &str, name: &str, at: &Span, value: &str, of: &str) {
         let message = Message::of(&format!("{tag} {name}")).or(Message::of("left out"));
@@ -113,7 +121,7 @@ impl<'p, 't> Reader<'p, 't> {
             let element = format!("<{tag}>");
             let name = if name == "*" { &element } else { name };
             self.problems
-                .add([Problem::new(message, at, &[&of, &name, &value])]);
+                .say_message(message, at, &[&of, &name, &value]);
         }
     }
 

@@ -22,10 +22,7 @@ pub(super) fn filled(root: &Element, reader: &mut Reader) -> Element {
     let mut classes = Classes::from([(MAIN.to_owned(), Values::new())]);
     let mut names = Vec::new();
     for top in root.all("default") {
-        // What is left out is said at the elements that have it.
-        let before = reader.problems.begin();
-        reader.check(&root.tag, top, "a class");
-        reader.problems.end(before);
+        reader.check_class(root, top);
         names.extend(top.value("class"));
         let values = classes.entry(MAIN.to_owned()).or_default();
         take(top, values);

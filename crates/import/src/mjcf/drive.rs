@@ -27,7 +27,8 @@ impl Mjcf<'_, '_, '_> {
                 self.reader.check("actuator", element, &of);
                 continue;
             };
-            let before = self.reader.problems.begin();
+            let at = self.model.joints[joint].at.clone();
+            let around = self.reader.problems.enter(&at);
             self.reader.check("actuator", element, &of);
             let gear = element.get("gear").and_then(|gear| self.reader.list(gear));
             let gear = gear.and_then(|gear| gear.into_iter().next());
@@ -49,8 +50,7 @@ impl Mjcf<'_, '_, '_> {
             if element.tag == "dcmotor" && input == Some("none") {
                 self.reader.say("brake", &element.at, &[&of]);
             }
-            let problems = self.reader.problems.end(before);
-            self.model.joints[joint].problems.extend(problems);
+            self.reader.problems.leave(around);
         }
         for (joint, limit) in limits {
             let Some(limit) = limit else {

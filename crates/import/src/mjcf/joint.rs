@@ -25,10 +25,11 @@ impl Mjcf<'_, '_, '_> {
     pub(super) fn joint(&mut self, item: &Item, name: String, at: &Pose) -> (Joint, [Rational; 3]) {
         let (element, frame) = (item.element, &item.frame);
         let of = format!("joint `{name}`");
-        let before = self.reader.problems.begin();
+        let around = self.reader.problems.enter(&element.at);
         self.reader.check("body", element, &of);
         let none = [(); 3].map(|()| Rational::zero());
         if element.tag == "freejoint" {
+            self.reader.problems.leave(around);
             let kind = Kind::Floating;
             return (
                 Joint {
@@ -81,6 +82,7 @@ impl Mjcf<'_, '_, '_> {
         let range = self.limits(element, "limited", "range");
         let range = self.reader.range(&name, range);
         let effort = self.force_range(element, "actuatorfrclimited", "actuatorfrcrange");
+        self.reader.problems.leave(around);
         let off = |flag: &str| self.settings.is_off(flag);
         let joint = Joint {
             name,
@@ -94,7 +96,6 @@ impl Mjcf<'_, '_, '_> {
             friction: friction.filter(|_| !off("frictionloss")),
             spring: spring.filter(|spring| !spring.value.is_zero() && !off("spring")),
             armature: armature.map_or_else(Rational::zero, |armature| armature.value),
-            problems: self.reader.problems.end(before),
             ..fixed(["", ""], &element.at, at)
         };
         (joint, anchor)

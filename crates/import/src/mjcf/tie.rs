@@ -36,19 +36,15 @@ impl Mjcf<'_, '_, '_> {
                 "fixed" => self.over(element),
                 _ => continue,
             };
-            let before = self.reader.problems.begin();
-            self.reader.check("tendon", element, &of);
-            match &over[..] {
-                [(joint, coefficient)] => {
-                    self.limiting(element, *joint, coefficient);
-                    let problems = self.reader.problems.end(before);
-                    self.model.joints[*joint].problems.extend(problems);
-                }
-                _ => {
-                    let problems = self.reader.problems.end(before);
-                    self.reader.problems.add(problems);
-                    self.tie(element, of, self.joints_tied(&over));
-                }
+            if let [(joint, coefficient)] = &over[..] {
+                let at = self.model.joints[*joint].at.clone();
+                let around = self.reader.problems.enter(&at);
+                self.reader.check("tendon", element, &of);
+                self.limiting(element, *joint, coefficient);
+                self.reader.problems.leave(around);
+            } else {
+                self.reader.check("tendon", element, &of);
+                self.tie(element, of, self.joints_tied(&over));
             }
             let name = element.value("name").map(str::to_owned);
             tendons.extend(name.map(|name| (name, over)));

@@ -162,7 +162,7 @@ impl Mjcf<'_, '_, '_> {
             None => fresh(&mut names.links, "body".to_owned()),
         };
         let of = format!("body `{name}`");
-        let before = self.reader.problems.begin();
+        let around = self.reader.problems.enter(&element.at);
         self.reader.check_attributes("body", element, &of);
         let enter = is_apart_from_bodies;
         self.reader.check_inside("body", element, &of, enter);
@@ -175,7 +175,7 @@ impl Mjcf<'_, '_, '_> {
             let Element { tag, at, .. } = part.element;
             self.reader.say("made_on_body", at, &[tag, &of]);
         }
-        link.problems = self.reader.problems.end(before);
+        self.reader.problems.leave(around);
         if self.settings.bounds.bound_bodies() && link.inertial.is_none() && solids.is_empty() {
             // Without the frames around it, which are part of the joint's origin.
             link.inertial = Some(massless(self.reader.vector(element, "pos")));
@@ -245,20 +245,16 @@ impl Mjcf<'_, '_, '_> {
     /// Adds a site with a name, unless a body has the same.
     fn site(&mut self, item: &Item, body: &str, names: &mut Names) {
         let element = item.element;
-        let before = self.reader.problems.begin();
+        let around = self.reader.problems.enter(&element.at);
         self.reader.check("body", element, "a site");
         let between = element
             .get("fromto")
             .and_then(|_| self.between(element, -1));
         let pose = between.map_or_else(|| self.pose(element), |(pose, _)| pose);
-        let problems = self.reader.problems.end(before);
+        self.reader.problems.leave(around);
         let name = element.value("name").map(str::to_owned);
         let Some(name) = name.filter(|name| names.links.insert(name.clone())) else {
-            let mut links = self.model.links.iter_mut();
-            let link = links.rfind(|link| link.name == body);
-            return link
-                .into_iter()
-                .for_each(|link| link.problems.extend(problems.clone()));
+            return;
         };
         let at = item.frame.then(&pose);
         self.model
@@ -266,7 +262,6 @@ impl Mjcf<'_, '_, '_> {
             .push(fixed([body, &name], &element.at, &at));
         self.model.links.push(Link {
             role: Role::Mark,
-            problems,
             ..link(name, &element.at)
         });
     }

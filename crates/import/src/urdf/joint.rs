@@ -32,7 +32,7 @@ pub(super) fn joint(element: &Element, reader: &mut Reader) -> Joint {
             (String::new(), element.at.clone())
         }
     });
-    let before = reader.problems.begin();
+    let around = reader.problems.enter(&element.at);
     reader.check("robot", element, &format!("joint `{name}`"));
     reader.required(element, "type");
     let kind = reader
@@ -87,10 +87,12 @@ pub(super) fn joint(element: &Element, reader: &mut Reader) -> Joint {
             at: mimic.at.clone(),
         }
     });
+    let origin = origin(element, reader);
+    reader.problems.leave(around);
     Joint {
         at: element.at.clone(),
         kind,
-        origin: origin(element, reader),
+        origin,
         parent,
         child,
         axis,
@@ -100,7 +102,6 @@ pub(super) fn joint(element: &Element, reader: &mut Reader) -> Joint {
         acceleration,
         mimic,
         name,
-        problems: reader.problems.end(before),
         ..loads
     }
 }

@@ -70,7 +70,7 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
     let transmissions = root.all("transmission");
     transmissions.for_each(|element| transmission(element, &mut model.joints, reader));
     root.all("gazebo")
-        .for_each(|element| gazebo(element, &mut model, reader));
+        .for_each(|element| gazebo(element, &model, reader));
     let enter = |inside: &Element| !READ_APART.contains(&inside.tag.as_str());
     reader.check_inside("", root, "the robot", enter);
     let loops = LOOPS.into_iter().flat_map(|tag| root.all_inside(tag));
@@ -94,14 +94,15 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
 
 fn link(element: &Element, reader: &mut Reader) -> Link {
     let (name, _) = reader.required(element, "name");
-    let before = reader.problems.begin();
+    let around = reader.problems.enter(&element.at);
     reader.check("robot", element, &format!("link `{name}`"));
     let inertial = only(element, "inertial", reader);
+    let inertial = inertial.and_then(|inertial| self::inertial(inertial, &name, reader));
+    reader.problems.leave(around);
     Link {
         at: element.at.clone(),
-        inertial: inertial.and_then(|inertial| self::inertial(inertial, &name, reader)),
+        inertial,
         name,
-        problems: reader.problems.end(before),
         ..Link::default()
     }
 }
@@ -174,14 +175,14 @@ fn rolled(xyz: [Number; 3], rpy: [Number; 3]) -> Origin {
 
 /// Reads a frame of Drake's: a name for a place on a link.
 fn frame(element: &Element, model: &mut Model, reader: &mut Reader) {
-    let before = reader.problems.begin();
+    let around = reader.problems.enter(&element.at);
     let [parent, child] = ["link", "name"].map(|key| reader.required(element, key));
     let [xyz, rpy] = ["xyz", "rpy"].map(|key| reader.vector(element, key));
+    reader.problems.leave(around);
     model.links.push(Link {
         name: child.0.clone(),
         at: element.at.clone(),
         role: Role::Mark,
-        problems: reader.problems.end(before),
         ..Link::default()
     });
     let origin = rolled(xyz, rpy);
@@ -191,23 +192,18 @@ fn frame(element: &Element, model: &mut Model, reader: &mut Reader) {
 }
 
 /// Says what Gazebo's extension of a link or a joint has that is left out.
-fn gazebo(element: &Element, model: &mut Model, reader: &mut Reader) {
+fn gazebo(element: &Element, model: &Model, reader: &mut Reader) {
     let reference = element.value("reference").unwrap_or_default();
-    let before = reader.problems.begin();
-    let link = model.links.iter_mut().find(|link| link.name == reference);
-    let joint = model
-        .joints
-        .iter_mut()
-        .find(|joint| joint.name == reference);
-    let (of, problems) = match (link, joint) {
-        (Some(link), _) => (format!("link `{reference}`"), Some(&mut link.problems)),
-        (None, Some(joint)) => (format!("joint `{reference}`"), Some(&mut joint.problems)),
-        (None, None) => ("the robot".to_owned(), None),
+    let link = model.links.iter().find(|link| link.name == reference);
+    let joint = model.joints.iter().find(|joint| joint.name == reference);
+    let (of, at) = match (link, joint) {
+        (Some(link), _) => (format!("link `{reference}`"), &link.at),
+        (None, Some(joint)) => (format!("joint `{reference}`"), &joint.at),
+        (None, None) => return reader.check("robot", element, "the robot"),
     };
+    let around = reader.problems.enter(at);
     reader.check("robot", element, &of);
-    if let Some(problems) = problems {
-        problems.extend(reader.problems.end(before));
-    }
+    reader.problems.leave(around);
 }
 
 /// Returns the tie of an element that closes a loop: over the links that it names.
