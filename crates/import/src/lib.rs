@@ -179,8 +179,11 @@ fn imported(text: &Text, options: &Options, problems: &mut Problems) -> Option<I
     }
     let snapped = |snapping: Snapping| {
         let (snapped, snaps) = snap::snapped(&model, &selection, snapping);
-        // Messages were given for the digits as written; do not repeat them.
-        let tree = merge::merged(&snapped, &selection, &mut Problems::of(text))?;
+        let tree = match snaps.is_empty() {
+            true => as_written.clone(),
+            // Messages were given for the digits as written; do not repeat them.
+            false => merge::merged(&snapped, &selection, &mut Problems::of(text))?,
+        };
         let change = change::bound(&as_written, &tree, &snapped, options);
         Some((snapped, snaps, tree, change))
     };

@@ -153,7 +153,7 @@ impl<'p, 't> Reader<'p, 't> {
         }
     }
 
-    /// Returns a mutable reader of another table.
+    /// Returns a reader with another table, which says its problems in the same place.
     pub(crate) fn with(&mut self, table: &'static Table) -> Reader<'_, 't> {
         Reader::new(self.problems, table)
     }

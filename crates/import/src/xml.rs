@@ -74,11 +74,13 @@ impl Element {
 
     /// Returns all elements of a tag inside, in the order of the file.
     pub(crate) fn all_inside(&self, tag: &str) -> Vec<&Element> {
-        let inside = self.inside.iter().flat_map(|inside| {
-            let found = (inside.tag == tag).then_some(inside);
-            found.into_iter().chain(inside.all_inside(tag))
-        });
-        inside.collect()
+        let mut found = Vec::new();
+        let mut open: Vec<&Element> = self.inside.iter().rev().collect();
+        while let Some(element) = open.pop() {
+            found.extend((element.tag == tag).then_some(element));
+            open.extend(element.inside.iter().rev());
+        }
+        found
     }
 }
 

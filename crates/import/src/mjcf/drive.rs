@@ -15,13 +15,7 @@ impl Mjcf<'_, '_, '_> {
     /// drives, or its own where that is less.
     pub(super) fn drives(&mut self, root: &Element, tendons: &Tendons) {
         let mut limits: BTreeMap<usize, Option<Number>> = BTreeMap::new();
-        for part in root.all("actuator") {
-            self.reader
-                .check_attributes("mujoco", part, "the actuators");
-            self.reader
-                .check_inside("mujoco", part, "the actuators", |_| false);
-        }
-        for element in root.all("actuator").flat_map(|part| &part.inside) {
+        for element in self.section(root, "actuator") {
             let of = element.named(&format!("<{}>", element.tag));
             let Some((joint, coefficient)) = self.driven(element, tendons) else {
                 self.reader.check("actuator", element, &of);

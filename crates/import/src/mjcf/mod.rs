@@ -91,6 +91,16 @@ struct Mjcf<'r, 'p, 't> {
 }
 
 impl Mjcf<'_, '_, '_> {
+    /// Returns the elements of a section of the file, and says those that are unknown.
+    fn section<'e>(&mut self, root: &'e Element, tag: &'e str) -> Vec<&'e Element> {
+        let of = format!("the section <{tag}>");
+        for part in root.all(tag) {
+            self.reader.check_attributes("mujoco", part, &of);
+            self.reader.check_inside("mujoco", part, &of, |_| false);
+        }
+        root.all(tag).flat_map(|part| &part.inside).collect()
+    }
+
     /// Reads a range that limits: its word says so or, by itself or as `auto`, `autolimits` is on.
     fn limits(&mut self, element: &Element, word: &str, range: &str) -> Option<[Number; 2]> {
         let words = [("true", Some(true)), ("false", Some(false)), ("auto", None)];

@@ -19,12 +19,7 @@ pub(super) type Tendons = BTreeMap<String, Vec<(usize, Rational)>>;
 impl Mjcf<'_, '_, '_> {
     pub(super) fn ties(&mut self, root: &Element) -> Tendons {
         let mut tendons = Tendons::new();
-        for part in root.all("tendon") {
-            self.reader.check_attributes("mujoco", part, "the tendons");
-            self.reader
-                .check_inside("mujoco", part, "the tendons", |_| false);
-        }
-        for element in root.all("tendon").flat_map(|part| &part.inside) {
+        for element in self.section(root, "tendon") {
             let of = element.named(&format!("{} tendon", element.tag));
             let over = match element.tag.as_str() {
                 "spatial" => {
@@ -49,13 +44,7 @@ impl Mjcf<'_, '_, '_> {
             let name = element.value("name").map(str::to_owned);
             tendons.extend(name.map(|name| (name, over)));
         }
-        for part in root.all("equality") {
-            self.reader
-                .check_attributes("mujoco", part, "the equalities");
-            self.reader
-                .check_inside("mujoco", part, "the equalities", |_| false);
-        }
-        for element in root.all("equality").flat_map(|part| &part.inside) {
+        for element in self.section(root, "equality") {
             let kind = format!("equality `{}`", element.tag);
             let of = element.named(if element.tag == "joint" {
                 "equality"

@@ -65,6 +65,7 @@ impl Mjcf<'_, '_, '_> {
         names.links.insert("world".to_owned());
         let (mut open, mut made) = (Vec::new(), Vec::new());
         for part in root.all("worldbody") {
+            self.reader.check_attributes("mujoco", part, "the world");
             self.reader
                 .check_inside("mujoco", part, "the world", is_apart_from_bodies);
             let items = self.items(part);

@@ -198,7 +198,7 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
         while let [joint] = self.arms_on(link)[..] {
             let Joint { name, kind, at, .. } = &self.model.joints[joint];
             link = self.model.ends[joint][1];
-            if link == root || *kind != Kind::Fixed && kind.has_one_axis() {
+            if *kind != Kind::Fixed && kind.has_one_axis() {
                 break;
             }
             if *kind != Kind::Fixed {
@@ -218,11 +218,8 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
 
     fn moves_from(&self, joint: usize) -> bool {
         let mut open = vec![joint];
-        // In a circle there is no end.
-        for _ in 0..self.model.ends.len() {
-            let Some(joint) = open.pop() else {
-                return false;
-            };
+        // Behind a root there is no circle.
+        while let Some(joint) = open.pop() {
             let kind = self.model.joints[joint].kind;
             if kind.has_one_axis() && kind != Kind::Fixed {
                 return true;
