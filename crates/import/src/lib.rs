@@ -171,7 +171,9 @@ fn imported(text: &Text, options: &Options, problems: &mut Problems) -> Option<I
         .links()
         .into_iter()
         .map(|link| &model.links[link].at);
-    let parts: BTreeSet<usize> = joints.chain(links).map(|at| at.start).collect();
+    let masses = links.clone().map(|at| problems::mass_part(at).start);
+    let parts = joints.chain(links).map(|at| at.start);
+    let parts: BTreeSet<usize> = parts.chain(masses).collect();
     problems.settle(|part| parts.contains(&part));
     let as_written = merge::merged(&model, &selection, problems)?;
     if problems.has_errors() {

@@ -250,6 +250,11 @@ impl<'t> Problems<'t> {
     }
 }
 
+/// Returns the part of a body's mass: no element begins inside of a tag.
+pub(crate) fn mass_part(body: &Span) -> Span {
+    body.start + 1..body.end
+}
+
 /// Returns the help for an unknown name: the likely ones, or all that there are.
 pub(crate) fn instead<'n, N: AsRef<str> + ?Sized + 'n>(
     name: &str,

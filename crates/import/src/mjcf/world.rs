@@ -10,6 +10,7 @@ use super::joint::fixed;
 use crate::bounds::massless;
 use crate::model::{Joint, Kind, Link, MAX_LINKS, Role};
 use crate::orientation::Pose;
+use crate::problems::mass_part;
 use crate::text::Span;
 use crate::xml::Element;
 
@@ -171,7 +172,10 @@ impl Mjcf<'_, '_, '_> {
         let items = self.items(element);
         self.keep_places(&items, &name);
         let mut link = link(name.clone(), &element.at);
+        // A mass matters where the body moves, its place on the way there, too.
+        let place = self.reader.problems.enter(&mass_part(&element.at));
         let solids = self.mass(&items, &mut link);
+        self.reader.problems.leave(place);
         for part in items.iter().filter(|item| is_made_elsewhere(item)) {
             let Element { tag, at, .. } = part.element;
             self.reader.say("made_on_body", at, &[tag, &of]);
