@@ -8,7 +8,7 @@ use dalembert_model::robot::suggested_name;
 use crate::model::Model;
 use crate::problems::Problems;
 use crate::select::{OTHERS, Select};
-use crate::{Imported, Options, Text, import_text, read_model};
+use crate::{Imported, Options, Text, import_model, read_model};
 
 /// Two arms that hang on joints which both have.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,12 +26,15 @@ pub struct Shared {
 /// # Errors
 /// Everything that is wrong with the model or with one of its arms.
 pub fn arms(text: &Text, options: &Options) -> Result<(Vec<Imported>, Vec<Shared>), Diagnostics> {
-    let mut problems = Problems::of(text);
-    let model = read_model(text, options, &mut problems);
-    let tips = model.and_then(|model| Some((tips(&model, options, &mut problems)?, model.name)));
+    let mut read = Problems::of(text);
+    let model = read_model(text, options, &mut read);
+    let mut problems = read.clone();
+    let tips = model
+        .as_ref()
+        .and_then(|model| tips(model, options, &mut problems));
     problems.settle(|_| tips.is_none());
     let notes = problems.finish()?;
-    let Some((tips, robot)) = tips else {
+    let (Some(model), Some(tips)) = (model, tips) else {
         return Err(Diagnostics(notes));
     };
     let mut lock = options.lock.clone();
@@ -42,7 +45,7 @@ pub fn arms(text: &Text, options: &Options) -> Result<(Vec<Imported>, Vec<Shared
     let mut arms = Vec::new();
     let mut errors: Vec<_> = Vec::new();
     for tip in tips {
-        let robot = options.name.as_ref().unwrap_or(&robot);
+        let robot = options.name.as_ref().unwrap_or(&model.name);
         let wish = suggested_name(&format!("{robot}_{tip}")).unwrap_or_else(|| "arm".to_owned());
         let mut name = wish.clone();
         while !names.insert(name.clone()) {
@@ -54,7 +57,7 @@ pub fn arms(text: &Text, options: &Options) -> Result<(Vec<Imported>, Vec<Shared
             name: Some(name.clone()),
             ..options.clone()
         };
-        match import_text(text, &of_arm) {
+        match import_model(Some(&model), &of_arm, read.clone()) {
             Ok(imported) => arms.push((name, imported)),
             Err(Diagnostics(found)) => {
                 for error in found {

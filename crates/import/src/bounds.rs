@@ -11,7 +11,7 @@ use dalembert_model::scalar::Scalar;
 use num_traits::{One, Signed, Zero};
 
 use crate::merge::{combined, shifted, size_of};
-use crate::model::{Inertial, Joint, Kind, Model, Number, Origin, Role};
+use crate::model::{Format, Inertial, Joint, Kind, Model, Number, Origin, Role};
 use crate::read::Reader;
 use crate::xml::Element;
 
@@ -91,7 +91,7 @@ impl Bounds {
             [(only, _)] => (only, model.links[only].inertial.clone()?),
             _ => (link, in_one_frame(&parts, link, model)?),
         };
-        let is_fused = model.format == "a URDF" && joint.kind == Kind::Fixed;
+        let is_fused = model.format == Format::Urdf && joint.kind == Kind::Fixed;
         if is_fused && self.mass.is_none() && before.mass.value.is_zero() {
             // MuJoCo makes the link part of the one before, and adds nothing.
             return None;
@@ -247,7 +247,7 @@ fn is_static(model: &Model, link: usize) -> bool {
 
 /// Scales all masses to a total, in a URDF without the links that MuJoCo makes part of the world.
 fn scale(total: &Number, model: &mut Model, reader: &mut Reader) {
-    let is_body = |link: &usize| model.format != "a URDF" || !is_static(model, *link);
+    let is_body = |link: &usize| model.format == Format::Mjcf || !is_static(model, *link);
     let links: Vec<usize> = (0..model.links.len()).filter(is_body).collect();
     let bodies = links.iter().map(|link| &model.links[*link]);
     let sum: Rational = bodies

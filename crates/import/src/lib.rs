@@ -41,7 +41,7 @@ mod urdf;
 mod write;
 mod xml;
 
-use std::collections::BTreeSet;
+use std::fmt::Display;
 
 use dalembert_model::number::Rational;
 use dalembert_model::read::{self as robot_file, Diagnostic, Diagnostics};
@@ -50,10 +50,12 @@ use dalembert_model::robot::Robot;
 pub use args::ChainArgs;
 pub use arms::{Shared, arms};
 pub use change::{Change, Displacement, Motion};
+use merge::Tree;
 use model::Model;
 pub use open::{Opened, Unopened, first_bytes, is_model, open, open_text, read_robot};
 use problems::Problems;
 use read::Reader;
+use select::Selection;
 pub use snap::Snap;
 use snap::Snapping;
 pub use text::{MAX_BYTES, Text};
@@ -123,13 +125,8 @@ pub fn import(source: &str, options: &Options) -> Result<Imported, Diagnostics> 
 /// Those of [`import`]; [`Text::render`] says in which file they are.
 pub fn import_text(text: &Text, options: &Options) -> Result<Imported, Diagnostics> {
     let mut problems = Problems::of(text);
-    let imported = imported(text, options, &mut problems);
-    let notes = problems.finish()?;
-    match imported {
-        Some(imported) => Ok(Imported { notes, ..imported }),
-        // Nothing is given up without an error.
-        None => Err(Diagnostics(notes)),
-    }
+    let model = read_model(text, options, &mut problems);
+    import_model(model.as_ref(), options, problems)
 }
 
 fn read_model(text: &Text, options: &Options, problems: &mut Problems) -> Option<Model> {
@@ -151,79 +148,103 @@ fn read_model(text: &Text, options: &Options, problems: &mut Problems) -> Option
     if options.ignore_ties {
         model.untie(problems);
     }
-    if problems.has_errors() {
-        // The parts of the robot are unknown here, so all mistakes count.
-        problems.settle(|_| true);
-        return None;
-    }
-    Some(model)
+    (!problems.has_errors()).then_some(model)
 }
 
-fn imported(text: &Text, options: &Options, problems: &mut Problems) -> Option<Imported> {
-    let model = read_model(text, options, problems)?;
+/// Makes the robot file of a chain; the problems are those of reading the model.
+fn import_model(
+    model: Option<&Model>,
+    options: &Options,
+    mut problems: Problems,
+) -> Result<Imported, Diagnostics> {
     let tips: Vec<&str> = options.tip.iter().map(String::as_str).collect();
-    let Some(selection) = select::select(&model, options, &tips, problems) else {
-        problems.settle(|_| true);
-        return None;
-    };
-    let joints = selection.order.iter().map(|joint| &model.joints[*joint].at);
-    let links = selection
-        .links()
-        .into_iter()
-        .map(|link| &model.links[link].at);
-    let masses = links.clone().map(|at| problems::mass_part(at).start);
-    let parts = joints.chain(links).map(|at| at.start);
-    let parts: BTreeSet<usize> = parts.chain(masses).collect();
-    problems.settle(|part| parts.contains(&part));
-    let as_written = merge::merged(&model, &selection, problems)?;
+    let selected = model.and_then(|model| {
+        let selection = select::select(model, options, &tips, &mut problems)?;
+        Some((model, selection))
+    });
+    let parts = selected
+        .as_ref()
+        .map(|(model, selection)| selection.parts(model));
+    // Where the parts of the robot are unknown, all mistakes count.
+    problems.settle(|part| parts.as_ref().is_none_or(|parts| parts.contains(&part)));
+    let imported =
+        selected.and_then(|(model, selection)| imported(model, &selection, options, &mut problems));
+    let notes = problems.finish()?;
+    match imported {
+        Some(imported) => Ok(Imported { notes, ..imported }),
+        // Nothing is given up without an error.
+        None => Err(Diagnostics(notes)),
+    }
+}
+
+/// A model with some of its numbers taken for others.
+struct Taken {
+    model: Model,
+    snaps: Vec<Snap>,
+    tree: Tree,
+    change: Change,
+}
+
+fn imported(
+    model: &Model,
+    selection: &Selection,
+    options: &Options,
+    problems: &mut Problems,
+) -> Option<Imported> {
+    let as_written = merge::merged(model, selection, problems)?;
     if problems.has_errors() {
         return None;
     }
-    let snapped = |snapping: Snapping| {
-        let (snapped, snaps) = snap::snapped(&model, &selection, snapping);
+    let text = problems.text;
+    let take = |snapping: Snapping| {
+        let (model, snaps) = snap::snapped(model, selection, snapping);
         let tree = match snaps.is_empty() {
             true => as_written.clone(),
             // Messages were given for the digits as written; do not repeat them.
-            false => merge::merged(&snapped, &selection, &mut Problems::of(text))?,
+            false => merge::merged(&model, selection, &mut Problems::of(text))?,
         };
-        let change = change::bound(&as_written, &tree, &snapped, options);
-        Some((snapped, snaps, tree, change))
+        let change = change::bound(&as_written, &tree, &model, options);
+        Some(Taken {
+            model,
+            snaps,
+            tree,
+            change,
+        })
     };
     let mut stays = options.exact;
-    let mut taken = snapped(if stays { Snapping::None } else { Snapping::All })?;
-    if !options.snap && taken.3.relative() > FELT {
-        problems.say("digits_stay", &model.at, &[&taken.3]);
+    let mut taken = take(if stays { Snapping::None } else { Snapping::All })?;
+    if !options.snap && taken.change.relative() > FELT {
+        problems.say("digits_stay", &model.at, &[&taken.change]);
         stays = true;
-        taken = snapped(Snapping::Near)?;
-        if taken.3.relative() > FELT {
-            taken = snapped(Snapping::None)?;
+        taken = take(Snapping::Near)?;
+        if taken.change.relative() > FELT {
+            taken = take(Snapping::None)?;
         }
     }
-    let (snapped, snaps, tree, change) = taken;
-    let text_of_robot = write::file(
-        &snapped,
-        &selection,
-        &tree,
-        (&snaps, stays),
-        options,
-        problems,
-    );
-    let reading = robot_file::parse(&text_of_robot).map_err(|errors| {
-        for error in &errors.0 {
-            let line = text_of_robot.lines().nth(error.line.saturating_sub(1));
-            let (line, help) = (line.unwrap_or_default(), error.help.as_deref());
-            let words: [&dyn std::fmt::Display; 3] =
-                [&error.message, &line, &help.unwrap_or_default()];
-            problems.say("refused", &(0..0), &words);
+    let Taken {
+        model,
+        snaps,
+        tree,
+        change,
+    } = taken;
+    let text = write::file(&model, selection, &tree, (&snaps, stays), options, problems);
+    let robot = match robot_file::parse(&text) {
+        Ok(reading) => reading.robot,
+        Err(errors) => {
+            for error in &errors.0 {
+                let line = text.lines().nth(error.line.saturating_sub(1));
+                let (line, help) = (line.unwrap_or_default(), error.help.as_deref());
+                let words: [&dyn Display; 3] = [&error.message, &line, &help.unwrap_or_default()];
+                problems.say("refused", &(0..0), &words);
+            }
+            return None;
         }
-    });
-    let robot = reading.ok()?.robot;
-    let change = (!snaps.is_empty()).then_some(change);
+    };
     Some(Imported {
-        text: text_of_robot,
+        text,
         robot,
         notes: Vec::new(),
+        change: (!snaps.is_empty()).then_some(change),
         snaps,
-        change,
     })
 }

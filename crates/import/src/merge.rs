@@ -67,14 +67,14 @@ pub(crate) fn merged(
     for index in &selection.order {
         let joint = &model.joints[*index];
         let [parent, child] = model.ends[*index];
-        let (body, way, is_own) = places.get(&parent)?.clone();
+        let (body, way, is_its_frame) = places.get(&parent)?.clone();
         let placed = way.then(&pose(&joint.origin.placement()));
         let place = match &selection.states[*index] {
             State::Stays(None) => (body, placed, false),
             State::Stays(Some(at)) => (body, placed.then(&displaced(joint, at)?), false),
             State::Moves => {
                 // Without a fixed link between, keep the file's placement.
-                let placement = match is_own {
+                let placement = match is_its_frame {
                     true => joint.origin.placement(),
                     false => placement(&placed, &size),
                 };

@@ -14,8 +14,7 @@ pub(crate) const MAX_LINKS: usize = 1024;
 
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Model {
-    /// As comments call it: `an MJCF`.
-    pub(crate) format: &'static str,
+    pub(crate) format: Format,
     pub(crate) name: String,
     pub(crate) at: Span,
     pub(crate) links: Vec<Link>,
@@ -27,6 +26,13 @@ pub(crate) struct Model {
     /// Gravity in the axes of the root, where the file says it.
     pub(crate) gravity: Option<[Number; 3]>,
     pub(crate) ties: Vec<Tie>,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Format {
+    #[default]
+    Urdf,
+    Mjcf,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -330,6 +336,12 @@ impl Model {
             problems.say("ignored_ties", first, &[&names.join(", ")]);
         }
     }
+}
+
+/// Returns the least of some limits, the first of those that are equal.
+pub(crate) fn least<const N: usize>(limits: [Option<Number>; N]) -> Option<Number> {
+    let limits = limits.into_iter().flatten();
+    limits.min_by(|one, other| one.value.cmp(&other.value))
 }
 
 /// Returns the sum of two numbers, of which the first may be missing.

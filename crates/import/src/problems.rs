@@ -120,6 +120,7 @@ impl Problem {
     }
 }
 
+#[derive(Clone)]
 pub(crate) struct Problems<'t> {
     pub(crate) text: &'t Text,
     found: Vec<Problem>,

@@ -14,7 +14,7 @@ use num_traits::{Signed, Zero};
 
 use crate::Options;
 use crate::merge::{Branch, Tree};
-use crate::model::{Joint, Kind, Model, Number, positive};
+use crate::model::{Format, Joint, Kind, Model, Number, positive};
 use crate::problems::Problems;
 use crate::select::Selection;
 use crate::select::position::right;
@@ -32,7 +32,8 @@ pub(crate) fn file(
     let [base, tip] =
         [selection.base, selection.tips[0]].map(|link| model.links[link].name.as_str());
     let file = match options.file.as_str() {
-        "" => model.format,
+        "" if model.format == Format::Mjcf => "an MJCF",
+        "" => "a URDF",
         file => file,
     };
     let gravity = match model.gravity {

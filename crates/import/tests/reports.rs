@@ -39,7 +39,7 @@ fn names(messages: &[Diagnostic], case: &Value) -> bool {
     words.any(|word| {
         let says = |text: &str| text.contains(word);
         let help = |message: &Diagnostic| message.help.as_deref().is_some_and(says);
-        messages.iter().any(|own| says(&own.message) || help(own))
+        messages.iter().any(|found| says(&found.message) || help(found))
     })
 }
 

@@ -7,7 +7,7 @@ use num_traits::{One, Signed};
 
 use super::Mjcf;
 use super::tie::Tendons;
-use crate::model::{Number, added};
+use crate::model::{Number, added, least};
 use crate::xml::{Attribute, Element};
 
 impl Mjcf<'_, '_, '_> {
@@ -51,11 +51,7 @@ impl Mjcf<'_, '_, '_> {
                 continue;
             };
             let joint = &mut self.model.joints[joint];
-            let effort = joint
-                .effort
-                .take()
-                .filter(|effort| effort.value < limit.value);
-            joint.effort = effort.or(Some(limit));
+            joint.effort = least([Some(limit), joint.effort.take()]);
         }
     }
 
@@ -92,18 +88,12 @@ impl Mjcf<'_, '_, '_> {
             }
             _ => None,
         };
-        [force, other]
-            .into_iter()
-            .flatten()
-            .min_by(|a, b| a.value.cmp(&b.value))
+        least([force, other])
     }
 
     /// Adds the armature and the damping of a drive, each times the square of the reduction.
     fn rotor(&mut self, element: &Element, joint: usize, gear: Number, of: &str) {
-        let armature = self.reader.number(element, "armature");
-        let damping = self.first_term(element, "damping", of);
-        self.check_loads(of, &[("armature", &armature), ("damping", &damping)]);
-        let damping = damping.filter(|_| !self.settings.is_off("damper"));
+        let [armature, damping] = self.loads(element, of);
         let joint = &mut self.model.joints[joint];
         joint.add_damping(damping, &gear.value);
         if let Some(armature) = armature {

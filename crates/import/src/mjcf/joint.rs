@@ -69,16 +69,10 @@ impl Mjcf<'_, '_, '_> {
             }
             (zero, _) => (place, zero.map_or_else(Rational::zero, |zero| zero.value)),
         };
-        let [armature, friction] =
-            ["armature", "frictionloss"].map(|key| self.reader.number(element, key));
-        let [damping, spring] =
-            ["damping", "stiffness"].map(|key| self.first_term(element, key, &of));
-        let loads = [
-            ("armature", &armature),
-            ("damping", &damping),
-            ("frictionloss", &friction),
-        ];
-        self.check_loads(&of, &loads);
+        let [armature, damping] = self.loads(element, &of);
+        let friction = self.reader.number(element, "frictionloss");
+        self.not_negative("frictionloss", &friction, &of);
+        let spring = self.first_term(element, "stiffness", &of);
         let range = self.limits(element, "limited", "range");
         let range = self.reader.range(&name, range);
         let effort = self.force_range(element, "actuatorfrclimited", "actuatorfrcrange");
@@ -92,7 +86,7 @@ impl Mjcf<'_, '_, '_> {
             position: range.map(|range| range.map(|end| self.in_units(kind, end))),
             start,
             effort,
-            damping: damping.filter(|_| !off("damper")),
+            damping,
             friction: friction.filter(|_| !off("frictionloss")),
             spring: spring.filter(|spring| !spring.value.is_zero() && !off("spring")),
             armature: armature.map_or_else(Rational::zero, |armature| armature.value),

@@ -100,10 +100,8 @@ impl Mjcf<'_, '_, '_> {
     fn weight(&mut self, item: &Item) -> Weight {
         let element = item.element;
         let group = self.reader.number(element, "group");
-        let group = group.map_or(0, |group| {
-            i64::try_from(group.value.to_integer()).unwrap_or(0)
-        });
-        let [low, high] = self.settings.groups;
+        let group = group.map_or_else(Rational::zero, |group| group.value);
+        let [low, high] = &self.settings.groups;
         let key = if element.get("mass").is_some() {
             "mass"
         } else {
@@ -112,7 +110,7 @@ impl Mjcf<'_, '_, '_> {
         let given = self.reader.number(element, key);
         let is_nothing = given.as_ref().is_some_and(|given| given.value.is_zero());
         let is_flat = matches!(element.value("type"), Some("plane" | "hfield"));
-        if is_nothing || is_flat || !(low..=high).contains(&group) {
+        if is_nothing || is_flat || !(low..=high).contains(&&group) {
             return Weight::Nothing;
         }
         let solid = self.solid(item, key, given);

@@ -21,7 +21,7 @@ mod world;
 
 use std::collections::BTreeMap;
 
-use crate::model::{Model, Number};
+use crate::model::{Format, Model, Number};
 use crate::read::Reader;
 use crate::xml::Element;
 pub(crate) use settings::Settings;
@@ -61,7 +61,7 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
     let root = &defaults::filled(root, reader);
     let settings = Settings::read(root, reader);
     let model = Model {
-        format: "an MJCF",
+        format: Format::Mjcf,
         name: root.value("model").unwrap_or("arm").to_owned(),
         at: root.at.clone(),
         gravity: Some(settings.gravity(root)),
@@ -127,12 +127,21 @@ impl Mjcf<'_, '_, '_> {
         terms.into_iter().next()
     }
 
-    /// Says armature, damping or friction that is negative.
-    fn check_loads(&mut self, of: &str, loads: &[(&str, &Option<Number>)]) {
+    /// Reads the armature and the damping of an element.
+    fn loads(&mut self, element: &Element, of: &str) -> [Option<Number>; 2] {
+        let armature = self.reader.number(element, "armature");
+        let damping = self.first_term(element, "damping", of);
+        self.not_negative("armature", &armature, of);
+        self.not_negative("damping", &damping, of);
+        [
+            armature,
+            damping.filter(|_| !self.settings.is_off("damper")),
+        ]
+    }
+
+    fn not_negative(&mut self, key: &str, load: &Option<Number>, of: &str) {
         let help = "it adds inertia or takes energy out: zero or more";
-        for (key, load) in loads {
-            self.reader
-                .not_negative(load.as_ref(), &format!("the {key} of {of}"), help);
-        }
+        self.reader
+            .not_negative(load.as_ref(), &format!("the {key} of {of}"), help);
     }
 }

@@ -1,5 +1,6 @@
 //! Settings of the whole file: where there are several, the last one counts.
 
+use dalembert_model::number::Rational;
 use num_traits::Zero;
 
 use crate::bounds::Bounds;
@@ -13,7 +14,7 @@ pub(crate) struct Settings {
     pub(super) auto_limits: bool,
     pub(super) from_geoms: FromGeoms,
     /// The lowest and the highest group of geoms that have mass.
-    pub(super) groups: [i64; 2],
+    pub(super) groups: [Rational; 2],
     pub(super) bounds: Bounds,
     /// The flags that are switched off.
     off: Vec<&'static str>,
@@ -59,7 +60,7 @@ impl Settings {
             euler: [turn(0), turn(1), turn(2)],
             auto_limits: true,
             from_geoms: FromGeoms::Some,
-            groups: [0, 5],
+            groups: [0, 5].map(|group| Rational::from_integer(group.into())),
             bounds: Bounds::default(),
             off: Vec::new(),
             gravity: None,
@@ -125,7 +126,7 @@ impl Settings {
         }
         self.bounds.read(element, reader);
         if let Some(range) = reader.numbers::<2>(element, "inertiagrouprange") {
-            self.groups = range.map(|end| i64::try_from(end.value.to_integer()).unwrap_or(0));
+            self.groups = range.map(|end| end.value);
         }
     }
 

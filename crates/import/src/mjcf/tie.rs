@@ -132,10 +132,8 @@ impl Mjcf<'_, '_, '_> {
     fn limiting(&mut self, element: &Element, joint: usize, by: &Rational) {
         let name = self.model.joints[joint].name.clone();
         let range = self.limits(element, "limited", "range");
-        let armature = self.reader.number(element, "armature");
         let of = format!("the tendon over joint `{name}`");
-        let damping = self.first_term(element, "damping", &of);
-        self.check_loads(&of, &[("armature", &armature), ("damping", &damping)]);
+        let [armature, damping] = self.loads(element, &of);
         for key in ["stiffness", "frictionloss"] {
             let terms = element
                 .get(key)
@@ -144,7 +142,6 @@ impl Mjcf<'_, '_, '_> {
                 self.reader.say("of_tendon", &element.at, &[&key, &name]);
             }
         }
-        let damping = damping.filter(|_| !self.settings.is_off("damper"));
         let tied = &mut self.model.joints[joint];
         tied.armature += armature.map_or_else(Rational::zero, |armature| armature.value) * by * by;
         tied.add_damping(damping, by);

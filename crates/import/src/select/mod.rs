@@ -17,7 +17,7 @@ use num_traits::{Signed, Zero};
 
 use crate::Options;
 use crate::model::{Joint, Kind, Mimic, Model};
-use crate::problems::Problems;
+use crate::problems::{Problems, mass_part};
 pub(crate) use check::check_names;
 use position::advised;
 
@@ -53,6 +53,16 @@ impl Selection {
     pub(crate) fn links(&self) -> Vec<usize> {
         let links = 0..self.movers.len();
         links.filter(|link| self.movers[*link].is_some()).collect()
+    }
+
+    /// Returns the parts of the model that the robot has, as problems name them: a link that stands
+    /// still has no mass for the robot.
+    pub(crate) fn parts(&self, model: &Model) -> BTreeSet<usize> {
+        let joints = self.order.iter().map(|joint| &model.joints[*joint].at);
+        let links = self.links().into_iter().map(|link| &model.links[link].at);
+        let masses = links.clone().map(|at| mass_part(at).start);
+        let parts = joints.chain(links).map(|at| at.start);
+        parts.chain(masses).collect()
     }
 }
 

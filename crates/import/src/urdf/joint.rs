@@ -6,7 +6,7 @@ use dalembert_model::number::Rational;
 use num_traits::Zero;
 
 use super::{only, origin};
-use crate::model::{Joint, Kind, Mimic, Number};
+use crate::model::{Joint, Kind, Mimic, Number, least};
 use crate::read::Reader;
 use crate::xml::{Attribute, Element};
 
@@ -54,10 +54,7 @@ pub(super) fn joint(element: &Element, reader: &mut Reader) -> Joint {
         ["lower", "upper", "effort", "velocity"].map(&mut of_limit);
     // There is one limit for both directions.
     let bounds = ["acceleration", "drake:acceleration", "deceleration"].map(&mut of_limit);
-    let acceleration = bounds
-        .into_iter()
-        .flatten()
-        .min_by(|a, b| a.value.cmp(&b.value));
+    let acceleration = least(bounds);
     let range = limit.filter(|_| lower.is_some() || upper.is_some());
     let range = range
         .filter(|_| moves && kind != Kind::Continuous)
@@ -173,7 +170,7 @@ pub(super) fn transmission(element: &Element, joints: &mut [Joint], reader: &mut
             continue;
         }
         if named.is_empty() {
-            reader.say("rotor_of_nothing", &inertia.at, &[&of, &""]);
+            reader.say("rotor_without_joint", &inertia.at, &[&of]);
         }
         let Some(rotor) = reader.parse(inertia.value.trim(), &inertia.at) else {
             continue;

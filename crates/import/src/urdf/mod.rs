@@ -4,7 +4,9 @@ mod joint;
 
 use crate::keywords::MJCF;
 use crate::mjcf::Settings;
-use crate::model::{Inertial, Joint, Link, MAX_LINKS, Model, Number, Origin, Role, Tie, Tied};
+use crate::model::{
+    Format, Inertial, Joint, Link, MAX_LINKS, Model, Number, Origin, Role, Tie, Tied,
+};
 use crate::orientation::{Pose, of_quaternion};
 use crate::read::Reader;
 use crate::xml::Element;
@@ -35,7 +37,7 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
     }
     reader.check_attributes("", root, "the robot");
     let mut model = Model {
-        format: "a URDF",
+        format: Format::Urdf,
         name: root.value("name").unwrap_or("arm").to_owned(),
         at: root.at.clone(),
         links: root

@@ -50,13 +50,17 @@ pub fn data(file: &str) -> String {
     std::fs::read_to_string(path(file)).unwrap()
 }
 
-pub fn source(name: &str) -> String {
+fn file(name: &str) -> String {
     let ending = if name.starts_with("mjcf/") {
         "xml"
     } else {
         "urdf"
     };
-    data(&format!("{name}.{ending}"))
+    format!("{name}.{ending}")
+}
+
+pub fn source(name: &str) -> String {
+    data(&file(name))
 }
 
 pub fn json(name: &str) -> Value {
@@ -92,12 +96,7 @@ pub fn exact(name: &str) -> Options {
 }
 
 pub fn imported(name: &str, options: &Options) -> Imported {
-    let ending = if name.starts_with("mjcf/") {
-        "xml"
-    } else {
-        "urdf"
-    };
-    let opened = open(&path(&format!("{name}.{ending}")), options);
+    let opened = open(&path(&file(name)), options);
     opened.unwrap().imported.unwrap()
 }
 
