@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::slice;
 
 use dalembert_import::{
-    ChainArgs, Change, Imported, Options, Shared, Snap, Text, arms, import_text, is_model,
+    ChainArgs, Change, Import, Options, SharedJoints, Snap, Text, arms, import_text, is_model,
     open_text,
 };
 use dalembert_model::number::Rational;
@@ -114,7 +114,7 @@ pub(crate) fn run(args: &ImportArgs, context: &Context) -> Outcome {
     Ok(done)
 }
 
-fn say(args: &ImportArgs, context: &Context, made: &[Imported], source: &Text) {
+fn say(args: &ImportArgs, context: &Context, made: &[Import], source: &Text) {
     let mut said = BTreeSet::new();
     for note in made.iter().flat_map(|made| &made.notes) {
         context.heard(note.severity == Severity::Warning);
@@ -146,7 +146,7 @@ fn say(args: &ImportArgs, context: &Context, made: &[Imported], source: &Text) {
     }
 }
 
-fn one(made: &Imported, path: &Path, source: &Text) -> Report {
+fn one(made: &Import, path: &Path, source: &Text) -> Report {
     let mut report = values(made, path, source);
     let joints = counted(made.robot.joints.len(), "joint");
     report.line(format!("{}: {joints}", made.robot.name));
@@ -180,7 +180,7 @@ fn one(made: &Imported, path: &Path, source: &Text) -> Report {
     report
 }
 
-fn all(made: &[Imported], shared: Vec<Shared>, path: &Path, source: &Text) -> Report {
+fn all(made: &[Import], shared: Vec<SharedJoints>, path: &Path, source: &Text) -> Report {
     let mut report = Report::default();
     let arms = made.iter().map(|made| json!(values(made, path, source)));
     report.value("arms", arms.collect::<Value>());
@@ -194,7 +194,7 @@ fn all(made: &[Imported], shared: Vec<Shared>, path: &Path, source: &Text) -> Re
         report.line(format!("{name}.toml: {joints}{change}"));
     }
     let mut table = Table::new("arms|joints");
-    for Shared { arms, joints } in shared {
+    for SharedJoints { arms, joints } in shared {
         let [one, other] = &arms;
         let through = joints.join(", ");
         report.line(format!(
@@ -207,7 +207,7 @@ fn all(made: &[Imported], shared: Vec<Shared>, path: &Path, source: &Text) -> Re
     report
 }
 
-fn values(made: &Imported, path: &Path, source: &Text) -> Report {
+fn values(made: &Import, path: &Path, source: &Text) -> Report {
     let robot = &made.robot;
     let notes = made.notes.iter().map(|note| {
         json!({

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::{generate_anew, plan_file};
 use dalembert_codegen::{Asked, Function, Generated, Problem, Request, RobotFileError, ScalarType};
-use dalembert_import::{ChainArgs, Options, Unopened, first_bytes, open};
+use dalembert_import::{ChainArgs, OpenError, Options, first_bytes, open};
 use dalembert_model::number::Rational;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
@@ -103,10 +103,10 @@ pub fn defaults(path: &Path) -> Options {
 }
 
 /// Returns the failure of a robot or a model that cannot be opened.
-pub fn unopened(path: &Path, error: Unopened) -> Failure {
+pub fn unopened(path: &Path, error: OpenError) -> Failure {
     match error {
-        Unopened::System(error) => system(path, &error),
-        Unopened::Wrong(why) => Failure::Input(why),
+        OpenError::System(error) => system(path, &error),
+        OpenError::Wrong(why) => Failure::Input(why),
     }
 }
 

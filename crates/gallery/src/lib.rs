@@ -14,7 +14,7 @@ use std::path::Path;
 use dalembert_cli::drawing;
 use dalembert_codegen::Function::{Gravity, Inertia, InverseDynamics};
 use dalembert_codegen::{Request, ScalarType, generate};
-use dalembert_import::{Options, Unopened, open};
+use dalembert_import::{OpenError, Options, open};
 use dalembert_model::robot::{JointKind, Robot};
 use serde::Deserialize;
 
@@ -101,8 +101,8 @@ impl Arm {
             ..Options::default()
         };
         let opened = open(&folder().join(&self.file), &options).map_err(|why| match why {
-            Unopened::System(error) => format!("{}: {error}", self.file),
-            Unopened::Wrong(text) => text,
+            OpenError::System(error) => format!("{}: {error}", self.file),
+            OpenError::Wrong(text) => text,
         })?;
         let picture = drawing::svg(&opened.reading.robot, &self.at);
         let picture = picture.map_err(|why| format!("{}: {why}", self.name))?;

@@ -48,8 +48,8 @@ fn lock(text: &str) -> Result<(String, String), String> {
 impl ChainArgs {
     /// Returns the options of an import with this chain; the rest is that of `options`.
     pub fn choose(&self, options: Options) -> Options {
-        let others = self.lock_others.iter();
-        let others = others.map(|value| (OTHERS.to_owned(), value.clone()));
+        let to_others = |value: &String| (OTHERS.to_owned(), value.clone());
+        let others = self.lock_others.iter().map(to_others);
         Options {
             base: self.base.clone(),
             tip: self.tip.clone(),

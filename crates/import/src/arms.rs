@@ -8,11 +8,11 @@ use dalembert_model::robot::suggested_name;
 use crate::model::Model;
 use crate::problems::Problems;
 use crate::select::{OTHERS, Select};
-use crate::{Imported, Options, Text, import_model, read_model};
+use crate::{Import, Options, Text, import_model, read_model};
 
 /// Two arms that hang on joints which both have.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Shared {
+pub struct SharedJoints {
     /// The names of the two.
     pub arms: [String; 2],
     /// The joints of both, from the base on.
@@ -25,7 +25,10 @@ pub struct Shared {
 ///
 /// # Errors
 /// Everything that is wrong with the model or with one of its arms.
-pub fn arms(text: &Text, options: &Options) -> Result<(Vec<Imported>, Vec<Shared>), Diagnostics> {
+pub fn arms(
+    text: &Text,
+    options: &Options,
+) -> Result<(Vec<Import>, Vec<SharedJoints>), Diagnostics> {
     let mut read = Problems::of(text);
     let model = read_model(text, options, &mut read);
     let mut problems = read.clone();
@@ -82,8 +85,8 @@ fn tips(model: &Model, options: &Options, problems: &mut Problems) -> Option<Vec
     Some(tips.map(|tip| model.links[tip].name.clone()).collect())
 }
 
-fn shared(arms: &[(String, Imported)]) -> Vec<Shared> {
-    let names = |arm: &Imported| -> Vec<String> {
+fn shared(arms: &[(String, Import)]) -> Vec<SharedJoints> {
+    let names = |arm: &Import| -> Vec<String> {
         let joints = arm.robot.joints.iter();
         joints.filter_map(|joint| joint.name.clone()).collect()
     };
@@ -94,7 +97,7 @@ fn shared(arms: &[(String, Imported)]) -> Vec<Shared> {
             joints.retain(|name| theirs.contains(name));
             if !joints.is_empty() {
                 let arms = [one.clone(), other.clone()];
-                pairs.push(Shared { arms, joints });
+                pairs.push(SharedJoints { arms, joints });
             }
         }
     }

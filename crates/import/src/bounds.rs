@@ -186,8 +186,8 @@ fn with_moments_of(tensor: &Inertia<Rational>, least: &Rational) -> Inertia<Rati
         return diagonal(|i| rows[i][i].clone().max(least.clone()));
     }
     let (moments, axes) = principal(rows);
-    let moments = moments.map(|moment| moment.to_rational().max(least.clone()));
-    let moments = moments.each_ref().map(Wide::from_rational);
+    let bounded = moments.map(|moment| moment.to_rational().max(least.clone()));
+    let moments = bounded.each_ref().map(Wide::from_rational);
     Inertia::symmetric(|i, k| {
         let terms = (0..3).map(|m| moments[m].mul(&axes[i][m]).mul(&axes[k][m]));
         rounded(

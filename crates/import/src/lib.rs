@@ -48,16 +48,16 @@ use dalembert_model::read::{self as robot_file, Diagnostic, Diagnostics};
 use dalembert_model::robot::Robot;
 
 pub use args::ChainArgs;
-pub use arms::{Shared, arms};
+pub use arms::{SharedJoints, arms};
 pub use change::{Change, Displacement, Motion};
 use merge::Tree;
 use model::Model;
-pub use open::{Opened, Unopened, first_bytes, is_model, open, open_text, read_robot};
+pub use open::{OpenError, OpenRobot, first_bytes, is_model, open, open_text, read_robot};
 use problems::Problems;
 use read::Reader;
 use select::Selection;
+use snap::Reach;
 pub use snap::Snap;
-use snap::Snapping;
 pub use text::{MAX_BYTES, Text};
 
 /// The largest change of a torque, relative to its limit, that snapping makes unasked.
@@ -96,7 +96,7 @@ pub struct Options {
 
 /// A chain of a model.
 #[derive(Clone, Debug)]
-pub struct Imported {
+pub struct Import {
     /// The robot file.
     pub text: String,
     /// The robot that it is read as.
@@ -115,7 +115,7 @@ pub struct Imported {
 /// # Errors
 /// Everything that is wrong with the model or the options, at once, each at its
 /// place in the text.
-pub fn import(source: &str, options: &Options) -> Result<Imported, Diagnostics> {
+pub fn import(source: &str, options: &Options) -> Result<Import, Diagnostics> {
     import_text(&Text::of("", source.to_owned()), options)
 }
 
@@ -123,7 +123,7 @@ pub fn import(source: &str, options: &Options) -> Result<Imported, Diagnostics> 
 ///
 /// # Errors
 /// Those of [`import`]; [`Text::render`] says in which file they are.
-pub fn import_text(text: &Text, options: &Options) -> Result<Imported, Diagnostics> {
+pub fn import_text(text: &Text, options: &Options) -> Result<Import, Diagnostics> {
     let mut problems = Problems::of(text);
     let model = read_model(text, options, &mut problems);
     import_model(model.as_ref(), options, problems)
@@ -156,7 +156,7 @@ fn import_model(
     model: Option<&Model>,
     options: &Options,
     mut problems: Problems,
-) -> Result<Imported, Diagnostics> {
+) -> Result<Import, Diagnostics> {
     let tips: Vec<&str> = options.tip.iter().map(String::as_str).collect();
     let selected = model.and_then(|model| {
         let selection = select::select(model, options, &tips, &mut problems)?;
@@ -171,14 +171,14 @@ fn import_model(
         selected.and_then(|(model, selection)| imported(model, &selection, options, &mut problems));
     let notes = problems.finish()?;
     match imported {
-        Some(imported) => Ok(Imported { notes, ..imported }),
+        Some(imported) => Ok(Import { notes, ..imported }),
         // Nothing is given up without an error.
         None => Err(Diagnostics(notes)),
     }
 }
 
 /// A model with some of its numbers taken for others.
-struct Taken {
+struct Variant {
     model: Model,
     snaps: Vec<Snap>,
     tree: Tree,
@@ -190,21 +190,21 @@ fn imported(
     selection: &Selection,
     options: &Options,
     problems: &mut Problems,
-) -> Option<Imported> {
+) -> Option<Import> {
     let as_written = merge::merged(model, selection, problems)?;
     if problems.has_errors() {
         return None;
     }
     let text = problems.text;
-    let take = |snapping: Snapping| {
-        let (model, snaps) = snap::snapped(model, selection, snapping);
+    let take = |reach: Reach| {
+        let (model, snaps) = snap::snapped(model, selection, reach);
         let tree = match snaps.is_empty() {
             true => as_written.clone(),
             // Messages were given for the digits as written; do not repeat them.
             false => merge::merged(&model, selection, &mut Problems::of(text))?,
         };
         let change = change::bound(&as_written, &tree, &model, options);
-        Some(Taken {
+        Some(Variant {
             model,
             snaps,
             tree,
@@ -212,16 +212,16 @@ fn imported(
         })
     };
     let mut stays = options.exact;
-    let mut taken = take(if stays { Snapping::None } else { Snapping::All })?;
+    let mut taken = take(if stays { Reach::None } else { Reach::All })?;
     if !options.snap && taken.change.relative() > FELT {
         problems.say("digits_stay", &model.at, &[&taken.change]);
         stays = true;
-        taken = take(Snapping::Near)?;
+        taken = take(Reach::Near)?;
         if taken.change.relative() > FELT {
-            taken = take(Snapping::None)?;
+            taken = take(Reach::None)?;
         }
     }
-    let Taken {
+    let Variant {
         model,
         snaps,
         tree,
@@ -240,7 +240,7 @@ fn imported(
             return None;
         }
     };
-    Some(Imported {
+    Some(Import {
         text,
         robot,
         notes: Vec::new(),

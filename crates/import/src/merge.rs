@@ -123,13 +123,16 @@ pub(crate) fn merged(
     if !good {
         return None;
     }
-    let empty = bodies.iter().filter(|branch| {
+    let has_nothing = |branch: &&Branch| {
         let tensor = &branch.body.inertia.rows();
         branch.body.mass.is_zero() && tensor.iter().flatten().all(Zero::is_zero)
-    });
-    let empty = empty.map(|branch| &model.links[model.ends[branch.joint][1]]);
-    let empty = empty.filter(|link| link.role == Role::Body);
-    let empty: Vec<&Link> = empty.collect();
+    };
+    let empty: Vec<&Link> = bodies
+        .iter()
+        .filter(has_nothing)
+        .map(|branch| &model.links[model.ends[branch.joint][1]])
+        .filter(|link| link.role == Role::Body)
+        .collect();
     if let Some(first) = empty.first() {
         let names: Vec<&str> = empty.iter().map(|link| link.name.as_str()).collect();
         let id = if names.len() == 1 {

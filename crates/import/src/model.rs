@@ -116,11 +116,11 @@ pub(crate) struct Tie {
     pub(crate) at: Span,
     /// As messages call it: ``the fixed tendon `split` ``.
     pub(crate) name: String,
-    pub(crate) ends: Tied,
+    pub(crate) ends: Ends,
 }
 
 #[derive(Clone, Debug)]
-pub(crate) enum Tied {
+pub(crate) enum Ends {
     /// Joints, none of which moves by itself.
     Joints(Vec<String>),
     Links(Vec<String>),

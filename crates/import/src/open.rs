@@ -7,11 +7,11 @@ use std::path::Path;
 use dalembert_model::read::{self, Diagnostic, Reading};
 
 use crate::text::{MAX_BYTES, MAX_MIB};
-use crate::{Imported, Options, Text, import_text};
+use crate::{Import, Options, Text, import_text};
 
 /// A robot that was read from a path, or from a text.
 #[derive(Clone, Debug)]
-pub struct Opened {
+pub struct OpenRobot {
     /// The text of the file, with what a model includes.
     pub source: Text,
     /// The text as a robot file: the same text, or what a model was imported as.
@@ -19,19 +19,19 @@ pub struct Opened {
     /// The robot with its outputs and scenes; the notes are about `robot_file`.
     pub reading: Reading,
     /// The result of importing a model; none for a robot file.
-    pub imported: Option<Imported>,
+    pub imported: Option<Import>,
 }
 
 /// The reason why a path gives no robot.
 #[derive(Debug)]
-pub enum Unopened {
+pub enum OpenError {
     /// The system's error.
     System(io::Error),
     /// Everything that is wrong with the text, as it is shown.
     Wrong(String),
 }
 
-impl Opened {
+impl OpenRobot {
     /// Returns the warnings and notes about the file, as they are shown.
     pub fn notes(&self) -> Vec<String> {
         let source = &self.source;
@@ -47,19 +47,19 @@ impl Opened {
 /// Opens a robot file, a URDF or an MJCF; the options choose the chain of a model.
 ///
 /// # Errors
-/// [`Unopened`]: the file cannot be read, or everything that is wrong with it.
-pub fn open(path: &Path, options: &Options) -> Result<Opened, Unopened> {
-    read_robot(open_text(path)?, options).map_err(Unopened::Wrong)
+/// [`OpenError`]: the file cannot be read, or everything that is wrong with it.
+pub fn open(path: &Path, options: &Options) -> Result<OpenRobot, OpenError> {
+    read_robot(open_text(path)?, options).map_err(OpenError::Wrong)
 }
 
 /// Reads the text of a robot file or of a model, with what a model includes.
 ///
 /// # Errors
-/// [`Unopened`]: a file cannot be read, is not UTF-8, or is included twice.
-pub fn open_text(path: &Path) -> Result<Text, Unopened> {
+/// [`OpenError`]: a file cannot be read, is not UTF-8, or is included twice.
+pub fn open_text(path: &Path) -> Result<Text, OpenError> {
     let shown = path.display().to_string();
-    let bytes = first_bytes(path, MAX_BYTES as u64 + 1).map_err(Unopened::System)?;
-    let wrong = |why: &str| Unopened::Wrong(format!("error: `{shown}` {why}"));
+    let bytes = first_bytes(path, MAX_BYTES as u64 + 1).map_err(OpenError::System)?;
+    let wrong = |why: &str| OpenError::Wrong(format!("error: `{shown}` {why}"));
     if bytes.starts_with(b"\xff\xfe<") || bytes.starts_with(b"\xfe\xff\0<") {
         return Err(wrong(&in_encoding("UTF-16", &shown)));
     }
@@ -68,10 +68,10 @@ pub fn open_text(path: &Path) -> Result<Text, Unopened> {
             let why = format!("is longer than {MAX_MIB} MiB, the most that is read");
             return Err(wrong(&why));
         }
-        let text = String::from_utf8(bytes);
-        let text = text.map_err(|_| wrong(&in_encoding("ISO-8859-1", &shown)))?;
-        let text = Text::of_file(&shown, &text).with_includes(path, included);
-        return text.map_err(Unopened::Wrong);
+        let text =
+            String::from_utf8(bytes).map_err(|_| wrong(&in_encoding("ISO-8859-1", &shown)))?;
+        let file = Text::of_file(&shown, &text);
+        return file.with_includes(path, included).map_err(OpenError::Wrong);
     }
     if bytes.len() <= read::MAX_BYTES
         && let Ok(text) = str::from_utf8(&bytes)
@@ -81,14 +81,14 @@ pub fn open_text(path: &Path) -> Result<Text, Unopened> {
     // The reader of robot files says where it is not UTF-8, or too long.
     let errors = read::parse_bytes(&bytes).err();
     let errors = errors.map(|errors| errors.render(&shown, &String::from_utf8_lossy(&bytes)));
-    Err(Unopened::Wrong(errors.unwrap_or_default()))
+    Err(OpenError::Wrong(errors.unwrap_or_default()))
 }
 
 /// Reads a robot from the text of a robot file or of a model.
 ///
 /// # Errors
 /// Everything that is wrong with the text, as it is shown.
-pub fn read_robot(source: Text, options: &Options) -> Result<Opened, String> {
+pub fn read_robot(source: Text, options: &Options) -> Result<OpenRobot, String> {
     let imported = match is_model(source.as_str().as_bytes()) {
         false => {
             options.refuse_chain(source.name())?;
@@ -103,7 +103,7 @@ pub fn read_robot(source: Text, options: &Options) -> Result<Opened, String> {
     let reading = read::parse(&robot_file);
     // What was imported was read once already.
     let reading = reading.map_err(|errors| errors.render(source.name(), &robot_file))?;
-    Ok(Opened {
+    Ok(OpenRobot {
         source,
         robot_file,
         reading,

@@ -124,13 +124,13 @@ impl Pose {
     pub(crate) fn origin(&self) -> Origin {
         let size = size_of(self.size.clone());
         let [exact, meant] = self.both.each_ref().map(|pose| placement(pose, &size));
-        let xyz = exact.xyz.each_ref();
-        let xyz = xyz.map(|x| {
+        let length = |x: &Rational| {
             let text = Angle::Radians(x.clone()).to_string();
             Value::new(x.clone(), text, &self.at)
-        });
-        let rpy = exact.rpy.each_ref();
-        let rpy = rpy.map(|angle| Value::new(angle.clone(), short(angle), &self.at));
+        };
+        let xyz = exact.xyz.each_ref().map(length);
+        let angle = |angle: &Angle| Value::new(angle.clone(), short(angle), &self.at);
+        let rpy = exact.rpy.each_ref().map(angle);
         let is_same = |(one, other): (&Angle, &Angle)| {
             let off = (one.radians() - other.radians()).abs();
             one == other || off < power(SAME)

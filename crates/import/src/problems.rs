@@ -81,8 +81,8 @@ pub(crate) struct Problem {
     of: Option<String>,
     more: usize,
     help: String,
-    /// Where the joint, link or body begins that the message is about: to be said if the robot
-    /// has it.
+    /// The begin of the joint, link or body that the message is about: the message matters if the
+    /// robot has it.
     part: Option<usize>,
 }
 
@@ -212,8 +212,8 @@ impl<'t> Problems<'t> {
 
     /// Returns the messages of the differences, in the order of the file.
     pub(crate) fn differences(&self) -> Vec<String> {
-        let differences = self.found.iter().filter(|problem| problem.message.differs);
-        let mut differences: Vec<&Problem> = differences.collect();
+        let differs = |problem: &&Problem| problem.message.differs;
+        let mut differences: Vec<&Problem> = self.found.iter().filter(differs).collect();
         differences.sort_by_key(|problem| problem.at.start);
         differences.iter().map(|problem| problem.text()).collect()
     }

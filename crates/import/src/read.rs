@@ -232,6 +232,11 @@ impl<'p, 't> Reader<'p, 't> {
         (numbers.len() == count).then_some(numbers)
     }
 
+    /// Reads the numbers of an attribute and returns the first.
+    pub(crate) fn first(&mut self, element: &Element, key: &str) -> Option<Number> {
+        self.list(element.get(key)?)?.into_iter().next()
+    }
+
     pub(crate) fn number(&mut self, element: &Element, key: &str) -> Option<Number> {
         let Attribute { value, at, .. } = element.get(key)?;
         let value = Some(value.trim()).filter(|value| !value.is_empty());

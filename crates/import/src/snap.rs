@@ -52,24 +52,20 @@ impl fmt::Display for Snap {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Snapping {
+pub(crate) enum Reach {
     All,
     /// Those within 1e-9 of what was meant.
     Near,
     None,
 }
 
-pub(crate) fn snapped(
-    model: &Model,
-    selection: &Selection,
-    snapping: Snapping,
-) -> (Model, Vec<Snap>) {
+pub(crate) fn snapped(model: &Model, selection: &Selection, reach: Reach) -> (Model, Vec<Snap>) {
     let mut model = model.clone();
     let mut snaps = Snaps {
-        is_near: snapping == Snapping::Near,
+        is_near: reach == Reach::Near,
         taken: Vec::new(),
     };
-    if snapping == Snapping::None {
+    if reach == Reach::None {
         return (model, snaps.taken);
     }
     for joint in &selection.order {
@@ -92,8 +88,7 @@ pub(crate) fn snapped(
         let [centre, axes] = ["centre of mass", "axes of inertia"].map(of);
         snaps.origin(&mut inertial.origin, &centre, &axes);
         let tensor = &mut inertial.inertia;
-        let moments = [&tensor.xx, &tensor.yy, &tensor.zz];
-        let moments = moments.map(|moment| moment.value.abs());
+        let moments = [&tensor.xx, &tensor.yy, &tensor.zz].map(|moment| moment.value.abs());
         let largest = moments.into_iter().max().unwrap_or_else(Rational::zero);
         for product in [&mut tensor.xy, &mut tensor.yz, &mut tensor.xz] {
             snaps.length(product, &(&largest * power(NOTHING)), &of("inertia"));

@@ -65,11 +65,11 @@ pub(crate) fn file(
     let allow = stays.then(|| "[\"near_right_angle\"]".to_owned());
     let (tool, allow) = (("tool", tool), ("allow", allow));
     let name = ("name", Some(quoted(&name)));
-    let joints = tree.bodies.iter();
-    let joints: Vec<&Joint> = joints.map(|branch| &model.joints[branch.joint]).collect();
+    let joint_of = |branch: &Branch| &model.joints[branch.joint];
+    let joints: Vec<&Joint> = tree.bodies.iter().map(joint_of).collect();
     say_left_out(&joints, problems);
-    let differences = problems.differences().into_iter();
-    let differences: Vec<String> = differences.map(|message| one_line(&message)).collect();
+    let messages = problems.differences();
+    let differences: Vec<String> = messages.iter().map(|message| one_line(message)).collect();
     let notes = ("notes", texts(&differences));
     lines(&mut text, [name, gravity, tool, allow, notes]);
     for (index, (model_joint, link)) in joints.iter().zip(&tree.bodies).enumerate() {
@@ -119,8 +119,8 @@ fn frames(text: &mut String, model: &Model, tree: &Tree) {
 }
 
 fn frame_name(link_name: &str, taken: &BTreeSet<String>) -> Option<String> {
-    let words = suggested_name(link_name)?;
-    let words = words.split('_').filter(|word| !word.is_empty());
+    let suggested = suggested_name(link_name)?;
+    let words = suggested.split('_').filter(|word| !word.is_empty());
     let name = words.collect::<Vec<_>>().join("_");
     let numbered = (2..=taken.len() + 2).map(|number| format!("{name}_{number}"));
     let mut names = [name.clone()].into_iter().chain(numbered);

@@ -142,8 +142,8 @@ fn admitted(source: &str, start: usize, above: usize, problems: &mut Problems) -
         let expression = EXPRESSIONS.iter().filter_map(|begin| text.find(begin));
         let is_xacro = piece == Piece::Tag && text.starts_with("<xacro:");
         if let Some(at) = expression.min().or(is_xacro.then_some(0)) {
-            let word = text[at..].split([' ', '"', '\'', '>', '\n', '\t', '\r', '/']);
-            let word: String = word.take(1).flat_map(str::chars).take(40).collect();
+            let mut words = text[at..].split([' ', '"', '\'', '>', '\n', '\t', '\r', '/']);
+            let word: String = words.next().unwrap_or_default().chars().take(40).collect();
             let at = start + span.start + at;
             return problems.refuse("not_expanded", &(at..at + word.len()), &[&word]);
         }

@@ -21,7 +21,7 @@ fn list(node: Node, key: &str, otherwise: &str) -> Vec<f64> {
 }
 
 fn child<'a, 'i>(node: Node<'a, 'i>, tag: &str) -> Option<Node<'a, 'i>> {
-    node.children().find(|own| own.has_tag_name(tag))
+    node.children().find(|node| node.has_tag_name(tag))
 }
 
 #[derive(Clone, Copy)]
@@ -42,14 +42,17 @@ fn add(sum: &mut Parameters, mass: f64, inertia: Matrix3<f64>, at: Pose) {
     let about_centre = turned * inertia * turned.transpose();
     let tensor = about_centre + mass * (Matrix3::identity() * c.dot(&c) - c * c.transpose());
     let places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
-    let own = [mass].into_iter().chain(c.iter().map(|x| mass * x));
-    let own = own.chain(places.map(|place| tensor[place]));
-    sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
+    let moments = c.iter().map(|x| mass * x);
+    let tensor = places.map(|place| tensor[place]);
+    let parts = [mass].into_iter().chain(moments).chain(tensor);
+    sum.iter_mut()
+        .zip(parts)
+        .for_each(|(sum, part)| *sum += part);
 }
 
 fn origin(node: Node) -> Pose {
     let origin = child(node, "origin");
-    let list = |key| origin.map_or(vec![0.0; 3], |own| list(own, key, "0 0 0"));
+    let list = |key| origin.map_or(vec![0.0; 3], |origin| list(origin, key, "0 0 0"));
     let rpy = list("rpy");
     let [sr, sp, sy] = [0, 1, 2].map(|i| rpy[i].sin());
     let [cr, cp, cy] = [0, 1, 2].map(|i| rpy[i].cos());
@@ -61,9 +64,9 @@ fn origin(node: Node) -> Pose {
 }
 
 fn add_link(sum: &mut Parameters, root: Node, link: &str, at: Pose, moving: &[String]) {
-    let tagged = |tag: &'static str| root.children().filter(move |own| own.has_tag_name(tag));
-    let own = tagged("link").find(|own| own.attribute("name") == Some(link));
-    if let Some(inertial) = child(own.unwrap(), "inertial") {
+    let tagged = |tag: &'static str| root.children().filter(move |node| node.has_tag_name(tag));
+    let found = tagged("link").find(|found| found.attribute("name") == Some(link));
+    if let Some(inertial) = child(found.unwrap(), "inertial") {
         let number = |tag: &str, key: &str| list(child(inertial, tag).unwrap(), key, "0")[0];
         let [xx, yy, zz, xy, yz, xz] =
             ["ixx", "iyy", "izz", "ixy", "iyz", "ixz"].map(|key| number("inertia", key));
@@ -72,9 +75,9 @@ fn add_link(sum: &mut Parameters, root: Node, link: &str, at: Pose, moving: &[St
         add(sum, mass, inertia, at.then(origin(inertial)));
     }
     for joint in tagged("joint") {
-        let end = |tag: &str| child(joint, tag).and_then(|own| own.attribute("link"));
+        let end = |tag: &str| child(joint, tag).and_then(|node| node.attribute("link"));
         let name = joint.attribute("name");
-        let is_moving = moving.iter().any(|own| name == Some(own.as_str()));
+        let is_moving = moving.iter().any(|moving| name == Some(moving.as_str()));
         if end("parent") == Some(link) && !is_moving {
             let at = at.then(origin(joint));
             add_link(sum, root, end("child").unwrap(), at, moving);
@@ -89,8 +92,8 @@ fn parameters(robot: &Robot, text: &str) -> Vec<f64> {
     let names: Vec<String> = joints.map(|joint| joint.name.clone().unwrap()).collect();
     let link = |name: &String| {
         let mut sum = [0.0; 10];
-        let named = |own: &Node| own.attribute("name") == Some(name.as_str());
-        let joint = |own: &Node| own.has_tag_name("joint") && named(own);
+        let named = |node: &Node| node.attribute("name") == Some(name.as_str());
+        let joint = |node: &Node| node.has_tag_name("joint") && named(node);
         let joint = root.children().find(joint).unwrap();
         let link = child(joint, "child").unwrap().attribute("link").unwrap();
         add_link(&mut sum, root, link, Pose::identity(), &names);
@@ -111,7 +114,7 @@ fn check(name: &str, robot: &Robot, text: &str) {
         let tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
         let drives = DVector::from_fn(n, |i, _| {
             let [viscous, armature] = [&robot.joints[i].viscous, &robot.joints[i].armature]
-                .map(|own| own.to_f64().unwrap());
+                .map(|load| load.to_f64().unwrap());
             viscous * qd[i] + armature * qdd[i]
         });
         let given = [Position, Velocity, Acceleration];

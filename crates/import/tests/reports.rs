@@ -3,7 +3,7 @@
 //! MuJoCo without constraints and springs, or `rnea` of Pinocchio plus damping times velocity and
 //! armature times acceleration. Where a fault cannot be expressed, a message has to name it.
 
-use dalembert_import::{Imported, Options, open};
+use dalembert_import::{Import, Options, open};
 use dalembert_model::read::Diagnostic;
 use dalembert_model::reference::Reference;
 use nalgebra::DVector;
@@ -26,7 +26,7 @@ fn options(case: &Value) -> Options {
     options
 }
 
-fn off(imported: &Imported, case: &Value) -> f64 {
+fn off(imported: &Import, case: &Value) -> f64 {
     let runtime = Reference::<f64>::from_robot(&imported.robot);
     let [q, qd, qdd] = ["q", "qd", "qdd"].map(|key| DVector::from_vec(flat(&case[key])));
     let torques = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
@@ -39,7 +39,9 @@ fn names(messages: &[Diagnostic], case: &Value) -> bool {
     words.any(|word| {
         let says = |text: &str| text.contains(word);
         let help = |message: &Diagnostic| message.help.as_deref().is_some_and(says);
-        messages.iter().any(|found| says(&found.message) || help(found))
+        messages
+            .iter()
+            .any(|found| says(&found.message) || help(found))
     })
 }
 

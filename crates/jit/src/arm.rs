@@ -8,7 +8,7 @@ use dalembert_codegen::workspace::{
 use dalembert_codegen::{
     Counts, Function as Output, Language, Plan, Request, RobotFileError, ScalarType, generate,
 };
-use dalembert_import::{Text, Unopened, is_model, open_text};
+use dalembert_import::{OpenError, Text, is_model, open_text};
 use dalembert_model::equations::regressor::LinkParameter;
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
@@ -84,11 +84,11 @@ impl Arm {
     pub fn load(path: impl AsRef<Path>, load: &Load) -> Result<Arm, LoadError> {
         let path = path.as_ref();
         let source = open_text(path).map_err(|error| match error {
-            Unopened::System(error) => {
+            OpenError::System(error) => {
                 let shown = path.display().to_string();
                 LoadError::Robot(RobotFileError::of_system(path, &shown, &error).to_string())
             }
-            Unopened::Wrong(why) => LoadError::Robot(why),
+            OpenError::Wrong(why) => LoadError::Robot(why),
         })?;
         let plan = match is_model(source.as_str().as_bytes()) {
             true => None,

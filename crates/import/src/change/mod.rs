@@ -167,9 +167,11 @@ impl Change {
     /// every joint has one.
     pub fn of_efforts(&self) -> Option<f64> {
         let torques = self.torques(&self.limits);
-        let parts = torques.iter().zip(self.efforts.as_ref()?);
-        let parts = parts.map(|(off, effort)| next_up_unless_zero(off / effort));
-        Some(parts.fold(0.0, f64::max))
+        let efforts = self.efforts.as_ref()?.iter();
+        let parts = torques.iter().zip(efforts);
+        Some(parts.fold(0.0, |most: f64, (off, effort)| {
+            most.max(next_up_unless_zero(off / effort))
+        }))
     }
 }
 
@@ -218,19 +220,18 @@ pub(crate) fn bound(written: &Tree, snapped: &Tree, model: &Model, options: &Opt
     };
     let links = written.bodies.iter().zip(&snapped.bodies).zip(joints());
     let upper = |value: &Rational| f64::nearest_rational(&value.abs()).next_up();
-    let velocity = joints().map(|joint| positive(&joint.velocity));
-    let velocity = velocity.map(|limit| limit.map_or(3.0, |limit| upper(&limit.value)));
+    let limit_or = |limit: &Option<Number>, otherwise: f64| {
+        positive(limit).map_or(otherwise, |limit| upper(&limit.value))
+    };
     let otherwise = options.acceleration.as_ref().map_or(10.0, upper);
-    let acceleration = joints().map(|joint| positive(&joint.acceleration));
-    let acceleration =
-        acceleration.map(|limit| limit.map_or(otherwise, |limit| upper(&limit.value)));
+    let velocity = joints().map(|joint| limit_or(&joint.velocity, 3.0));
+    let acceleration = joints().map(|joint| limit_or(&joint.acceleration, otherwise));
     let position = joints().map(|joint| {
-        let ends = joint.position.iter().flatten();
-        let ends = ends.map(|end| match &end.value {
+        let sizes = joint.position.iter().flatten().map(|end| match &end.value {
             Position::Length(length) => upper(length),
             Position::Angle(_) => 0.0,
         });
-        ends.reduce(f64::max).unwrap_or(1.0)
+        sizes.reduce(f64::max).unwrap_or(1.0)
     });
     let limits = Motion {
         position: position.collect(),

@@ -24,13 +24,14 @@ impl Mjcf<'_, '_, '_> {
             let at = self.model.joints[joint].at.clone();
             let around = self.reader.problems.enter(&at);
             self.reader.check("actuator", element, &of);
-            let gear = element.get("gear").and_then(|gear| self.reader.list(gear));
-            let gear = gear.and_then(|gear| gear.into_iter().next());
-            let gear = gear.unwrap_or_else(|| Number::constant("1", &element.at));
-            let gear = gear.map(|value| value * coefficient);
-            let force = self.force(element);
-            let force = force.map(|force| force.map(|value| value * gear.value.abs()));
-            let force = force.filter(|force| force.value.is_positive());
+            let gear = self.reader.first(element, "gear");
+            let gear = gear
+                .unwrap_or_else(|| Number::constant("1", &element.at))
+                .map(|value| value * coefficient);
+            let force = self
+                .force(element)
+                .map(|force| force.map(|value| value * gear.value.abs()))
+                .filter(|force| force.value.is_positive());
             let limit = match limits.remove(&joint) {
                 None => force,
                 // One without a limit leaves none.
@@ -81,11 +82,7 @@ impl Mjcf<'_, '_, '_> {
         let other = match element.tag.as_str() {
             // A motor is told its force.
             "motor" => self.force_range(element, "ctrllimited", "ctrlrange"),
-            "dcmotor" => {
-                let saturation = element.get("saturation");
-                let list = saturation.and_then(|saturation| self.reader.list(saturation));
-                list.and_then(|list| list.into_iter().next())
-            }
+            "dcmotor" => self.reader.first(element, "saturation"),
             _ => None,
         };
         least([force, other])

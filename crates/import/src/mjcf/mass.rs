@@ -99,9 +99,11 @@ impl Mjcf<'_, '_, '_> {
 
     fn weight(&mut self, item: &Item) -> Weight {
         let element = item.element;
-        let group = self.reader.number(element, "group");
-        let group = group.map_or_else(Rational::zero, |group| group.value);
         let [low, high] = &self.settings.groups;
+        let group = self
+            .reader
+            .number(element, "group")
+            .map_or_else(Rational::zero, |group| group.value);
         let key = if element.get("mass").is_some() {
             "mass"
         } else {
@@ -126,9 +128,8 @@ impl Mjcf<'_, '_, '_> {
         if is_shell.is_some_and(|word| word.value == "true") || element.get("mesh").is_some() {
             return None;
         }
-        let sizes = element.get("size")?;
-        let sizes = self.reader.list(sizes)?.into_iter().take(3);
-        let mut sizes: Vec<Rational> = sizes.map(|size| size.value).collect();
+        let given_sizes = self.reader.list(element.get("size")?)?.into_iter();
+        let mut sizes: Vec<Rational> = given_sizes.take(3).map(|size| size.value).collect();
         let at = match element.get("fromto") {
             // A box also needs its rotation about its length, which `fromto` does not give.
             Some(_) if *count == 3 => return None,

@@ -7,7 +7,7 @@ use dalembert_model::robot::values::number;
 use num_traits::{One, Signed, Zero};
 
 use super::Mjcf;
-use crate::model::{Kind, Mimic, Tie, Tied, Value};
+use crate::model::{Ends, Kind, Mimic, Tie, Value};
 use crate::problems::instead;
 use crate::select::position::compare;
 use crate::text::Span;
@@ -76,30 +76,30 @@ impl Mjcf<'_, '_, '_> {
         tendons
     }
 
-    fn tie(&mut self, element: &Element, name: String, ends: Tied) {
+    fn tie(&mut self, element: &Element, name: String, ends: Ends) {
         let at = element.at.clone();
         self.model.ties.push(Tie { at, name, ends });
     }
 
-    fn joints_tied(&self, over: &[(usize, Rational)]) -> Tied {
+    fn joints_tied(&self, over: &[(usize, Rational)]) -> Ends {
         let joints = over
             .iter()
             .map(|(joint, _)| self.model.joints[*joint].name.clone());
-        Tied::Joints(joints.collect())
+        Ends::Joints(joints.collect())
     }
 
-    fn links_tied(&self, element: &Element) -> Tied {
+    fn links_tied(&self, element: &Element) -> Ends {
         let sites = ["site1", "site2"].map(|key| element.value(key));
         let bodies = ["body1", "body2"].map(|key| element.value(key).unwrap_or("world"));
         let ends = match sites {
             [Some(one), Some(other)] => [one, other].map(|name| self.body_of("site", name)),
             _ => bodies.map(str::to_owned),
         };
-        Tied::Links(ends.into())
+        Ends::Links(ends.into())
     }
 
     /// Returns the bodies that a spatial tendon runs over.
-    fn path(&self, element: &Element) -> Tied {
+    fn path(&self, element: &Element) -> Ends {
         let names = element.inside.iter().flat_map(|part| {
             let named = ["site", "sidesite", "geom"].map(|key| (key, part.value(key)));
             named
@@ -110,7 +110,7 @@ impl Mjcf<'_, '_, '_> {
             let kind = if key == "geom" { "geom" } else { "site" };
             self.body_of(kind, name)
         });
-        Tied::Links(bodies.collect())
+        Ends::Links(bodies.collect())
     }
 
     fn body_of(&self, kind: &str, name: &str) -> String {
@@ -186,11 +186,11 @@ impl Mjcf<'_, '_, '_> {
     }
 
     /// Reads a joint that follows another; returns one that stands still.
-    fn follower(&mut self, element: &Element) -> Option<Tied> {
+    fn follower(&mut self, element: &Element) -> Option<Ends> {
         let (name, at) = self.reader.required(element, "joint1");
         let follower = self.joint_named(&name, &at)?;
         let Some(leader) = element.get("joint2") else {
-            return Some(Tied::Joints(vec![name]));
+            return Some(Ends::Joints(vec![name]));
         };
         let other = self.joint_named(&leader.value, &leader.at)?;
         let mut terms = vec![Rational::zero(); 5];
@@ -217,6 +217,6 @@ impl Mjcf<'_, '_, '_> {
         };
         // A second leader holds the joint where both agree.
         let is_second = self.model.joints[follower].mimic.replace(mimic).is_some();
-        is_second.then(|| Tied::Joints(vec![name]))
+        is_second.then(|| Ends::Joints(vec![name]))
     }
 }

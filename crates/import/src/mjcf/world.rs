@@ -159,8 +159,8 @@ impl Mjcf<'_, '_, '_> {
         names: &mut Names,
     ) -> Vec<(Item<'e>, String)> {
         let element = item.element;
-        let name = match element.get("name") {
-            Some(name) => name.value.clone(),
+        let name = match element.value("name") {
+            Some(name) => name.to_owned(),
             None => fresh(&mut names.links, "body".to_owned()),
         };
         let of = format!("body `{name}`");
@@ -216,8 +216,10 @@ impl Mjcf<'_, '_, '_> {
         let is_joint = |item: &&Item| ["joint", "freejoint"].contains(&item.element.tag.as_str());
         let found: Vec<&Item> = items.iter().filter(is_joint).collect();
         for (index, item) in found.iter().enumerate() {
-            let name = item.element.get("name").map(|name| name.value.clone());
-            let name = name.unwrap_or_else(|| fresh(&mut names.joints, format!("{body}_joint")));
+            let name = match item.element.value("name") {
+                Some(name) => name.to_owned(),
+                None => fresh(&mut names.joints, format!("{body}_joint")),
+            };
             let (joint, anchor) = self.joint(item, name, &at);
             let back = anchor.each_ref().map(|x| -x);
             at = Pose::identity(joint.at.clone()).shift(&back);

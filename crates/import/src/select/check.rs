@@ -7,7 +7,7 @@ use dalembert_model::robot::{Position, values};
 use super::position::advised;
 use super::{OTHERS, Select, Selection, State};
 use crate::Options;
-use crate::model::{Joint, Mimic, Model, Tie, Tied};
+use crate::model::{Ends, Joint, Mimic, Model, Tie};
 use crate::problems::{Problems, instead};
 
 impl<'m> Select<'m, '_, '_> {
@@ -34,7 +34,7 @@ impl<'m> Select<'m, '_, '_> {
         let joints = &self.model.joints;
         for Tie { at, name, ends } in &self.model.ties {
             match ends {
-                Tied::Joints(names) => {
+                Ends::Joints(names) => {
                     let moving = selection.moving().into_iter().map(|joint| &joints[joint]);
                     let tied = moving.into_iter().find(|joint| names.contains(&joint.name));
                     if let Some(joint) = tied {
@@ -42,9 +42,9 @@ impl<'m> Select<'m, '_, '_> {
                             .say("tied", at, &[&joint.name, name, &advised(joint)]);
                     }
                 }
-                Tied::Links(names) => {
-                    let links = names.iter().map(|name| self.model.link(name));
-                    let links: BTreeSet<Option<usize>> = links.collect();
+                Ends::Links(names) => {
+                    let links: BTreeSet<Option<usize>> =
+                        names.iter().map(|name| self.model.link(name)).collect();
                     let mover = |link: &Option<usize>| link.and_then(|link| selection.movers[link]);
                     if links.iter().map(mover).collect::<BTreeSet<_>>().len() > 1 {
                         let over = self.closed_by(&links, selection).join("`, `");

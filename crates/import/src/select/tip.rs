@@ -101,8 +101,8 @@ impl Select<'_, '_, '_> {
         let mut open = vec![(base, 0)];
         while let Some((link, moved)) = open.pop() {
             let fixed = self.fixed_to(link);
-            let joints = fixed.iter().flat_map(|link| self.hanging(*link));
-            let joints: Vec<usize> = joints.filter(|joint| !self.stays(*joint)).collect();
+            let hanging = fixed.iter().flat_map(|link| self.hanging(*link));
+            let joints: Vec<usize> = hanging.filter(|joint| !self.stays(*joint)).collect();
             let left = |joint: usize| 1 + heights[self.model.ends[joint][1]];
             let leaves = fixed.iter().filter(|link| self.hanging(**link).is_empty());
             let Some(longest) = joints.iter().map(|joint| left(*joint)).max() else {
@@ -116,8 +116,8 @@ impl Select<'_, '_, '_> {
                 }
                 continue;
             };
-            let main = joints.iter().filter(|joint| left(**joint) == longest);
-            let main: Vec<usize> = main.copied().collect();
+            let is_longest = |joint: &usize| left(*joint) == longest;
+            let main: Vec<usize> = joints.iter().copied().filter(is_longest).collect();
             let are_fingers = main.len() > 1 || self.is_finger(main[0]);
             let is_palm = main.len() > 2 || longest <= FINGER && are_fingers;
             if moved >= ARM && is_palm {

@@ -38,8 +38,9 @@ pub(super) fn joint(element: &Element, reader: &mut Reader) -> Joint {
     let kind = reader
         .word(element, "type", &Kind::WORDS)
         .unwrap_or_default();
-    let axis = only(element, "axis", reader).and_then(|axis| reader.numbers(axis, "xyz"));
-    let axis = axis.unwrap_or_else(|| Number::constants(["1", "0", "0"], &element.at));
+    let axis = only(element, "axis", reader)
+        .and_then(|axis| reader.numbers(axis, "xyz"))
+        .unwrap_or_else(|| Number::constants(["1", "0", "0"], &element.at));
     let moves = !matches!(kind, Kind::Fixed | Kind::Floating);
     if moves && axis.iter().all(|x| x.value.is_zero()) {
         reader.say(
@@ -55,9 +56,9 @@ pub(super) fn joint(element: &Element, reader: &mut Reader) -> Joint {
     // There is one limit for both directions.
     let bounds = ["acceleration", "drake:acceleration", "deceleration"].map(&mut of_limit);
     let acceleration = least(bounds);
-    let range = limit.filter(|_| lower.is_some() || upper.is_some());
-    let range = range
-        .filter(|_| moves && kind != Kind::Continuous)
+    let has_range = lower.is_some() || upper.is_some();
+    let range = limit
+        .filter(|_| has_range && moves && kind != Kind::Continuous)
         .map(|limit| {
             [lower, upper].map(|end| end.unwrap_or_else(|| Number::constant("0", &limit.at)))
         });
@@ -202,8 +203,8 @@ fn local(name: &str) -> &str {
 /// Finds a number by its names: the `value` or the text of an element inside, or an attribute.
 fn number_named<'e>(place: &'e Element, names: &[&str]) -> Option<&'e Attribute> {
     names.iter().find_map(|name| {
-        let mut inside = place.inside.iter();
-        let inside = inside.find(|inside| local(&inside.tag) == *name);
+        let is_named = |inside: &&Element| local(&inside.tag) == *name;
+        let inside = place.inside.iter().find(is_named);
         let attribute = || {
             place
                 .get(name)

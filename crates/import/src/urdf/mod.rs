@@ -5,7 +5,7 @@ mod joint;
 use crate::keywords::MJCF;
 use crate::mjcf::Settings;
 use crate::model::{
-    Format, Inertial, Joint, Link, MAX_LINKS, Model, Number, Origin, Role, Tie, Tied,
+    Ends, Format, Inertial, Joint, Link, MAX_LINKS, Model, Number, Origin, Role, Tie,
 };
 use crate::orientation::{Pose, of_quaternion};
 use crate::read::Reader;
@@ -98,8 +98,8 @@ fn link(element: &Element, reader: &mut Reader) -> Link {
     let (name, _) = reader.required(element, "name");
     let around = reader.problems.enter(&element.at);
     reader.check("robot", element, &format!("link `{name}`"));
-    let inertial = only(element, "inertial", reader);
-    let inertial = inertial.and_then(|inertial| self::inertial(inertial, &name, reader));
+    let inertial = only(element, "inertial", reader)
+        .and_then(|inertial| self::inertial(inertial, &name, reader));
     reader.problems.leave(around);
     Link {
         at: element.at.clone(),
@@ -222,6 +222,6 @@ fn tie(element: &Element, model: &Model) -> Tie {
     Tie {
         at: element.at.clone(),
         name: element.named(&format!("<{}>", element.tag)),
-        ends: Tied::Links(ends),
+        ends: Ends::Links(ends),
     }
 }

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use dalembert_import::{Imported, Motion, Options, import, open};
+use dalembert_import::{Import, Motion, Options, import, open};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::Robot;
 use nalgebra::DVector;
@@ -95,12 +95,12 @@ pub fn exact(name: &str) -> Options {
     }
 }
 
-pub fn imported(name: &str, options: &Options) -> Imported {
+pub fn imported(name: &str, options: &Options) -> Import {
     let opened = open(&path(&file(name)), options);
     opened.unwrap().imported.unwrap()
 }
 
-pub fn taken(source: &str, options: &Options) -> Imported {
+pub fn taken(source: &str, options: &Options) -> Import {
     import(source, options).unwrap_or_else(|errors| panic!("{}", errors.render("arm.urdf", source)))
 }
 
@@ -192,7 +192,7 @@ pub fn motion(golden: &Golden) -> Motion {
 
 /// Checks that snapped torques are within the bound, and returns the largest bound; the golden
 /// values are rounded by this part of the largest torque.
-pub fn bounded(name: &str, imported: &Imported, golden: &Golden, rounding: f64) -> f64 {
+pub fn bounded(name: &str, imported: &Import, golden: &Golden, rounding: f64) -> f64 {
     let runtime = Reference::<f64>::from_robot(&imported.robot);
     let change = imported.change.as_ref();
     let bounds = change.map(|change| change.torques(&motion(golden)));
@@ -201,8 +201,8 @@ pub fn bounded(name: &str, imported: &Imported, golden: &Golden, rounding: f64) 
     let rounding = rounding * sizes.fold(0.0f64, f64::max);
     for state in &golden.states {
         let found = torques(&imported.robot, &runtime, state);
-        for ((own, known), bound) in found.iter().zip(&state.tau).zip(&bounds) {
-            let off = (own - known).abs();
+        for ((torque, known), bound) in found.iter().zip(&state.tau).zip(&bounds) {
+            let off = (torque - known).abs();
             assert!(off <= bound + rounding, "{name}: {off:e} > {bound:e}");
         }
     }
