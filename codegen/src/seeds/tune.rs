@@ -20,7 +20,7 @@ use crate::dag::signed;
 const MAX_TERMS: usize = 100;
 
 /// A price takes time in proportion to the links, and so does the number of prices.
-const MAX_TUNED: usize = 16;
+const MAX_TUNED: usize = 64;
 
 #[derive(Clone, Debug)]
 pub struct Tuned {
@@ -34,25 +34,53 @@ pub struct Tuned {
 /// angles would make the constants too large, a link keeps what it has.
 pub fn start(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
     let mut regrouping = Regrouping::base(arm);
-    for i in (1..arm.links.len()).rev() {
-        // The chain from the parent on: what lies before does not matter, and
-        // must not be reached by constants that may be too large.
-        let part = Skeleton {
-            gravity: arm.gravity.clone(),
-            columns: arm.columns,
-            links: arm.links[i - 1..].to_vec(),
+    for (i, segment) in arm.links.iter().enumerate().rev() {
+        let carrier = segment.link.parent;
+        if carrier.is_none() && arm.base.is_none() {
+            continue;
+        }
+        let (part, links) = carried_by(arm, carrier);
+        let choice = Regrouping {
+            links: (links.iter().map(|&link| regrouping.links[link].clone())).collect(),
+            ..regrouping.clone()
         };
-        let mut choice = regrouping.clone();
-        choice.links.drain(..i - 1);
         let chain = Chain::new(&part, &choice);
-        if terms(&chain.links[0]) > MAX_TERMS {
-            let [mass, first, second] = chain.links[1].free.clone();
+        let arrived = carrier.map_or_else(|| base_terms(&chain), |_| terms(&chain.links[0]));
+        if arrived > MAX_TERMS {
+            let place = links.partition_point(|&link| link < i);
+            let [mass, first, second] = chain.links[place].free.clone();
             let link = &mut regrouping.links[i];
             (link.mass, link.first, link.second) = (mass, first, second);
             link.keep_seconds = true;
         }
     }
     regrouping
+}
+
+/// Returns a link (or the base that floats) with all that it carries, and the places of these links:
+/// what lies before does not matter, and must not be reached by constants that may be too large.
+fn carried_by(arm: &Skeleton<Exact>, root: Option<usize>) -> (Skeleton<Exact>, Vec<usize>) {
+    let mut part = Skeleton {
+        gravity: arm.gravity.clone(),
+        base: if root.is_none() {
+            arm.base.clone()
+        } else {
+            None
+        },
+        columns: arm.columns,
+        links: Vec::new(),
+    };
+    let mut places: Vec<usize> = Vec::new();
+    for (i, segment) in arm.links.iter().enumerate() {
+        let parent = (segment.link.parent).and_then(|carrier| places.binary_search(&carrier).ok());
+        if root.is_none() || root == Some(i) || parent.is_some() {
+            let mut segment = segment.clone();
+            segment.link.parent = parent;
+            part.links.push(segment);
+            places.push(i);
+        }
+    }
+    (part, places)
 }
 
 /// `price` must not depend on anything else; above its last argument it need not be exact.
@@ -186,13 +214,22 @@ fn changed(now: &Link, change: impl FnOnce(&mut Link)) -> Link {
 }
 
 fn is_large(chain: &Chain<Exact>) -> bool {
-    chain.links.iter().any(|link| terms(link) > MAX_TERMS)
+    base_terms(chain) > MAX_TERMS || chain.links.iter().any(|link| terms(link) > MAX_TERMS)
+}
+
+fn base_terms(chain: &Chain<Exact>) -> usize {
+    chain.base.as_ref().map_or(0, body_terms)
 }
 
 fn terms(link: &ChainLink<Exact>) -> usize {
+    let free = link.free.iter().map(Exact::terms).max().unwrap_or(0);
+    body_terms(&link.body).max(free)
+}
+
+fn body_terms(body: &Body<Exact>) -> usize {
     let second = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
-    let second = second.map(|(i, j)| entry(&link.body.second, i, j));
-    let constants = second.into_iter().chain(&link.body.first).chain(&link.free);
+    let second = second.map(|(i, j)| entry(&body.second, i, j));
+    let constants = second.into_iter().chain(&body.first);
     constants.map(Exact::terms).max().unwrap_or(0)
 }
 
@@ -226,9 +263,13 @@ fn revolute(arm: &Skeleton<Exact>, chain: &Chain<Exact>, now: &Link, i: usize) -
     for (kept, of_body, own) in moments {
         let mut amounts = vec![Exact::zero()];
         amounts.extend(own);
-        if i > 0 {
-            // Moments that a link keeps do not arrive at the parent.
-            let parent = costly(&chain.links[i - 1].body);
+        let of_base = || chain.base.as_ref();
+        let carrier = link
+            .parent
+            .map_or_else(of_base, |parent| Some(&chain.links[parent].body));
+        if let Some(carrier) = carrier {
+            // Moments that a link keeps do not arrive at what carries it.
+            let parent = costly(carrier);
             let mut unit = Body::zero();
             *of_body(&mut unit) = Exact::one();
             let effect = costly(&unit.carried(&link.rotation, &link.offset));
@@ -248,7 +289,7 @@ fn revolute(arm: &Skeleton<Exact>, chain: &Chain<Exact>, now: &Link, i: usize) -
             origins.push(now.origin[2].add(&further));
         }
     }
-    if let Some(next) = chain.links.get(i + 1) {
+    for next in chain.links.iter().filter(|next| next.parent == Some(i)) {
         origins.push(now.origin[2].add(&next.offset[2]));
     }
     links.extend(origins.into_iter().map(|z| {
@@ -265,7 +306,7 @@ fn prismatic(chain: &Chain<Exact>, now: &Link, i: usize) -> Vec<Link> {
     };
     let back = link.offset.each_ref().map(|x| x.neg());
     let mut origins = vec![zero_vector(), shifted(&back)];
-    if let Some(next) = chain.links.get(i + 1) {
+    for next in chain.links.iter().filter(|next| next.parent == Some(i)) {
         origins.push(shifted(&next.offset));
     }
     let centre = |moment: &Exact| quotient(moment, &link.body.mass);

@@ -25,6 +25,8 @@ pub enum CompositeOrder {
 pub struct Composite<'a, S> {
     pub(super) chain: &'a Chain<S>,
     pub(super) at: &'a [Displacement<S>],
+    /// That of a base that floats with all that it carries.
+    pub(super) base: Option<Body<S>>,
     pub(super) bodies: Vec<Body<S>>,
     /// `twists[m][i]`, i < m: joint i seen from frame m.
     twists: Vec<Vec<Twist<S>>>,
@@ -39,35 +41,40 @@ pub(super) struct Acting<S, const WRENCHES: usize, const VECTORS: usize> {
 impl<'a, S: Scalar> Composite<'a, S> {
     /// Composes the bodies from the hand inward.
     pub fn new(chain: &'a Chain<S>, at: &'a [Displacement<S>]) -> Self {
-        let mut bodies: Vec<Body<S>> = Vec::with_capacity(chain.links.len());
-        for (i, link) in chain.links.iter().enumerate().rev() {
-            let outer = match bodies.last() {
-                Some(next) => {
-                    let (joint, at) = (&chain.links[i + 1], &at[i + 1]);
-                    let turned = match at {
-                        Displacement::Turn(theta) => next.turned_z(theta).turned(&joint.rotation),
-                        Displacement::Slide(_) => next.clone(),
-                    };
-                    turned.moved(&joint.lever(at))
-                }
-                None => Body::zero(),
+        let whole = |i: usize, outer: Option<Body<S>>| {
+            let body = chain.links[i].body.with(&outer.unwrap_or_else(Body::zero));
+            (body.clone(), body)
+        };
+        let back = |i: usize, body: Body<S>| {
+            let (link, at) = (&chain.links[i], &at[i]);
+            if link.parent.is_none() && chain.base.is_none() {
+                return Body::zero();
+            }
+            let turned = match at {
+                Displacement::Turn(theta) => body.turned_z(theta).turned(&link.rotation),
+                Displacement::Slide(_) => body,
             };
-            bodies.push(link.body.with(&outer));
-        }
-        bodies.reverse();
+            turned.moved(&link.lever(at))
+        };
+        let (bodies, arrived) = chain.inward(whole, back, Body::with);
+        let arrived = arrived.unwrap_or_else(Body::zero);
+        let base = chain.base.as_ref().map(|body| body.with(&arrived));
         let mut twists: Vec<Vec<Twist<S>>> = Vec::with_capacity(chain.links.len());
         for (m, link) in chain.links.iter().enumerate() {
             let seen = |twist: &Twist<S>| link.twist_outward(&at[m], twist);
             let mut row: Vec<Twist<S>> = Vec::with_capacity(m);
-            if m > 0 {
-                row.extend(twists[m - 1].iter().map(seen));
-                row.push(seen(&chain.links[m - 1].twist()));
+            if let Some(parent) = link.parent {
+                row.extend(twists[parent].iter().map(seen));
+                row.push(seen(&chain.links[parent].twist()));
             }
+            // On another branch.
+            row.resize(m, Twist::rest());
             twists.push(row);
         }
         Composite {
             chain,
             at,
+            base,
             bodies,
             twists,
         }
@@ -97,19 +104,64 @@ impl<'a, S: Scalar> Composite<'a, S> {
     /// Returns D_0k … D_kk.
     fn inertia_column(&self, k: usize, travel: CompositeOrder) -> Vec<S> {
         let mut wrench = self.momentum(k);
-        from_hand(0..=k, |i| {
+        let mut column = zeros(k + 1);
+        for i in self.chain.way(k) {
             let load = match travel {
                 CompositeOrder::Inward => self.chain.load(i, &wrench),
                 CompositeOrder::Outward => self.project(i, k, &wrench),
             };
-            let mut load = self.chain.rescaled(k, load);
+            column[i] = self.chain.rescaled(k, load);
             if i == k {
-                load = plus(&load, &self.chain.links[i].armature);
+                column[i] = plus(&column[i], &self.chain.links[i].armature);
             }
-            if travel == CompositeOrder::Inward && i > 0 {
+            if travel == CompositeOrder::Inward && self.chain.links[i].parent.is_some() {
                 wrench = self.chain.to_previous(i, self.at, &wrench);
             }
-            load
+        }
+        column
+    }
+
+    /// Returns D of a base that floats and of its joints, (6+n)×(6+n): force over moment, then τ,
+    /// by linear over angular acceleration of the base, then q̈.
+    pub fn floating_inertia(&self, travel: CompositeOrder) -> Vec<Vec<S>> {
+        let (chain, n) = (self.chain, self.bodies.len());
+        let joints = self.inertia(travel);
+        let body = self.base.clone().unwrap_or_else(Body::zero);
+        let mass = times(&times(&chain.per_unit, &chain.per_unit), &body.mass);
+        let [x, y, z] = scaled(&chain.per_unit, &body.first);
+        let (tensor, o) = (body.tensor(), S::zero);
+        let skew = [
+            [o(), negative(&z), y.clone()],
+            [z, o(), negative(&x)],
+            [negative(&y), x, o()],
+        ];
+        let mut d = alloc::vec![zeros(6 + n); 6 + n];
+        for i in 0..3 {
+            d[i][i] = mass.clone();
+            for k in 0..3 {
+                d[3 + i][3 + k] = super::body::entry(&tensor, i, k).clone();
+                d[3 + i][k] = skew[i][k].clone();
+                d[k][3 + i] = skew[i][k].clone();
+            }
+        }
+        for k in 0..n {
+            let seen = self.push_on_base(k);
+            for (i, entry) in chain.on_base(&seen).enumerate() {
+                let entry = chain.rescaled(k, entry);
+                (d[i][6 + k], d[6 + k][i]) = (entry.clone(), entry);
+            }
+            for i in 0..n {
+                d[6 + i][6 + k] = joints[i][k].clone();
+            }
+        }
+        d
+    }
+
+    /// Returns the wrench of a unit acceleration of joint k about the base's origin.
+    pub(super) fn push_on_base(&self, k: usize) -> Wrench<S> {
+        let way = self.chain.way(k);
+        way.fold(self.momentum(k), |w, i| {
+            self.chain.to_previous(i, self.at, &w)
         })
     }
 
@@ -142,9 +194,11 @@ impl<'a, S: Scalar> Composite<'a, S> {
             let (spin, couple) = (AccelerationForm::Column, MomentForm::SecondMoments);
             return chain.inverse_dynamics(self.at, &rest, &rest, spin, couple);
         }
-        let mut gravity = chain.gravity.clone();
+        let mut pulls: Vec<Vector<S>> = Vec::with_capacity(chain.links.len());
         let c = chain.links.iter().enumerate().map(|(i, link)| {
-            gravity = link.inward(&self.at[i], &gravity);
+            let before = link.parent.map_or(&chain.gravity, |parent| &pulls[parent]);
+            let gravity = link.inward(&self.at[i], before);
+            pulls.push(gravity.clone());
             let body = &self.bodies[i];
             match link.kind {
                 JointKind::Revolute => {
@@ -172,10 +226,12 @@ impl<'a, S: Scalar> Composite<'a, S> {
         let chain = self.chain;
         let (rates, accelerations) = (chain.rates(qd), chain.rates(qdd));
         let n = chain.links.len();
-        let mut before = Motion::base(gravity);
+        let base = Motion::base(&chain.spin, gravity);
+        let mut motions: Vec<Motion<S>> = Vec::with_capacity(n);
         let mut wrenches = Vec::with_capacity(n);
         let mut own = Vec::with_capacity(n);
         for (i, link) in chain.links.iter().enumerate() {
+            let before = link.parent.map_or(&base, |parent| &motions[parent]);
             let still = before.next(link, &self.at[i], &S::zero(), &S::zero(), spin);
             let body = &self.bodies[i];
             let at_rest = still.wrench(body, MomentForm::SecondMoments);
@@ -192,15 +248,18 @@ impl<'a, S: Scalar> Composite<'a, S> {
             let force = both(&drift.force, &push.force);
             let moment = both(&drift.moment, &push.moment);
             wrenches.push(Wrench { force, moment });
-            before = before.next(link, &self.at[i], &rates[i], &accelerations[i], spin);
+            motions.push(before.next(link, &self.at[i], &rates[i], &accelerations[i], spin));
         }
-        let mut wrench = Wrench::couple(exerted.clone());
-        from_hand(0..n, |i| {
-            wrench = wrench.with(&wrenches[i]);
-            let torque = plus(&chain.load(i, &wrench), &own[i]);
-            wrench = chain.to_previous(i, self.at, &wrench);
-            torque
-        })
+        let own_wrench = |i: usize| wrenches[i].clone();
+        let (torques, arrived) = chain.loads(self.at, own_wrench, exerted, |i| own[i].clone());
+        let Some(body) = &self.base else {
+            return torques;
+        };
+        let wrench = base.wrench(body, MomentForm::SecondMoments);
+        chain
+            .on_base(&arrived.with(&wrench))
+            .chain(torques)
+            .collect()
     }
 
     /// Returns the wrench of Δ_k Δ_m on the composite body m, `turn` being the angular part of Δ_k.
@@ -253,15 +312,19 @@ impl<'a, S: Scalar> Composite<'a, S> {
             enter([k, k], &earlier[k], &own);
             match travel {
                 CompositeOrder::Inward => {
-                    for i in (0..k).rev() {
-                        let (link, turn) = (&chain.links[i + 1], &at[i + 1]);
-                        own.wrenches = (own.wrenches).map(|own| chain.to_previous(i + 1, at, &own));
+                    for next in chain.way(k) {
+                        let Some(i) = chain.links[next].parent else {
+                            continue;
+                        };
+                        let (link, turn) = (&chain.links[next], &at[next]);
+                        own.wrenches = (own.wrenches).map(|own| chain.to_previous(next, at, &own));
                         own.vectors = own.vectors.map(|own| link.outward(turn, &own));
                         enter([i, k], &earlier[i], &own);
                     }
                 }
                 CompositeOrder::Outward => {
-                    for (i, twists) in earlier.iter().enumerate().take(k) {
+                    let way: Vec<usize> = chain.way(k).skip(1).collect();
+                    for (i, twists) in way.into_iter().rev().map(|i| (i, &earlier[i])) {
                         let seen = core::array::from_fn(|place| match place {
                             0 => self.twist(i, k),
                             _ => self.twist_outward(&twists[place], i, k),
@@ -275,7 +338,9 @@ impl<'a, S: Scalar> Composite<'a, S> {
 
     pub(super) fn twist_outward(&self, twist: &Twist<S>, j: usize, i: usize) -> Twist<S> {
         let out = |seen: Twist<S>, m: usize| self.chain.links[m].twist_outward(&self.at[m], &seen);
-        (j + 1..=i).fold(twist.clone(), out)
+        let mut way: Vec<usize> = self.chain.way(i).take_while(|m| *m != j).collect();
+        way.reverse();
+        way.into_iter().fold(twist.clone(), out)
     }
 }
 

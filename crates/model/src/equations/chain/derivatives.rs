@@ -78,15 +78,74 @@ impl<S: Scalar> Composite<'_, S> {
         slopes
     }
 
+    /// Returns the slopes of the wrench on a base that floats, force over moment, over those of τ,
+    /// by q and q̇, each (6+n)×n, and by ω of the base, (6+n)×3.
+    pub fn floating_slopes(&self, qd: &[S], qdd: &[S], travel: CompositeOrder) -> [Vec<Vec<S>>; 3] {
+        let (chain, n) = (self.chain, qd.len());
+        let Slopes { position, velocity } = self.slopes(qd, qdd, travel);
+        let (joints, arrived) = self.own_slopes_to(qd, qdd);
+        let blank = |k: usize| alloc::vec![alloc::vec![S::zero(); k]; 6];
+        let mut by_position = [blank(n), position].concat();
+        let mut by_velocity = [blank(n), velocity].concat();
+        let mut by_omega = alloc::vec![alloc::vec![S::zero(); 3]; 6 + n];
+        let omega = &chain.spin[0];
+        let unit = |i: usize| -> Vector<S> {
+            core::array::from_fn(|k| if k == i { S::one() } else { S::zero() })
+        };
+        let turns: [Vector<S>; 3] = core::array::from_fn(|i| cross(omega, &unit(i)));
+        for (k, joint) in joints.into_iter().enumerate() {
+            let own = [joint.position.1, joint.velocity.1, joint.push];
+            let (wrenches, swing) = chain.way(k).fold((own, joint.swing), |(own, swing), i| {
+                let swing = chain.links[i].outward(&self.at[i], &swing);
+                (own.map(|own| chain.to_previous(i, self.at, &own)), swing)
+            });
+            let [position, velocity, push] = &wrenches;
+            for (matrix, wrench) in [(&mut by_position, position), (&mut by_velocity, velocity)] {
+                for (row, entry) in chain.on_base(wrench).enumerate() {
+                    matrix[row][k] = chain.rescaled(k, entry);
+                }
+            }
+            for (i, turn) in turns.iter().enumerate() {
+                let slope = plus(&swing[i], &dot(&push.moment, turn));
+                by_omega[6 + k][i] = chain.rescaled(k, slope);
+            }
+        }
+        if let (Some(own), Some(body)) = (&chain.base, &self.base) {
+            let at_base = Twist {
+                turn: omega.clone(),
+                ..Twist::rest()
+            };
+            let flow = Flow::of(own, &at_base);
+            let flow = arrived.with(&flow);
+            for (i, turn) in turns.iter().enumerate() {
+                let pushed = Twist {
+                    turn: turn.clone(),
+                    ..Twist::rest()
+                };
+                let slope = flow.of_turn(&unit(i)).with(&inertial(body, &pushed));
+                for (row, entry) in chain.on_base(&slope).enumerate() {
+                    by_omega[row][i] = entry;
+                }
+            }
+        }
+        [by_position, by_velocity, by_omega]
+    }
+
+    /// Returns what each joint contributes by itself, from the hand inward.
     pub(super) fn own_slopes(&self, qd: &[S], qdd: &[S]) -> Vec<Joint<S>> {
+        self.own_slopes_to(qd, qdd).0
+    }
+
+    fn own_slopes_to(&self, qd: &[S], qdd: &[S]) -> (Vec<Joint<S>>, Flow<S>) {
         let chain = self.chain;
         let velocities = chain.velocities(self.at, qd);
         let motions = chain.motions(self.at, qd, qdd, AccelerationForm::Column);
-        let (mut flow, mut load) = (Flow::nothing(), Wrench::zero());
-        from_hand(chain.links.iter().enumerate(), |(i, link)| {
+        let whole = |i: usize, outer: Option<(Flow<S>, Wrench<S>)>| {
+            let (flow, load) = outer.unwrap_or_else(|| (Flow::nothing(), Wrench::zero()));
             let (velocity, motion, body) = (&velocities[i], &motions[i], &self.bodies[i]);
-            flow = flow.with(&Flow::of(&link.body, velocity));
-            load = load.with(&motion.wrench(&link.body, MomentForm::SecondMoments));
+            let link = &chain.links[i];
+            let flow = flow.with(&Flow::of(&link.body, velocity));
+            let load = load.with(&motion.wrench(&link.body, MomentForm::SecondMoments));
             let twist = self.twist(i, i);
             let drift = drift(link, velocity, motion);
             let push = self.momentum(i);
@@ -103,10 +162,17 @@ impl<S: Scalar> Composite<'_, S> {
                 flow: flow.clone(),
                 drift,
             };
-            flow = flow.carried(link, &self.at[i]);
-            load = chain.to_previous(i, self.at, &load);
-            joint
-        })
+            ((flow, load), joint)
+        };
+        let back = |i: usize, (flow, load): (Flow<S>, Wrench<S>)| {
+            let flow = flow.carried(&chain.links[i], &self.at[i]);
+            (flow, chain.to_previous(i, self.at, &load))
+        };
+        let both = |(flow, load): &(Flow<S>, Wrench<S>), (other, more): &(Flow<S>, Wrench<S>)| {
+            (flow.with(other), load.with(more))
+        };
+        let (joints, arrived) = chain.inward(whole, back, both);
+        (joints, arrived.map_or_else(Flow::nothing, |(flow, _)| flow))
     }
 
     /// Returns C, n×n, by composite momenta.
@@ -125,10 +191,12 @@ impl<S: Scalar> Composite<'_, S> {
     }
 
     fn velocity_parts(&self, qd: &[S]) -> (Vec<Earlier<S>>, Vec<Later<S>>) {
-        let velocities = self.chain.velocities(self.at, qd);
-        let mut flow = Flow::nothing();
-        let joints = from_hand(self.chain.links.iter().enumerate(), |(i, link)| {
-            flow = flow.with(&Flow::of(&link.body, &velocities[i]));
+        let chain = self.chain;
+        let velocities = chain.velocities(self.at, qd);
+        let whole = |i: usize, outer: Option<Flow<S>>| {
+            let link = &chain.links[i];
+            let flow = outer.unwrap_or_else(Flow::nothing);
+            let flow = flow.with(&Flow::of(&link.body, &velocities[i]));
             let rate = rate(link, &velocities[i]);
             let push = self.momentum(i);
             let twist = self.twist(i, i);
@@ -138,9 +206,10 @@ impl<S: Scalar> Composite<'_, S> {
                 wrenches: [felt, push],
                 vectors: [flow.half_swing(link)],
             };
-            flow = flow.carried(link, &self.at[i]);
-            ([twist, rate], acting)
-        });
+            (flow, ([twist, rate], acting))
+        };
+        let back = |i: usize, flow: Flow<S>| flow.carried(&chain.links[i], &self.at[i]);
+        let (joints, _) = chain.inward(whole, back, Flow::with);
         joints.into_iter().unzip()
     }
 }

@@ -6,6 +6,7 @@
 pub mod body;
 pub mod composite;
 pub mod derivatives;
+pub mod floating;
 mod form;
 mod momentum;
 mod parallel;
@@ -18,6 +19,8 @@ pub mod second_derivatives;
 mod shoulder;
 pub mod skeleton;
 mod spin;
+#[cfg(test)]
+mod trees;
 
 use alloc::vec::Vec;
 
@@ -46,7 +49,11 @@ pub type Rotation<S> = [Vector<S>; 3];
 pub struct Chain<S> {
     /// Acceleration of gravity in base axes.
     pub gravity: Vector<S>,
-    /// Links from the base to the hand.
+    /// ω and ω̇ of a base that moves, in its own axes; gravity is then less its acceleration.
+    pub spin: [Vector<S>; 2],
+    /// The body of a base that floats, about the origin of the base.
+    pub base: Option<Body<S>>,
+    /// Links, each after the one that carries it.
     pub links: Vec<ChainLink<S>>,
     /// 1 / the unit of length.
     pub per_unit: S,
@@ -57,6 +64,8 @@ pub struct Chain<S> {
 /// One joint with what it moves.
 #[derive(Clone, Debug)]
 pub struct ChainLink<S> {
+    /// The link that carries it; none of one that the base carries.
+    pub parent: Option<usize>,
     /// Revolute or prismatic.
     pub kind: JointKind,
     /// Revolute: axes of frame i at θ = 0 in the axes of frame i−1. Prismatic: the identity.
@@ -87,8 +96,10 @@ impl<S: Scalar> Chain<S> {
     /// Returns the chain of a skeleton in a regrouping.
     pub fn new(skeleton: &Skeleton<S>, regrouping: &Regrouping<S>) -> Chain<S> {
         let mut links: Vec<ChainLink<S>> = Vec::with_capacity(skeleton.links.len());
-        let mut shift: Vector<S> = zero_vector();
-        for (Segment { link, .. }, regrouping) in skeleton.links.iter().zip(&regrouping.links) {
+        let choices = &regrouping.links;
+        for (Segment { link, .. }, regrouping) in skeleton.links.iter().zip(choices) {
+            // How far the regrouping moved the origin of the frame before.
+            let shift = (link.parent).map_or_else(zero_vector, |i| choices[i].origin.clone());
             let step = match link.kind {
                 JointKind::Revolute => apply(&link.rotation, &regrouping.origin),
                 JointKind::Prismatic => regrouping.origin.clone(),
@@ -101,10 +112,11 @@ impl<S: Scalar> Chain<S> {
                 axes: regrouping.axes,
                 ..link.clone()
             });
-            shift = regrouping.origin.clone();
         }
         let mut chain = Chain {
             gravity: skeleton.gravity.clone(),
+            spin: [zero_vector(), zero_vector()],
+            base: skeleton.base.clone(),
             links,
             per_unit: S::one(),
             columns: skeleton.columns,
@@ -117,11 +129,68 @@ impl<S: Scalar> Chain<S> {
 
     /// A frame need not turn if its link looks the same after any turn and has no probe.
     fn free_spin(&mut self) {
-        if let Some(last) = self.links.last_mut() {
-            last.spins_freely = last.kind == JointKind::Revolute
-                && last.probes.is_empty()
-                && last.body.is_axisymmetric();
+        let carriers = self.carriers();
+        for (link, is_carrier) in self.links.iter_mut().zip(carriers) {
+            link.spins_freely = !is_carrier
+                && link.kind == JointKind::Revolute
+                && link.probes.is_empty()
+                && link.body.is_axisymmetric();
         }
+    }
+
+    /// True of each link that carries another.
+    fn carriers(&self) -> Vec<bool> {
+        let mut carriers = alloc::vec![false; self.links.len()];
+        for parent in self.links.iter().filter_map(|link| link.parent) {
+            carriers[parent] = true;
+        }
+        carriers
+    }
+
+    /// True if the base stands still and each link is carried by the one before.
+    pub fn is_serial(&self) -> bool {
+        let mut parents = self.links.iter().map(|link| link.parent).enumerate();
+        self.base.is_none() && parents.all(|(i, parent)| parent == i.checked_sub(1))
+    }
+
+    /// Lists a link and those that carry it, up to the base.
+    fn way(&self, from: usize) -> impl Iterator<Item = usize> {
+        core::iter::successors(Some(from), |&i| self.links[i].parent)
+    }
+
+    /// Walks from the base to the tips: returns what follows for each link from what the one before
+    /// has.
+    fn outward<T>(&self, base: T, next: impl Fn(usize, &T) -> T) -> Vec<T> {
+        let mut all: Vec<T> = Vec::with_capacity(self.links.len());
+        for (i, link) in self.links.iter().enumerate() {
+            all.push(next(i, link.parent.map_or(&base, |parent| &all[parent])));
+        }
+        all
+    }
+
+    /// Walks from the tips to the base. `whole` returns what a link has together with all that it
+    /// carries, given what arrives from there, and an entry for the link; `back` brings it to the
+    /// link before, and `with` adds what arrives there. Returns the entries in the order of the
+    /// links, and what arrives at the base.
+    fn inward<T, J>(
+        &self,
+        mut whole: impl FnMut(usize, Option<T>) -> (T, J),
+        back: impl Fn(usize, T) -> T,
+        with: impl Fn(&T, &T) -> T,
+    ) -> (Vec<J>, Option<T>) {
+        let n = self.links.len();
+        let mut arrived: Vec<Option<T>> = (0..=n).map(|_| None).collect();
+        let entries = from_hand(0..n, |i| {
+            let (total, entry) = whole(i, arrived[i].take());
+            let carried = back(i, total);
+            let place = &mut arrived[self.links[i].parent.unwrap_or(n)];
+            *place = Some(match place {
+                Some(others) => with(others, &carried),
+                None => carried,
+            });
+            entry
+        });
+        (entries, arrived.pop().flatten())
     }
 
     /// Returns the same chain without friction.
@@ -155,7 +224,11 @@ impl<S> Chain<S> {
 
     fn with_each<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Chain<T> {
         let gravity = self.gravity.each_ref().map(&mut *f);
+        let vectors = self.spin.each_ref();
+        let spin = vectors.map(|vector| vector.each_ref().map(&mut *f));
+        let base = self.base.as_ref().map(|body| body.map(&mut *f));
         let links = self.links.iter().map(|link| ChainLink {
+            parent: link.parent,
             kind: link.kind,
             rotation: link
                 .rotation
@@ -175,6 +248,8 @@ impl<S> Chain<S> {
         let links = links.collect();
         Chain {
             gravity,
+            spin,
+            base,
             links,
             per_unit: f(&self.per_unit),
             columns: self.columns,

@@ -24,13 +24,13 @@ impl<S: Scalar> Twist<S> {
 impl<S: Scalar> Chain<S> {
     pub(super) fn velocities(&self, at: &[Displacement<S>], qd: &[S]) -> Vec<Twist<S>> {
         let rates = self.rates(qd);
-        let mut before = Twist::rest();
-        let mut velocities = Vec::with_capacity(self.links.len());
-        for ((link, at), rate) in self.links.iter().zip(at).zip(&rates) {
-            before = before.next(link, at, rate);
-            velocities.push(before.clone());
-        }
-        velocities
+        let base = Twist {
+            turn: self.spin[0].clone(),
+            ..Twist::rest()
+        };
+        self.outward(base, |i, before: &Twist<S>| {
+            before.next(&self.links[i], &at[i], &rates[i])
+        })
     }
 
     /// Returns T, link by link: ½ m v·v + v·(ω × ∫ r dm) + ½ ω·(I ω), and what the rotors have.
@@ -58,9 +58,10 @@ impl<S: Scalar> Chain<S> {
     /// of the joint's frame, and T by the composite momentum along that.
     pub fn momentum(&self, at: &[Displacement<S>], qd: &[S]) -> [Vec<S>; 2] {
         let velocities = self.velocities(at, qd);
-        let mut wrench = Wrench::zero();
-        let joints = from_hand(self.links.iter().enumerate(), |(i, link)| {
+        let whole = |i: usize, outer: Option<Wrench<S>>| {
+            let mut wrench = outer.unwrap_or_else(Wrench::zero);
             let (omega, origin) = (&velocities[i].turn, &velocities[i].shift);
+            let link = &self.links[i];
             let body = &link.body;
             let own = sum(&scaled(&body.mass, origin), &cross(omega, &body.first));
             wrench.force = sum(&wrench.force, &own);
@@ -79,9 +80,10 @@ impl<S: Scalar> Chain<S> {
                     times(&dot(&cross(omega, &link.axis), push), &self.per_unit)
                 }
             };
-            wrench = self.to_previous(i, at, &wrench);
-            (momentum, slope)
-        });
+            (wrench, (momentum, slope))
+        };
+        let back = |i: usize, wrench: Wrench<S>| self.to_previous(i, at, &wrench);
+        let (joints, _) = self.inward(whole, back, Wrench::with);
         let (momenta, slopes) = joints.into_iter().unzip();
         [momenta, slopes]
     }

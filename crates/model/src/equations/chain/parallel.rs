@@ -10,9 +10,9 @@ use crate::equations::matrix::{minus, plus, sums, zero_vector};
 use crate::scalar::{Divide, Scalar};
 
 /// A joint and the next one that moves about a parallel axis.
-struct Pair {
-    before: usize,
-    after: usize,
+pub(super) struct Pair {
+    pub(super) before: usize,
+    pub(super) after: usize,
     opposite: bool,
 }
 
@@ -27,7 +27,7 @@ impl Pair {
 }
 
 /// Solves D q̈ = τ − bias over the joints that move; zero of the others.
-fn solved_in_pairs<S: Divide>(
+pub(super) fn solved_in_pairs<S: Divide>(
     pairs: &[Pair],
     d: &[Vec<S>],
     [bias, tau]: [&[S]; 2],
@@ -99,7 +99,7 @@ impl<S: Divide> Chain<S> {
 }
 
 impl<S: Scalar> Chain<S> {
-    fn pairs(&self, moves: &[bool]) -> Vec<Pair> {
+    pub(super) fn pairs(&self, moves: &[bool]) -> Vec<Pair> {
         let mut pairs = Vec::new();
         for group in self.parallel() {
             let moving = group.into_iter().filter(|(link, _)| moves[*link]);

@@ -87,15 +87,15 @@ impl<S: Scalar> Chain<S> {
     ) -> Vec<Motion<S>> {
         let halves: Vec<S> = v.iter().map(halved).collect();
         let [rates, halves, accelerations] = [qd, &halves, a].map(|rates| self.rates(rates));
-        let mut before = Mixed {
+        let base = Mixed {
             omega: zero_vector(),
             half_nu: zero_vector(),
-            motion: Motion::base(&self.gravity),
+            motion: Motion::base(&[zero_vector(), zero_vector()], &self.gravity),
         };
-        let motions = self.links.iter().enumerate().map(|(i, link)| {
-            before = before.next(link, &at[i], [&rates[i], &halves[i], &accelerations[i]]);
-            before.motion.clone()
+        let motions = self.outward(base, |i, before: &Mixed<S>| {
+            let rates = [&rates[i], &halves[i], &accelerations[i]];
+            before.next(&self.links[i], &at[i], rates)
         });
-        motions.collect()
+        motions.into_iter().map(|mixed| mixed.motion).collect()
     }
 }

@@ -30,11 +30,14 @@ impl<S: Scalar> Chain<S> {
     pub fn freedoms(&self) -> Vec<[i32; 2]> {
         let groups = self.parallel();
         let mut freedoms = vec![[0, 0]; self.links.len()];
-        for (g, group) in groups.iter().enumerate() {
-            // The last link that turns needs all turns if another group follows.
-            let is_followed = g + 1 < groups.len();
-            let free = group.len() - usize::from(is_followed);
-            let free = group[..free].iter().enumerate();
+        // A link from which another group goes on needs all turns.
+        let mut is_followed = vec![false; self.links.len()];
+        for first in groups.iter().filter_map(|group| self.turning(group[0].0)) {
+            is_followed[first] = true;
+        }
+        for group in &groups {
+            let free = group.iter().enumerate();
+            let free = free.filter(|(_, (i, _))| !is_followed[*i]);
             for (before, &(i, _)) in free.filter(|(_, (i, _))| !self.links[*i].spins_freely) {
                 let index = before + 1;
                 freedoms[i] = [-(index as i32), (group.len() - index) as i32];
@@ -48,7 +51,13 @@ impl<S: Scalar> Chain<S> {
         let mut groups: Vec<Vec<(usize, bool)>> = Vec::new();
         let links = self.links.iter().enumerate();
         for (i, link) in links.filter(|(_, link)| link.kind == JointKind::Revolute) {
-            match (sense(&link.rotation), groups.last_mut()) {
+            // At a branch the first goes on with the group.
+            let before = self.turning(i);
+            let group = groups.iter_mut().find(|group| {
+                let last = group[group.len() - 1].0;
+                before == Some(last)
+            });
+            match (sense(&link.rotation), group) {
                 (Some(opposite), Some(group)) => {
                     let (_, before) = group[group.len() - 1];
                     group.push((i, before != opposite));
@@ -57,6 +66,12 @@ impl<S: Scalar> Chain<S> {
             }
         }
         groups
+    }
+
+    /// Returns the last link that turns before a link.
+    fn turning(&self, link: usize) -> Option<usize> {
+        let mut way = self.way(link).skip(1);
+        way.find(|&i| self.links[i].kind == JointKind::Revolute)
     }
 
     /// Returns the chain at a position, every constant in the axes in which its link
@@ -95,8 +110,10 @@ impl<S: Scalar> Chain<S> {
         };
         let mut chain = self.clone();
         let mut at = Vec::with_capacity(position.len());
-        let mut before: Option<(usize, FramePlacement)> = None;
+        // For each link that turns: the turn of the group that its frame has made, and its place.
+        let mut turns: Vec<Option<(usize, FramePlacement)>> = vec![None; self.links.len()];
         for (i, (q, place)) in position.iter().zip(places).enumerate() {
+            let before = self.turning(i).and_then(|link| turns[link]);
             let link = &mut chain.links[i];
             if let Some((seen, own)) = before
                 && let Some(turn) = between(seen, own.index, own)
@@ -126,7 +143,7 @@ impl<S: Scalar> Chain<S> {
             };
             let turn = between(from, seen, place).unwrap_or_else(SinCosPair::straight);
             at.push(Displacement::Turn(turn));
-            before = Some((seen, place));
+            turns[i] = Some((seen, place));
         }
         (chain, at)
     }

@@ -40,11 +40,11 @@ pub(super) struct Motion<S> {
 
 impl<S: Scalar> Motion<S> {
     /// Returns the base, accelerated upwards instead of being pulled down.
-    pub(super) fn base(gravity: &Vector<S>) -> Self {
+    pub(super) fn base([omega, omega_dot]: &[Vector<S>; 2], gravity: &Vector<S>) -> Self {
         Motion {
-            omega: zero_vector(),
-            omega_dot: zero_vector(),
-            u: [zero_vector(), zero_vector(), zero_vector()],
+            omega: omega.clone(),
+            omega_dot: omega_dot.clone(),
+            u: from_rates(omega, omega_dot),
             acceleration: opposite(gravity),
         }
     }
@@ -207,6 +207,41 @@ impl<S: Scalar> Chain<S> {
         self.torques(at, &motions, couple, &zero_vector(), drive)
     }
 
+    /// Returns the wrench on a base that floats, force over moment in its axes and about its
+    /// origin, then τ.
+    pub fn floating_dynamics(
+        &self,
+        at: &[Displacement<S>],
+        qd: &[S],
+        qdd: &[S],
+        spin: AccelerationForm,
+        couple: MomentForm,
+    ) -> Vec<S> {
+        let motions = self.motions(at, qd, qdd, spin);
+        self.floating_loads(at, &motions, [qd, qdd], couple)
+    }
+
+    pub(super) fn floating_loads(
+        &self,
+        at: &[Displacement<S>],
+        motions: &[Motion<S>],
+        [qd, qdd]: [&[S]; 2],
+        couple: MomentForm,
+    ) -> Vec<S> {
+        let wrench = |i: usize| motions[i].wrench(&self.links[i].body, couple);
+        let drive = |i: usize| self.drive(i, qd, qdd);
+        let (torques, arrived) = self.loads(at, wrench, &zero_vector(), drive);
+        let body = self.base.clone().unwrap_or_else(Body::zero);
+        let base = Motion::base(&self.spin, &self.gravity).wrench(&body, couple);
+        self.on_base(&arrived.with(&base)).chain(torques).collect()
+    }
+
+    /// Returns a wrench on the base in metres.
+    pub(super) fn on_base(&self, wrench: &Wrench<S>) -> impl Iterator<Item = S> + use<S> {
+        let force = scaled(&self.per_unit, &wrench.force);
+        force.into_iter().chain(wrench.moment.clone())
+    }
+
     /// The last link exerts a moment on something else; `drive` is added for each joint.
     pub(super) fn torques(
         &self,
@@ -216,13 +251,31 @@ impl<S: Scalar> Chain<S> {
         exerted: &Vector<S>,
         drive: impl Fn(usize) -> S,
     ) -> Vec<S> {
-        let mut wrench = Wrench::couple(exerted.clone());
-        from_hand(self.links.iter().enumerate(), |(i, link)| {
-            wrench = wrench.with(&motions[i].wrench(&link.body, couple));
-            let torque = plus(&self.load(i, &wrench), &drive(i));
-            wrench = self.to_previous(i, at, &wrench);
-            torque
-        })
+        let wrench = |i: usize| motions[i].wrench(&self.links[i].body, couple);
+        self.loads(at, wrench, exerted, drive).0
+    }
+
+    /// Returns the torques of each link's wrench, and the wrench that arrives at the base.
+    pub(super) fn loads(
+        &self,
+        at: &[Displacement<S>],
+        wrench: impl Fn(usize) -> Wrench<S>,
+        exerted: &Vector<S>,
+        drive: impl Fn(usize) -> S,
+    ) -> (Vec<S>, Wrench<S>) {
+        let last = self.links.len().checked_sub(1);
+        let whole = |i: usize, outer: Option<Wrench<S>>| {
+            let outer = outer.unwrap_or_else(|| match Some(i) == last {
+                true => Wrench::couple(exerted.clone()),
+                false => Wrench::zero(),
+            });
+            let felt = outer.with(&wrench(i));
+            let torque = plus(&self.load(i, &felt), &drive(i));
+            (felt, torque)
+        };
+        let back = |i: usize, felt: Wrench<S>| self.to_previous(i, at, &felt);
+        let (torques, arrived) = self.inward(whole, back, Wrench::with);
+        (torques, arrived.unwrap_or_else(Wrench::zero))
     }
 
     pub(super) fn motions(
@@ -233,12 +286,10 @@ impl<S: Scalar> Chain<S> {
         spin: AccelerationForm,
     ) -> Vec<Motion<S>> {
         let (rates, accelerations) = (self.rates(qd), self.rates(qdd));
-        let mut before = Motion::base(&self.gravity);
-        let motions = self.links.iter().enumerate().map(|(i, link)| {
-            before = before.next(link, &at[i], &rates[i], &accelerations[i], spin);
-            before.clone()
-        });
-        motions.collect()
+        let base = Motion::base(&self.spin, &self.gravity);
+        self.outward(base, |i, before: &Motion<S>| {
+            before.next(&self.links[i], &at[i], &rates[i], &accelerations[i], spin)
+        })
     }
 
     pub(super) fn load(&self, i: usize, wrench: &Wrench<S>) -> S {
@@ -277,13 +328,13 @@ impl<S: Scalar> Chain<S> {
     ) -> ReferenceMotion<S> {
         let rates = self.rates(qd);
         let n = self.links.len();
-        let mut motion = ReferenceMotion {
+        let mut motion: ReferenceMotion<S> = ReferenceMotion {
             accelerations: Vec::with_capacity(n),
             links: Vec::with_capacity(n),
         };
-        let base = Motion::base(&self.gravity);
+        let base = Motion::base(&self.spin, &self.gravity);
         for (i, link) in self.links.iter().enumerate() {
-            let before = motion.links.last().unwrap_or(&base);
+            let before = link.parent.map_or(&base, |parent| &motion.links[parent]);
             let (next, acceleration) = match link.kind {
                 JointKind::Revolute if moves[i] => {
                     let [x, y, _] = link.inward(&at[i], &before.omega);

@@ -107,6 +107,23 @@ impl<S: Scalar> Skeleton<S> {
     }
 }
 
+/// The joints that move a link, as seen from its frame.
+#[derive(Clone)]
+struct Way<S> {
+    /// The joints from the base on, with their twists.
+    twists: Vec<(usize, Twist<S>)>,
+    centres: Vec<Centre<S>>,
+}
+
+impl<S> Default for Way<S> {
+    fn default() -> Self {
+        let (twists, centres) = (Vec::new(), Vec::new());
+        Way { twists, centres }
+    }
+}
+
+/// A point where the axes of several joints meet.
+#[derive(Clone)]
 struct Centre<S> {
     joints: Vec<usize>,
     at: Vector<S>,
@@ -147,21 +164,23 @@ impl<S: Scalar> Chain<S> {
     ) -> Vec<Vec<S>> {
         let n = self.links.len();
         let mut rows: Vec<Vec<S>> = (0..n).map(|_| zeros(self.columns)).collect();
-        // The joints' twists up to the link's own, seen from its frame.
-        let mut twists: Vec<Twist<S>> = Vec::with_capacity(n);
-        let mut centres: Vec<Centre<S>> = Vec::new();
+        let mut ways: Vec<Way<S>> = Vec::with_capacity(n);
         for (i, link) in self.links.iter().enumerate() {
-            for twist in &mut twists {
+            let mut way = link
+                .parent
+                .map_or_else(Way::default, |parent| ways[parent].clone());
+            for (_, twist) in &mut way.twists {
                 *twist = link.twist_outward(&at[i], twist);
             }
-            twists.push(link.twist());
-            for centre in &mut centres {
+            way.twists.push((i, link.twist()));
+            for centre in &mut way.centres {
                 let lever = link.lever(&at[i]);
                 centre.at = link.inward(&at[i], &difference(&centre.at, &lever));
             }
             if travel == CompositeOrder::Inward {
-                centres.extend(meeting(&twists));
+                way.centres.extend(meeting(&way.twists));
             }
+            let Way { twists, centres } = &way;
             for probe in &link.probes {
                 let body = match &probe.of {
                     Probed::Armature => {
@@ -177,25 +196,27 @@ impl<S: Scalar> Chain<S> {
                 let wrench = motions[i].wrench(body, MomentForm::SecondMoments);
                 let about = |own: &Centre<S>| sum(&wrench.moment, &cross(&wrench.force, &own.at));
                 let moments: Vec<Vector<S>> = centres.iter().map(about).collect();
-                for (k, twist) in twists.iter().enumerate() {
-                    let power = match widest(&centres, k) {
+                for (k, twist) in twists {
+                    let power = match widest(centres, *k) {
                         Some(centre) => dot(&twist.turn, &moments[centre]),
                         None => wrench.along(twist),
                     };
-                    rows[k][probe.column] = self.rescaled(k, power);
+                    rows[*k][probe.column] = self.rescaled(*k, power);
                 }
             }
+            ways.push(way);
         }
         rows
     }
 }
 
-fn meeting<S: Scalar>(twists: &[Twist<S>]) -> Option<Centre<S>> {
+fn meeting<S: Scalar>(twists: &[(usize, Twist<S>)]) -> Option<Centre<S>> {
     let passes = |twist: &Twist<S>| {
         let turns = twist.turn.iter().any(|x| !x.is_zero());
         turns && twist.shift.iter().all(S::is_zero)
     };
-    let joints: Vec<usize> = (0..twists.len()).filter(|&j| passes(&twists[j])).collect();
+    let meet = twists.iter().filter(|(_, twist)| passes(twist));
+    let joints: Vec<usize> = meet.map(|(joint, _)| *joint).collect();
     let at = zero_vector();
     (joints.len() > 1).then_some(Centre { joints, at })
 }

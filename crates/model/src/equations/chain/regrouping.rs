@@ -84,8 +84,12 @@ impl<S: Scalar> Chain<S> {
                 body.second.zz.clone(),
             ];
             link.body = body.with(&moving.negated());
-            if i > 0 {
-                self.links[i - 1].body = self.links[i - 1].body.with(&arriving);
+            let carrier = match link.parent {
+                Some(parent) => Some(&mut self.links[parent].body),
+                None => self.base.as_mut(),
+            };
+            if let Some(body) = carrier {
+                *body = body.with(&arriving);
             }
         }
     }
@@ -95,6 +99,7 @@ impl<S: Scalar> Chain<S> {
             return;
         }
         self.gravity = scaled(per_unit, &self.gravity);
+        self.base = self.base.as_ref().map(|body| body.in_unit(unit));
         for link in &mut self.links {
             link.offset = scaled(per_unit, &link.offset);
             link.body = link.body.in_unit(unit);

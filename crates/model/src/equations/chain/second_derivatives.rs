@@ -65,22 +65,26 @@ impl<S: Scalar> Composite<'_, S> {
         let joints = self.own_slopes(qd, qdd);
         let velocities = chain.velocities(self.at, qd);
         let displacements = chain.velocities(self.at, multiplier);
-        let (mut flow, mut couple) = (Flow::nothing(), zero_vector());
-        let mut pairs = Vec::with_capacity(joints.len());
-        for (i, (link, joint)) in chain.links.iter().zip(&joints).enumerate().rev() {
-            let displacement = &displacements[i];
-            flow = flow.with(&Flow::of(&link.body, displacement));
-            let own = crossed(&link.body, &velocities[i], displacement);
-            couple = sum(&couple, &own);
+        let whole = |i: usize, outer: Option<(Flow<S>, Vector<S>)>| {
+            let (link, joint, displacement) = (&chain.links[i], &joints[i], &displacements[i]);
+            let (flow, couple) = outer.unwrap_or_else(|| (Flow::nothing(), zero_vector()));
+            let flow = flow.with(&Flow::of(&link.body, displacement));
+            let of_link = crossed(&link.body, &velocities[i], displacement);
+            let couple = sum(&couple, &of_link);
             let [first, second] = joint.drift.clone();
             let twists = [self.twist(i, i), rate(link, displacement), first, second];
             let swing = opposite(&flow.swing(link));
             let wrenches = later(&self.bodies[i], joint, &twists, &flow, &couple, swing);
-            pairs.push((twists, wrenches));
-            flow = flow.carried(link, &self.at[i]);
-            couple = link.outward(&self.at[i], &couple);
-        }
-        pairs.into_iter().rev().unzip()
+            ((flow, couple), (twists, wrenches))
+        };
+        let back = |i: usize, (flow, couple): (Flow<S>, Vector<S>)| {
+            let (link, at) = (&chain.links[i], &self.at[i]);
+            (flow.carried(link, at), link.outward(at, &couple))
+        };
+        let (pairs, _) = chain.inward(whole, back, |(flow, couple), (other, more)| {
+            (flow.with(other), sum(couple, more))
+        });
+        pairs.into_iter().unzip()
     }
 }
 

@@ -31,7 +31,11 @@ impl<S: Scalar> Chain<S> {
 
     /// Finds the joints at the base whose axes meet: the height of each frame over the point.
     pub(super) fn shoulder(&self) -> Option<Vec<S>> {
-        let most = self.links.len().checked_sub(BEYOND)?;
+        let most = self
+            .links
+            .len()
+            .checked_sub(BEYOND)
+            .filter(|_| self.is_serial())?;
         let all = (0..FEWEST).filter_map(|origin| self.through(origin));
         let mut wide = all.filter(|heights| (FEWEST..=most).contains(&heights.len()));
         // Through two points that are not one there is one axis at most.

@@ -16,7 +16,9 @@ use crate::scalar::Scalar;
 pub struct Skeleton<S> {
     /// Acceleration of gravity in base axes.
     pub gravity: Vector<S>,
-    /// The joints that move, from the base to the hand.
+    /// The body of a base that floats.
+    pub base: Option<Body<S>>,
+    /// The joints that move, each after the one that carries it.
     pub links: Vec<Segment<S>>,
     /// The number of columns of a regressor that the links' probes are.
     pub columns: usize,
@@ -83,6 +85,7 @@ impl<S: Scalar> Skeleton<S> {
             }
             let slide = [S::zero(), S::zero(), link.d.clone()];
             let mut own = ChainLink {
+                parent: links.len().checked_sub(1),
                 kind: link.kind,
                 rotation: identity(),
                 offset: moved.clone(),
@@ -126,6 +129,7 @@ impl<S: Scalar> Skeleton<S> {
         }
         Skeleton {
             gravity: arm.gravity.clone(),
+            base: None,
             links,
             columns: columns.len(),
         }

@@ -42,7 +42,8 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         let Displacement::Turn(theta) = whole.at.last()? else {
             return None;
         };
-        if inner.is_empty() || moves.last() != Some(&true) || !link.turns_about_principal_axis() {
+        let is_alone = inner.is_empty() || !whole.chain.is_serial();
+        if is_alone || moves.last() != Some(&true) || !link.turns_about_principal_axis() {
             return None;
         }
         let second = &link.body.second;

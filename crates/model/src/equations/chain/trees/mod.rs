@@ -1,0 +1,107 @@
+//! Random trees on a base that is fixed or floats, in any regrouping, against Lagrange–Euler as
+//! written (eqs. 2.2–2.15) in a prime field; slopes against dual numbers.
+
+mod draw;
+mod fixed;
+mod floating;
+mod written;
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::composite::{Composite, CompositeOrder};
+use super::floating::Solving;
+use super::recursion::{AccelerationForm, MomentForm};
+use super::{
+    Body, Chain, ChainLink, Form, HandChoice, Probe, Probed, Rotation, Unknowns, product, turn,
+};
+use super::{Displacement, EliminatedTip, LinkRegrouping, Regrouping, Segment, Skeleton};
+use crate::equations::friction::Friction;
+use crate::equations::lagrange_euler::velocity_terms;
+use crate::equations::matrix::*;
+use crate::equations::{JointPosition, SinCosPair};
+use crate::robot::{Inertia, JointKind};
+use crate::scalar::dual::Dual;
+use crate::scalar::field::{Field, Points};
+use crate::scalar::sparse::Sparse;
+use crate::scalar::{Divide, Scalar};
+
+use draw::Draw;
+use written::{Joint, LagrangeEuler};
+
+type S = Sparse<Field>;
+type Position = Vec<JointPosition<S>>;
+
+const TRAVELS: [CompositeOrder; 2] = [CompositeOrder::Inward, CompositeOrder::Outward];
+const SPINS: [AccelerationForm; 2] = [AccelerationForm::Column, AccelerationForm::Rates];
+const COUPLES: [MomentForm; 2] = [MomentForm::SecondMoments, MomentForm::Euler];
+
+fn field(x: &S) -> Field {
+    x.value().expect("no division by zero")
+}
+
+fn fields(values: &[S]) -> Vec<Field> {
+    values.iter().map(field).collect()
+}
+
+fn flat(rows: &[Vec<S>]) -> Vec<Field> {
+    rows.iter().flat_map(|row| fields(row)).collect()
+}
+
+fn friction(skeleton: &Skeleton<S>, rates: &[S]) -> Vec<S> {
+    let links = skeleton.links.iter().zip(rates);
+    links
+        .map(|(segment, rate)| segment.link.friction.torque(rate))
+        .collect()
+}
+
+/// Returns a chain whose numbers have rates, none at first.
+fn dual(chain: &Chain<S>) -> Chain<Dual<S>> {
+    chain.map(|x| Dual::constant(*x))
+}
+
+fn constants(values: &[S]) -> Vec<Dual<S>> {
+    values.iter().cloned().map(Dual::constant).collect()
+}
+
+/// Returns values of which one grows.
+fn growing(values: &[S], at: usize) -> Vec<Dual<S>> {
+    let mut values = constants(values);
+    values[at].rate = S::one();
+    values
+}
+
+fn moving(position: &[JointPosition<S>], at: Option<usize>) -> Vec<JointPosition<Dual<S>>> {
+    let joints = position.iter().enumerate().map(|(i, q)| {
+        let rate = if at == Some(i) { S::one() } else { S::zero() };
+        match q {
+            JointPosition::Revolute(pair) => JointPosition::Revolute(pair.clone().turning(&rate)),
+            JointPosition::Prismatic(q) => JointPosition::Prismatic(Dual { value: *q, rate }),
+        }
+    });
+    joints.collect()
+}
+
+fn rates(values: Vec<Dual<S>>) -> Vec<Field> {
+    values.iter().map(|x| field(&x.rate)).collect()
+}
+
+/// Returns a matrix whose columns are the slopes of some results by each joint.
+fn columns(n: usize, slopes: impl Fn(usize) -> Vec<Field>) -> Vec<Field> {
+    let columns: Vec<Vec<Field>> = (0..n).map(slopes).collect();
+    let rows = 0..columns.first().map_or(0, Vec::len);
+    rows.flat_map(|i| columns.iter().map(move |column| column[i]))
+        .collect()
+}
+
+fn form(travel: CompositeOrder) -> Form {
+    Form {
+        travel,
+        ..Form::all(true, true, false, HandChoice::None)[0]
+    }
+}
+
+fn product_of(matrix: &[Vec<S>], v: &[S]) -> Vec<S> {
+    let dot = |row: &Vec<S>| total(row.iter().zip(v).map(|(x, y)| times(x, y)));
+    matrix.iter().map(dot).collect()
+}
