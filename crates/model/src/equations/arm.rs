@@ -2,12 +2,14 @@
 
 use alloc::borrow::Cow;
 use alloc::vec::Vec;
+use core::iter::successors;
 
+use super::factor::picked;
 use super::following::Following;
 use super::frames::{Frames, View};
 use super::friction::Friction;
-use super::matrix::{ABOUT_X, ABOUT_Y, ABOUT_Z, Columns, Vector, plus, zero_vector};
-use crate::robot::{Convention, HAND, Inertia, JointKind};
+use super::matrix::{ABOUT_X, ABOUT_Y, ABOUT_Z, Columns, Vector, from_hand, plus, zero_vector};
+use crate::robot::{Convention, HAND, Inertia, JointKind, Parent};
 use crate::scalar::{Scalar, SinCosPair};
 
 /// The parameters of an arm in the scalar of a computation.
@@ -32,8 +34,13 @@ pub struct Arm<S> {
 /// One row of the table: see [`crate::robot::Joint`] for shapes and units.
 #[derive(Clone, Debug)]
 pub struct Link<S> {
+    /// The link that carries it, unless that is the link before, or the base's for the first.
+    pub parent: Option<Parent>,
     /// Revolute or prismatic.
     pub kind: JointKind,
+    /// In the place of α_i and a_i: the joint's frame before it moves, in the frame of the link that
+    /// carries it; of modified DH only.
+    pub place: Option<Columns<S>>,
     /// Twist α_i.
     pub alpha: SinCosPair<S>,
     /// The turn β_i about y after it, of standard DH.
@@ -97,6 +104,50 @@ pub type At<S> = [DhVariables<S>];
 
 /// An arm at a position.
 pub(super) type Posed<S> = (Arm<S>, Vec<DhVariables<S>>);
+
+impl<S> Arm<S> {
+    /// Returns the link that carries a link; `None` where the base does.
+    pub fn carrier(&self, link: usize) -> Option<usize> {
+        match self.links.get(link).and_then(|link| link.parent) {
+            None => link.checked_sub(1),
+            Some(Parent::Base) => None,
+            Some(Parent::Row(carrier)) => Some(carrier),
+        }
+    }
+
+    /// Lists a link and those that carry it, to the base.
+    pub(super) fn way(&self, from: usize) -> impl Iterator<Item = usize> {
+        successors(Some(from), |&link| self.carrier(link))
+    }
+
+    /// Walks from the base to the tips: returns what follows for each link from what the one that
+    /// carries it has.
+    pub(super) fn outward<T>(&self, base: &T, mut next: impl FnMut(usize, &T) -> T) -> Vec<T> {
+        let mut all: Vec<T> = Vec::with_capacity(self.links.len());
+        for link in 0..self.links.len() {
+            let before = self.carrier(link).map_or(base, |carrier| &all[carrier]);
+            all.push(next(link, before));
+        }
+        all
+    }
+
+    /// Walks from the tips to the base: `whole` takes what the links that a link carries have sent,
+    /// each with its place, and returns what the link sends, and an entry for it. Returns the
+    /// entries in the order of the links.
+    pub(super) fn inward<T, J>(
+        &self,
+        mut whole: impl FnMut(usize, Vec<(usize, T)>) -> (T, J),
+    ) -> Vec<J> {
+        let mut arrived: Vec<Vec<(usize, T)>> = self.links.iter().map(|_| Vec::new()).collect();
+        from_hand(0..self.links.len(), |link| {
+            let (sent, entry) = whole(link, core::mem::take(&mut arrived[link]));
+            if let Some(carrier) = self.carrier(link) {
+                arrived[carrier].push((link, sent));
+            }
+            entry
+        })
+    }
+}
 
 impl<S: Scalar> Arm<S> {
     /// Returns θ_i and d_i of every row at a position.
@@ -175,7 +226,9 @@ impl<S: Scalar> Link<S> {
     /// Returns a link without mass on a slide whose frame, at position zero, is the one before.
     pub fn still() -> Link<S> {
         Link {
+            parent: None,
             kind: JointKind::Prismatic,
+            place: None,
             alpha: SinCosPair::straight(),
             beta: None,
             theta: SinCosPair::straight(),
@@ -222,10 +275,12 @@ impl<S> Link<S> {
     /// Returns every parameter of the link through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Link<T> {
         Link {
+            parent: self.parent,
             kind: self.kind,
+            place: self.place.as_ref().map(|place| place.map(&mut f)),
             alpha: self.alpha.map(&mut f),
-            beta: self.beta.as_ref().map(|beta| beta.map(&mut f)),
             theta: self.theta.map(&mut f),
+            beta: self.beta.as_ref().map(|beta| beta.map(&mut f)),
             a: f(&self.a),
             d: f(&self.d),
             mass: f(&self.mass),
@@ -258,10 +313,15 @@ impl<S: Scalar> Step<'_, S> {
                     Some(beta) => m.turn_y(beta),
                 }
             }
-            Convention::Modified => {
-                let m = m.turn_x(&link.alpha).shift_x(&link.a);
-                m.turn_z(&at.theta).shift_z(&at.d)
-            }
+            Convention::Modified => self.before(m).turn_z(&at.theta).shift_z(&at.d),
+        }
+    }
+
+    /// Returns M with what comes before the joint moves, of modified DH.
+    pub(super) fn before(&self, m: Columns<S>) -> Columns<S> {
+        match &self.link.place {
+            None => m.turn_x(&self.link.alpha).shift_x(&self.link.a),
+            Some(place) => m.then(place),
         }
     }
 
@@ -272,7 +332,10 @@ impl<S: Scalar> Step<'_, S> {
 
     /// Returns ⁱR_{i−1} v: components from frame i−1 into frame i.
     pub(super) fn to_link(&self, v: &Vector<S>) -> Vector<S> {
-        let twist_back = |v| self.link.alpha.turn_back_in(ABOUT_X, v);
+        let twist_back = |v| match &self.link.place {
+            None => self.link.alpha.turn_back_in(ABOUT_X, v),
+            Some(place) => place.rotate_back(&v),
+        };
         let turn_back = |v| self.at.theta.turn_back_in(ABOUT_Z, v);
         match self.convention {
             Convention::Standard => self.link.tilt_back(twist_back(turn_back(v.clone()))),
@@ -282,7 +345,10 @@ impl<S: Scalar> Step<'_, S> {
 
     /// Returns ⁱ⁻¹R_i v: components from frame i into frame i−1.
     pub(super) fn to_previous(&self, v: &Vector<S>) -> Vector<S> {
-        let twist = |v| self.link.alpha.turn_in(ABOUT_X, v);
+        let twist = |v| match &self.link.place {
+            None => self.link.alpha.turn_in(ABOUT_X, v),
+            Some(place) => place.rotate(&v),
+        };
         let turn = |v| self.at.theta.turn_in(ABOUT_Z, v);
         match (self.convention, &self.link.beta) {
             (Convention::Standard, None) => turn(twist(v.clone())),
@@ -323,14 +389,27 @@ impl<S: Clone> Arm<S> {
         Some(arm)
     }
 
-    pub(super) fn to_hand<'a>(&'a self, at: &'a At<S>) -> (Cow<'a, Arm<S>>, &'a At<S>) {
-        match self.frames.joint {
-            Some(joint) if joint + 1 < self.links.len() => {
-                let mut arm = self.clone();
-                arm.links.truncate(joint + 1);
-                (Cow::Owned(arm), &at[..at.len().min(joint + 1)])
-            }
-            _ => (Cow::Borrowed(self), at),
+    /// Returns the links on the way to the hand, with those of a list.
+    pub(super) fn to_hand<'a>(&'a self, at: &'a At<S>) -> (Cow<'a, Arm<S>>, Cow<'a, At<S>>) {
+        let way = self.way_to_hand();
+        if way.len() == self.links.len() {
+            return (Cow::Borrowed(self), Cow::Borrowed(at));
         }
+        let mut arm = self.clone();
+        arm.frames.joint = None;
+        arm.links = picked(&self.links, &way);
+        for link in &mut arm.links {
+            link.parent = None;
+        }
+        (Cow::Owned(arm), Cow::Owned(picked(at, &way)))
+    }
+
+    /// Returns the joints that move the hand, from the base on.
+    pub(super) fn way_to_hand(&self) -> Vec<usize> {
+        let last = self.links.len().checked_sub(1);
+        let last = self.frames.joint.or(last);
+        let mut way: Vec<usize> = last.into_iter().flat_map(|last| self.way(last)).collect();
+        way.reverse();
+        way
     }
 }

@@ -33,17 +33,18 @@ pub fn forward_dynamics<S: Divide>(
     moves: &[bool],
 ) -> Vec<S> {
     let frames: Vec<Frame<'_, S>> = arm.steps(at).map(Frame::new).collect();
-    let mut velocity = Twist::rest();
-    let moving = frames.iter().enumerate().map(|(i, frame)| {
-        let own = frame.along(&qd[i]);
+    let rest = (Twist::rest(), Twist::rest());
+    let moving = arm.outward(&rest, |i, (before, _)| {
+        let own = frames[i].along(&qd[i]);
         let moved = |before: Twist<S>| (before.with(&own), before.cross(&own));
-        let (next, drift) = frame.outward(&velocity, moved);
-        velocity = next;
-        (velocity.clone(), drift)
+        frames[i].outward(before, moved)
     });
-    let moving: Vec<(Twist<S>, Twist<S>)> = moving.collect();
-    let (mut body, mut bias) = (Articulated::zero(), Wrench::zero());
-    let joints = from_hand(moving.into_iter().enumerate(), |(i, (velocity, drift))| {
+    let joints = arm.inward(|i, arrived: Vec<(usize, Biased<S>)>| {
+        let (mut body, mut bias) = (Articulated::zero(), Wrench::zero());
+        for (_, (other, other_bias)) in &arrived {
+            (body, bias) = (body.plus(other), bias.with(other_bias));
+        }
+        let (velocity, drift) = moving[i].clone();
         let (frame, link) = (&frames[i], &arm.links[i]);
         let (own, own_bias) = Articulated::of(link, &velocity);
         let (whole, whole_bias) = (body.plus(&own), bias.with(&own_bias));
@@ -59,31 +60,33 @@ pub fn forward_dynamics<S: Divide>(
         let given = whole.without(&push, &inverse);
         let moved = whole_bias.with(&given.times(&drift));
         let given_bias = moved.with(&push.scaled(&times(&rest, &inverse)));
-        (body, bias) = frame.back_in(Convention::Modified, given, given_bias);
-        Joint {
+        let sent = frame.back_in(Convention::Modified, given, given_bias);
+        let joint = Joint {
             push,
             rest,
             inverse,
             drift,
-        }
+        };
+        (sent, joint)
     });
     // Accelerations, outward: the base rises instead of being pulled down.
-    let mut before = Twist {
+    let base = Twist {
         turn: zero_vector(),
         shift: opposite(&arm.gravity),
     };
-    let joints = frames.iter().zip(&joints);
-    let accelerations = joints.map(|(frame, joint)| {
-        let (next, acceleration) = frame.outward(&before, |at_joint| {
+    let mut accelerations = Vec::with_capacity(joints.len());
+    arm.outward(&base, |i, before| {
+        let (frame, joint) = (&frames[i], &joints[i]);
+        let (next, acceleration) = frame.outward(before, |at_joint| {
             let drifting = at_joint.with(&joint.drift);
             let left = minus(&joint.rest, &power(&joint.push, &drifting));
             let acceleration = times(&left, &joint.inverse);
             (drifting.with(&frame.along(&acceleration)), acceleration)
         });
-        before = next;
-        acceleration
+        accelerations.push(acceleration);
+        next
     });
-    accelerations.collect()
+    accelerations
 }
 
 struct Frame<'a, S> {
@@ -143,6 +146,9 @@ impl<'a, S: Divide> Frame<'a, S> {
         (body.carried(turned, &self.lever), bias)
     }
 }
+
+/// An articulated inertia and its bias p.
+type Biased<S> = (Articulated<S>, Wrench<S>);
 
 type Block<S> = [Vector<S>; 3];
 

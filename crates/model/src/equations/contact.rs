@@ -6,7 +6,7 @@
 
 use alloc::vec::Vec;
 
-use super::factor::Factor;
+use super::factor::{Factor, placed};
 use super::forward::hold;
 use super::frames::Axes;
 use super::matrix::*;
@@ -21,9 +21,8 @@ impl Formulation {
     pub fn torques_of_wrench<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, wrench: &[S]) -> Vec<S> {
         match self {
             Self::NewtonEulerLink | Self::NewtonEulerLinkDifferences => {
-                let mut torques = along_links(arm, at, wrench);
-                torques.resize(at.len(), S::zero());
-                torques
+                let torques = along_links(arm, at, wrench);
+                placed(zeros(at.len()), &arm.way_to_hand(), torques)
             }
             _ => products(&columns_of(&self.jacobian(arm, at)), wrench),
         }
@@ -66,6 +65,7 @@ pub fn squared<S: Scalar>(j: &[Vec<S>]) -> Vec<Vec<S>> {
 
 fn along_links<S: Scalar>(arm: &Arm<S>, at: &At<S>, wrench: &[S]) -> Vec<S> {
     let (arm, at) = arm.to_hand(at);
+    let at = &*at;
     let [force, moment] = [0, 3].map(|from| three(|i| wrench[from + i].clone()));
     let wrench = Wrench { force, moment };
     match arm.frames.axes {

@@ -82,7 +82,9 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
 
     fn append(&mut self, s: usize, at: &DhVariables<S>) {
         let (link, convention) = (&self.arm.links[s], self.arm.convention);
-        let (step, before) = (link.step(convention, at), &self.poses[s]);
+        let carrier = self.arm.carrier(s);
+        let before = &self.poses[carrier.map_or(0, |carrier| carrier + 1)];
+        let step = link.step(convention, at);
         let moved = step.append(&Columns::turned(before.axes.clone()));
         let pose = Columns {
             origin: sum(&before.origin, &moved.origin),
@@ -95,10 +97,15 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         let com = pose.rotate(&link.com);
 
         let z0 = unit_z();
-        let mut local: Vec<_> = match s {
-            0 => Vec::new(),
-            _ => self.local[s - 1].iter().map(|z| step.to_link(z)).collect(),
+        let mut local: Vec<_> = match carrier {
+            None => Vec::new(),
+            Some(carrier) => self.local[carrier]
+                .iter()
+                .map(|z| step.to_link(z))
+                .collect(),
         };
+        // Joints on other branches do not move the link.
+        local.resize(s, zero_vector());
         local.push(match (link.kind, convention) {
             (JointKind::Prismatic, _) => zero_vector(),
             (JointKind::Revolute, Convention::Standard) => step.to_link(&z0),
@@ -106,12 +113,13 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         });
         // r_s, then Jv_{s,i} = z × (r_s − p), or z for a prismatic joint.
         let centre = sum(&pose.origin, &com);
-        let jv: Vec<_> = (0..=s)
-            .map(|i| match self.arm.links[i].kind {
+        let mut jv = alloc::vec![zero_vector(); s + 1];
+        for i in self.arm.way(s) {
+            jv[i] = match self.arm.links[i].kind {
                 JointKind::Revolute => cross(&self.axes[i], &difference(&centre, &self.points[i])),
                 JointKind::Prismatic => self.axes[i].clone(),
-            })
-            .collect();
+            };
+        }
         self.momentum
             .push(jv.iter().map(|v| scaled(&link.mass, v)).collect());
         self.jv.push(jv);
@@ -148,44 +156,45 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         // sum of q̇_j q̇_k z_{j−1} × z_{k−1} and (z × ω)·Iω = z·(ω × Iω); and a_s.
         let mut moments = Vec::with_capacity(n);
         let mut accelerations = Vec::with_capacity(n);
-        let [mut omega, mut alpha] = [zero_vector(), zero_vector()];
-        let mut carried = zero_vector();
-        for (s, link) in self.arm.links.iter().enumerate() {
-            let [omega_before, alpha_before] = [omega.clone(), alpha.clone()];
+        let at_rest = Carried {
+            omega: zero_vector(),
+            alpha: zero_vector(),
+            acceleration: zero_vector(),
+        };
+        self.arm.outward(&at_rest, |s, before: &Carried<S>| {
+            let link = &self.arm.links[s];
+            let mut own = before.clone();
             let rate = scaled(&qd[s], &self.axes[s]);
             if link.kind == JointKind::Revolute {
-                alpha = sum(&alpha, &cross(&omega, &rate));
-                omega = sum(&omega, &rate);
+                own.alpha = sum(&own.alpha, &cross(&own.omega, &rate));
+                own.omega = sum(&own.omega, &rate);
             } else {
                 let sliding = scaled(&twice(&qd[s]), &self.axes[s]);
-                carried = sum(&carried, &cross(&omega, &sliding));
+                own.acceleration = sum(&own.acceleration, &cross(&own.omega, &sliding));
             }
-            let of = |omega: &Vector<S>, alpha: &Vector<S>, v: &Vector<S>| {
-                sum(&centripetal(omega, v), &cross(alpha, v))
-            };
             let lever = &self.levers[s];
-            let acceleration = match self.arm.convention {
+            accelerations.push(match self.arm.convention {
                 Convention::Standard => {
                     // c̄_s = r_s − p_{s−1}
                     let centre = sum(lever, &self.coms[s]);
-                    let acceleration = sum(&carried, &of(&omega, &alpha, &centre));
+                    let acceleration = sum(&own.acceleration, &own.of(&centre));
                     if s + 1 < n {
-                        carried = sum(&carried, &of(&omega, &alpha, lever));
+                        own.acceleration = sum(&own.acceleration, &own.of(lever));
                     }
                     acceleration
                 }
                 Convention::Modified => {
-                    carried = sum(&carried, &of(&omega_before, &alpha_before, lever));
-                    sum(&carried, &of(&omega, &alpha, &self.coms[s]))
+                    own.acceleration = sum(&own.acceleration, &before.of(lever));
+                    sum(&own.acceleration, &own.of(&self.coms[s]))
                 }
-            };
-            accelerations.push(acceleration);
+            });
 
             let pose = &self.poses[s + 1];
-            let [omega_here, alpha_here] = [pose.rotate_back(&omega), pose.rotate_back(&alpha)];
-            let spin = cross(&omega_here, &tensor_times(&link.inertia, &omega_here));
-            moments.push(sum(&tensor_times(&link.inertia, &alpha_here), &spin));
-        }
+            let [omega, alpha] = [&own.omega, &own.alpha].map(|v| pose.rotate_back(v));
+            let spin = cross(&omega, &tensor_times(&link.inertia, &omega));
+            moments.push(sum(&tensor_times(&link.inertia, &alpha), &spin));
+            own
+        });
         let rotation = joint_sums(&self.local, &moments);
         [rotation, joint_sums(&self.momentum, &accelerations)]
     }
@@ -207,7 +216,8 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
                 negative(&dot(&self.arm.gravity, &moment))
             }
             JointKind::Prismatic => {
-                let mass = total(self.arm.links[i..].iter().map(|link| link.mass.clone()));
+                let beyond = (i..n).filter(|&j| self.arm.way(j).any(|own| own == i));
+                let mass = total(beyond.map(|j| self.arm.links[j].mass.clone()));
                 negative(&times(&dot(&self.arm.gravity, &self.axes[i]), &mass))
             }
         };
@@ -218,6 +228,21 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
     pub fn inverse_dynamics(&self, qd: &[S], qdd: &[S]) -> Vec<S> {
         let [h, c] = [self.velocity_terms(qd), self.gravity()];
         assemble(self.arm, &self.inertia(), &h, &c, qd, qdd)
+    }
+}
+
+/// What a link has of those before it: ω, the printed sum α, and the acceleration of its origin.
+#[derive(Clone)]
+struct Carried<S> {
+    omega: Vector<S>,
+    alpha: Vector<S>,
+    acceleration: Vector<S>,
+}
+
+impl<S: Scalar> Carried<S> {
+    /// Returns ω × (ω × v) + α × v.
+    fn of(&self, v: &Vector<S>) -> Vector<S> {
+        sum(&centripetal(&self.omega, v), &cross(&self.alpha, v))
     }
 }
 

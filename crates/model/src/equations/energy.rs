@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::arm::Posed;
+use super::arm::{Posed, Step};
 use super::dalembert::{Dalembert, Part};
 use super::derivatives::{constants, still};
 use super::matrix::*;
@@ -140,29 +140,40 @@ fn base_lever<S: Scalar>(arm: &Arm<S>) -> Vector<S> {
 
 /// Returns Σ_j m_j r_j from the base's origin in the axes of frame 0, link by link.
 fn first_moment_by_poses<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vector<S> {
-    let mut pose = Columns {
+    let base = Columns {
         origin: base_lever(arm),
         ..Columns::identity()
     };
+    let steps: Vec<Step<S>> = arm.steps(at).collect();
     let mut moment = zero_vector();
-    for step in arm.steps(at) {
-        pose = step.append(&pose);
-        let centre = pose.apply(&step.link.com, &S::one());
-        moment = sum(&moment, &scaled(&step.link.mass, &centre));
-    }
+    arm.outward(&base, |i, before| {
+        let pose = steps[i].append(before);
+        let centre = pose.apply(&arm.links[i].com, &S::one());
+        moment = sum(&moment, &scaled(&arm.links[i].mass, &centre));
+        pose
+    });
     moment
 }
 
 fn first_moment<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vector<S> {
-    let mut moment = zero_vector();
-    let mut mass = S::zero();
-    for step in arm.steps(at).rev() {
-        moment = sum(&moment, &scaled(&step.link.mass, &step.link.com));
-        mass = plus(&mass, &step.link.mass);
-        let lever = step.lever();
-        let turned = step.to_previous(&moment);
-        moment = sum(&turned, &scaled(&mass, &lever));
-    }
+    let steps: Vec<Step<S>> = arm.steps(at).collect();
+    let (mut moment, mut mass) = (zero_vector(), S::zero());
+    arm.inward(|i, arrived: Vec<(usize, (Vector<S>, S))>| {
+        let (mut own, mut own_mass) = (zero_vector(), S::zero());
+        for (_, (moment, mass)) in &arrived {
+            (own, own_mass) = (sum(&own, moment), plus(&own_mass, mass));
+        }
+        let (step, link) = (&steps[i], &arm.links[i]);
+        own = sum(&own, &scaled(&link.mass, &link.com));
+        own_mass = plus(&own_mass, &link.mass);
+        let (lever, turned) = (step.lever(), step.to_previous(&own));
+        own = sum(&turned, &scaled(&own_mass, &lever));
+        if arm.carrier(i).is_none() {
+            moment = sum(&moment, &own);
+            mass = plus(&mass, &own_mass);
+        }
+        ((own, own_mass), ())
+    });
     match &arm.base {
         None => moment,
         Some(_) => sum(&moment, &scaled(&mass, &base_lever(arm))),

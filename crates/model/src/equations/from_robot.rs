@@ -1,12 +1,16 @@
 //! From a robot with exact parameters to an arm in any scalar, and what its base cannot feel.
 
+use alloc::vec::Vec;
+
+use num_traits::{One, Zero};
+
 use super::following::Following;
 use super::frames::{Frames, NamedFrame};
 use super::friction::{Coulomb, Friction};
-use super::matrix::Columns;
+use super::matrix::*;
 use super::{Arm, Link, SinCosPair};
 use crate::number::{Angle, Exact, Rational};
-use crate::robot::{Convention, JointKind, Placement, Position, Robot};
+use crate::robot::{Convention, Joint, JointKind, Placement, Position, Robot};
 use crate::scalar::Scalar;
 
 impl<S> Arm<S> {
@@ -24,54 +28,40 @@ impl<S> Arm<S> {
         let gravity = gravity.each_ref().map(&mut *scalar);
         let [base, tool] = [base, tool].map(|pose| pose.map(|pose| pose.map(&mut *scalar)));
         let (following, rows) = (Following::of(robot, scalar), robot.rows());
+        let places = places(&rows);
         let links = rows.iter().enumerate().map(|(row, joint)| {
             let mut followers = robot.followers.iter();
-            let offset = followers.find(|follower| follower.row == row);
-            let (turn, shift) = match offset.map(|follower| &follower.offset) {
-                Some(Position::Angle(turn)) => (Some(turn), None),
-                Some(Position::Length(shift)) => (None, Some(shift)),
-                None => (None, None),
-            };
-            let mut pair = |angle: &Angle, more: Option<&Angle>| {
-                let pair = Exact::sincos(angle);
-                let pair = more.map_or(pair.clone(), |more| pair.compose(&Exact::sincos(more)));
-                pair.map(&mut *scalar)
-            };
-            let (alpha, theta) = (pair(&joint.alpha, None), pair(&joint.theta, turn));
-            let beta = (!joint.beta.is_zero()).then(|| pair(&joint.beta, None));
-            let mut number = |value: &Rational| scalar(&Exact::from(value.clone()));
-            Link {
-                kind: joint.kind,
-                alpha,
-                beta,
-                theta,
-                a: number(&joint.a),
-                d: number(&shift.map_or(joint.d.clone(), |shift| &joint.d + shift)),
-                mass: number(&joint.mass),
-                com: [0, 1, 2].map(|axis| number(&joint.com[axis])),
-                inertia: joint.inertia.map(&mut number),
-                friction: Friction {
-                    viscous: number(&joint.viscous),
-                    coulomb: joint.has_coulomb().then(|| Coulomb {
-                        force: number(&joint.coulomb),
-                        width: number(&joint.coulomb_width),
-                        per_speed: number(&joint.coulomb_width.recip()),
-                    }),
-                },
-                armature: number(&joint.armature),
-            }
+            let follower = followers.find(|follower| follower.row == row);
+            let offset = follower.map(|follower| &follower.offset);
+            exact_link(joint, offset, places[row].as_ref()).map(&mut *scalar)
         });
         let links = links.collect();
-        let mut posed = |placement: &Placement| exact_pose(placement).map(&mut *scalar);
-        let own = rows.iter().map(|joint| joint.frame.as_ref());
-        let own = own.map(|frame| frame.map(&mut posed)).collect();
-        let named = robot.frames.iter().map(|frame| NamedFrame {
-            name: frame.name.clone(),
-            joint: frame.joint,
-            pose: posed(&frame.placement),
+        let in_row = |row: usize, placement: Option<&Placement>| {
+            let link = places[row].as_ref().map(|place| place.link.clone());
+            match (link, placement.map(exact_pose)) {
+                (Some(link), Some(pose)) => Some(link.then(&pose)),
+                (link, pose) => link.or(pose),
+            }
+        };
+        let own = rows.iter().enumerate();
+        let own = own.map(|(row, joint)| in_row(row, joint.frame.as_ref()));
+        let own = own
+            .map(|pose| pose.map(|pose| pose.map(&mut *scalar)))
+            .collect();
+        let named = robot.frames.iter().map(|frame| {
+            let pose = in_row(frame.joint, Some(&frame.placement));
+            NamedFrame {
+                name: frame.name.clone(),
+                joint: frame.joint,
+                pose: pose.unwrap_or_else(Columns::identity).map(&mut *scalar),
+            }
         });
+        let convention = match robot.branches() {
+            true => Convention::Modified,
+            false => robot.convention,
+        };
         Arm {
-            convention: robot.convention,
+            convention,
             gravity,
             base,
             tool,
@@ -84,6 +74,134 @@ impl<S> Arm<S> {
             },
         }
     }
+}
+
+fn exact_link(joint: &Joint, offset: Option<&Position>, place: Option<&Place>) -> Link<Exact> {
+    let exact = |value: &Rational| Exact::from(value.clone());
+    let (turn, shift) = match offset {
+        Some(Position::Angle(turn)) => (Exact::sincos(turn), Exact::zero()),
+        Some(Position::Length(shift)) => (SinCosPair::straight(), exact(shift)),
+        None => (SinCosPair::straight(), Exact::zero()),
+    };
+    let com = joint.com.each_ref().map(exact);
+    let inertia = joint.inertia.map(exact);
+    let (com, inertia, theta, d) = match place {
+        None => (com, inertia, Exact::sincos(&joint.theta), exact(&joint.d)),
+        Some(Place { link, theta, d, .. }) => {
+            let (com, inertia) = (link.rotate(&com), link.turn_tensor(&inertia));
+            (com, inertia, theta.clone(), d.clone())
+        }
+    };
+    Link {
+        parent: joint.parent,
+        kind: joint.kind,
+        place: place.map(|place| place.before.clone()),
+        alpha: Exact::sincos(&joint.alpha),
+        beta: (!joint.beta.is_zero()).then(|| Exact::sincos(&joint.beta)),
+        theta: theta.compose(&turn),
+        a: exact(&joint.a),
+        d: d.add(&shift),
+        mass: exact(&joint.mass),
+        com,
+        inertia,
+        friction: Friction {
+            viscous: exact(&joint.viscous),
+            coulomb: joint.has_coulomb().then(|| Coulomb {
+                force: exact(&joint.coulomb),
+                width: exact(&joint.coulomb_width),
+                per_speed: exact(&joint.coulomb_width.recip()),
+            }),
+        },
+        armature: exact(&joint.armature),
+    }
+}
+
+/// A joint that is placed, as a row of modified DH with a pose instead of α and a: its z is the
+/// joint's axis. A step along the axis and a turn about it, which commute with the joint, are the
+/// row's d and θ.
+struct Place {
+    before: Columns<Exact>,
+    theta: SinCosPair<Exact>,
+    d: Exact,
+    /// The link's frame in that of the row: a turn.
+    link: Columns<Exact>,
+}
+
+fn places(rows: &[&Joint]) -> Vec<Option<Place>> {
+    let mut turns: Vec<Columns<Exact>> = Vec::with_capacity(rows.len());
+    let places = rows.iter().enumerate().map(|(row, joint)| {
+        let placed = joint.place.as_ref();
+        // The link's axes, as rows' frames see them.
+        let turn = placed.map_or_else(Columns::identity, |placed| link_in_row(&placed.axis));
+        turns.push(turn.clone());
+        let before = exact_pose(&placed?.placement).then(&inverse(&turn));
+        let before = match joint.carrier(row) {
+            None => before,
+            Some(carrier) => turns[carrier].then(&before),
+        };
+        Some(Place::new(before, turn))
+    });
+    places.collect()
+}
+
+impl Place {
+    fn new(before: Columns<Exact>, link: Columns<Exact>) -> Place {
+        let d = dot(&before.origin, &before.axes[2]);
+        let origin = difference(&before.origin, &scaled(&d, &before.axes[2]));
+        let axes = turned_least(&before.axes[2]).unwrap_or_else(|| before.axes.clone());
+        let theta = SinCosPair {
+            sin: dot(&axes[1], &before.axes[0]),
+            cos: dot(&axes[0], &before.axes[0]),
+        };
+        Place {
+            before: Columns { axes, origin },
+            theta,
+            d,
+            link,
+        }
+    }
+}
+
+/// Returns the axes of a frame of this z that has turned about x or y, or about z and then by a right
+/// angle; none if z is not across one of them.
+fn turned_least(z: &Vector<Exact>) -> Option<[Vector<Exact>; 3]> {
+    let [x, y, z_0] = identity::<Exact>();
+    let [across, level] = match z.each_ref().map(Exact::is_zero) {
+        [true, _, _] => [x.clone(), cross(z, &x)],
+        [_, true, _] => [cross(&y, z), y],
+        [_, _, true] => [cross(z, &z_0).map(|x| x.neg()), z_0],
+        _ => return None,
+    };
+    Some([across, level, z.clone()])
+}
+
+/// Returns the turn by the least angle that takes z to an axis of length one, seen from there: 1 + V +
+/// V² / (1 + z·e), V = [z × e]×.
+fn link_in_row(axis: &[Rational; 3]) -> Columns<Exact> {
+    let [x, y, z] = axis;
+    let zero = Rational::zero;
+    let rows = if *z == -Rational::one() {
+        // Half a turn about x.
+        [
+            [Rational::one(), zero(), zero()],
+            [zero(), -Rational::one(), zero()],
+            [zero(), zero(), -Rational::one()],
+        ]
+    } else {
+        let per = (Rational::one() + z).recip();
+        let mixed = -(x * y * &per);
+        [
+            [Rational::one() - x * x * &per, mixed.clone(), x.clone()],
+            [mixed, Rational::one() - y * y * &per, y.clone()],
+            [-x, -y, z.clone()],
+        ]
+    };
+    // The rows of the turn are the columns of its inverse.
+    Columns::turned(rows.map(|row| row.map(Exact::from)))
+}
+
+fn inverse(turn: &Columns<Exact>) -> Columns<Exact> {
+    Columns::turned(transposed(&turn.axes))
 }
 
 impl<S: Scalar + PartialEq> Arm<S> {
@@ -103,6 +221,10 @@ impl<S: Scalar + PartialEq> Arm<S> {
     /// stands 1e6 m away would take every digit of an f32 torque with it: the
     /// length cancels only after it has been multiplied and rounded.
     pub fn fold_base(mut self) -> Self {
+        if self.links.iter().any(|link| link.place.is_some()) {
+            self.fold_places();
+            return self;
+        }
         let is_modified = self.convention == Convention::Modified;
         let mut turned = false;
         for link in &mut self.links {
@@ -124,6 +246,35 @@ impl<S: Scalar + PartialEq> Arm<S> {
             }
         }
         self
+    }
+}
+
+impl<S: Scalar> Arm<S> {
+    /// As [`Arm::fold_base`], along each branch.
+    fn fold_places(&mut self) {
+        // Before a link moves: whether all before it slide, or turn about parallel axes.
+        let mut ways: Vec<Option<bool>> = Vec::with_capacity(self.links.len());
+        for i in 0..self.links.len() {
+            let turned = self.carrier(i).map_or(Some(false), |carrier| ways[carrier]);
+            let link = &mut self.links[i];
+            let is_parallel = |place: &Columns<S>| place.axes[2][..2].iter().all(S::is_zero);
+            let goes_on = match (turned, &mut link.place) {
+                (Some(false), Some(place)) => {
+                    place.origin = zero_vector();
+                    true
+                }
+                (Some(true), Some(place)) if is_parallel(place) => {
+                    place.origin[2] = S::zero();
+                    true
+                }
+                _ => false,
+            };
+            if goes_on {
+                link.d = S::zero();
+            }
+            let turns = turned == Some(true) || link.kind == JointKind::Revolute;
+            ways.push(goes_on.then_some(turns));
+        }
     }
 }
 

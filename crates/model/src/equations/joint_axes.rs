@@ -68,7 +68,7 @@ pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<[Vector<S>; 2]
         let (link, [own, turned]) = (&arm.links[j], &levers[j]);
         let before = match arm.convention {
             Convention::Standard => frames[j].clone(),
-            Convention::Modified => frames[j].clone().turn_x(&link.alpha),
+            Convention::Modified => link.step(arm.convention, &at[j]).before(frames[j].clone()),
         };
         let axis = before.axes[2].clone();
         if link.kind == JointKind::Prismatic {

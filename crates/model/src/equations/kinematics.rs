@@ -8,6 +8,7 @@ use alloc::vec::Vec;
 use super::arm::{Posed, Step};
 use super::derivatives::with_rates;
 use super::energy::moving;
+use super::factor::{picked, placed};
 use super::frames::Axes;
 use super::lagrange_euler::PseudoInertia;
 use super::matrix::*;
@@ -34,12 +35,8 @@ pub fn link_poses<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<Columns<S>> {
 }
 
 fn poses_from<S: Scalar>(start: &Columns<S>, arm: &Arm<S>, at: &At<S>) -> Vec<Columns<S>> {
-    let mut pose = start.clone();
-    let poses = arm.steps(at).map(|step| {
-        pose = step.append(&pose);
-        pose.clone()
-    });
-    poses.collect()
+    let steps: Vec<Step<S>> = arm.steps(at).collect();
+    arm.outward(start, |link, before| steps[link].append(before))
 }
 
 pub(super) fn hand_of<S: Scalar>(arm: &Arm<S>, poses: &[Columns<S>]) -> Columns<S> {
@@ -65,7 +62,7 @@ impl Formulation {
     /// of a Jacobian, in base axes or in the joints' own.
     pub fn hand<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Columns<S> {
         let (arm, at) = arm.to_hand(at);
-        let arm = &*arm;
+        let (arm, at) = (&*arm, &*at);
         match self {
             Self::LagrangeEuler => hand_of(arm, &poses(arm, at)),
             Self::Dalembert => hand_by_levers(arm, at),
@@ -77,13 +74,14 @@ impl Formulation {
 
     /// Returns J, 6×n, the linear over the angular velocity of the hand, in the arm's [`Axes`].
     pub fn jacobian<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
-        let n = at.len();
+        let (n, way) = (at.len(), arm.way_to_hand());
         let (arm, at) = arm.to_hand(at);
+        let at = &*at;
         let by_links = matches!(
             self,
             Self::NewtonEulerLink | Self::NewtonEulerLinkDifferences
         );
-        let mut columns = match arm.frames.axes {
+        let columns = match arm.frames.axes {
             Axes::Local if by_links => local_columns(&arm, at),
             axes => {
                 let columns = self.mixed_columns(&arm, at).into_iter();
@@ -92,7 +90,8 @@ impl Formulation {
                 columns.map(turned).collect()
             }
         };
-        columns.resize(n, [zero_vector(), zero_vector()]);
+        let nothing = alloc::vec![[zero_vector(), zero_vector()]; n];
+        let columns = placed(nothing, &way, columns);
         matrix(6, n, |r, j| columns[j][r / 3][r % 3].clone())
     }
 
@@ -111,8 +110,9 @@ impl Formulation {
     /// Returns J̇ q̇, linear over angular, in the arm's [`Axes`]: the rate of J q̇ in a motion that
     /// keeps its velocities. In base axes at the hand it is the hand's acceleration.
     pub fn jacobian_rate<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> [Vector<S>; 2] {
+        let qd = &picked(qd, &arm.way_to_hand())[..];
         let (arm, at) = arm.to_hand(at);
-        let qd = &qd[..at.len()];
+        let at = &*at;
         let rate = self.bias_acceleration(&arm, at, qd);
         let axes = arm.frames.axes;
         if axes == Axes::Mixed {
@@ -172,9 +172,10 @@ fn wrenches_by_poses<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], qdd: &[S]) -
     let (arm_moving, at_moving) = accelerated(arm, at, qd, qdd);
     let moving = poses_from(&Columns::identity(), &arm_moving, &at_moving);
     let still = poses_from(&Columns::identity(), arm, at);
-    let mut about_base = Wrench::zero();
-    from_hand(0..at.len(), |i| {
-        about_base = about_base.with(&inertial(arm, i, &still[i], &moving[i]));
+    arm.inward(|i, arrived: Vec<(usize, Wrench<S>)>| {
+        let arrived = arrived.iter().map(|(_, wrench)| wrench);
+        let arrived = arrived.fold(Wrench::zero(), |all, wrench| all.with(wrench));
+        let about_base = arrived.with(&inertial(arm, i, &still[i], &moving[i]));
         let Wrench { force, moment } = about_base.clone();
         let point = match (arm.convention, i) {
             (Convention::Modified, _) => still[i].origin.clone(),
@@ -182,7 +183,7 @@ fn wrenches_by_poses<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], qdd: &[S]) -
             (Convention::Standard, _) => still[i - 1].origin.clone(),
         };
         let moment = difference(&moment, &cross(&point, &force));
-        Wrench { force, moment }
+        (about_base, Wrench { force, moment })
     })
 }
 

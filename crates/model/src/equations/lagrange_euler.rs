@@ -35,13 +35,17 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
         let mut u: Vec<Vec<Columns<S>>> = Vec::with_capacity(n);
         for (i, step) in arm.steps(at).enumerate() {
             let append = |before: &Columns<S>| step.append(before);
-            let pose = append(&poses[i]);
-            let mut row: Vec<_> = match i {
-                0 => Vec::new(),
-                _ => u[i - 1].iter().map(append).collect(),
+            let carrier = arm.carrier(i);
+            let before = &poses[carrier.map_or(0, |carrier| carrier + 1)];
+            let pose = append(before);
+            let mut row: Vec<_> = match carrier {
+                None => Vec::new(),
+                Some(carrier) => u[carrier].iter().map(append).collect(),
             };
+            // Joints on other branches do not move the link.
+            row.resize(i, Columns::nothing());
             row.push(match step.convention {
-                Convention::Standard => append(&poses[i].derive(step.link.kind)),
+                Convention::Standard => append(&before.derive(step.link.kind)),
                 Convention::Modified => pose.derive(step.link.kind),
             });
             poses.push(pose);
@@ -127,16 +131,19 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
         for (i, step) in self.arm.steps(self.at).enumerate() {
             let append = |before: &Columns<S>| step.append(before);
             let appended = |row: &Vec<Columns<S>>| row.iter().map(append).collect();
-            let mut of_link: Vec<Vec<Columns<S>>> = match i {
-                0 => Vec::new(),
-                _ => all[i - 1].iter().map(appended).collect(),
+            let carrier = self.arm.carrier(i);
+            let mut of_link: Vec<Vec<Columns<S>>> = match carrier {
+                None => Vec::new(),
+                Some(carrier) => all[carrier].iter().map(appended).collect(),
             };
+            let between = of_link.len()..i;
+            of_link.extend(between.map(|k| alloc::vec![Columns::nothing(); k + 1]));
             // k = i: Q_i enters at the joint itself.
             let kind = step.link.kind;
             of_link.push(match step.convention {
                 Convention::Standard => {
                     let own = self.poses[i].derive(kind);
-                    let earlier = if i == 0 { &[][..] } else { &self.u[i - 1][..] };
+                    let earlier = carrier.map_or(&[][..], |carrier| &self.u[carrier][..]);
                     let at_joint = earlier.iter().chain([&own]);
                     at_joint.map(|u| append(&u.derive(kind))).collect()
                 }

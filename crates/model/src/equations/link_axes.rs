@@ -14,6 +14,7 @@
 
 use alloc::vec::Vec;
 
+use super::factor::{picked, placed};
 use super::frames::Axes;
 use super::kinematics::{by_lever, levers, poses};
 use super::matrix::*;
@@ -101,7 +102,8 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
     }
 
     fn turn(&self) -> Vec<Vec<S>> {
-        let poses = poses(self.arm, self.at);
+        let (arm, at) = self.arm.to_hand(self.at);
+        let poses = poses(&arm, &at);
         let rows: Vec<usize> = self.arm.frames.rows.indices().collect();
         let entry = |r: usize, c: usize| match self.links[r / 3] {
             Some(link) if r / 3 == c / 3 => poses[link - 1].axes[c % 3][r % 3].clone(),
@@ -129,8 +131,9 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
 
 /// In the axes of a link's frame before the hand's; linear, then angular.
 fn columns<S: Scalar>(arm: &Arm<S>, at: &At<S>, link: usize) -> Vec<[Vector<S>; 2]> {
-    let n = at.len();
+    let (n, way) = (at.len(), arm.way_to_hand());
     let (arm, at) = arm.to_hand(at);
+    let at = &*at;
     let mut outer = arm.clone().into_owned();
     outer.base = None;
     outer.links.drain(..link);
@@ -159,12 +162,14 @@ fn columns<S: Scalar>(arm: &Arm<S>, at: &At<S>, link: usize) -> Vec<[Vector<S>; 
         }
     }
     columns.extend((0..outer.links.len()).map(|joint| by_lever(&outer, &levers, joint)));
-    columns.resize(n, [zero_vector(), zero_vector()]);
-    columns
+    let nothing = alloc::vec![[zero_vector(), zero_vector()]; n];
+    placed(nothing, &way, columns)
 }
 
 fn acceleration<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], link: usize) -> [Vector<S>; 2] {
+    let qd = &picked(qd, &arm.way_to_hand())[..];
     let (arm, at) = arm.to_hand(at);
+    let at = &*at;
     let mut inner = arm.weightless();
     let mut outer = inner.clone();
     inner.links.truncate(link);

@@ -248,6 +248,11 @@ impl<S: Scalar> Columns<S> {
         Columns::turned(identity())
     }
 
+    /// Returns the matrix 0.
+    pub(super) fn nothing() -> Self {
+        Columns::turned(three(|_| zero_vector()))
+    }
+
     pub(super) fn turned(axes: [Vector<S>; 3]) -> Self {
         let origin = zero_vector();
         Columns { axes, origin }
@@ -346,8 +351,7 @@ impl<S: Scalar> Columns<S> {
     where
         S: 'a,
     {
-        let nothing = Columns::turned(three(|_| zero_vector()));
-        terms.fold(nothing, |all, (s, own)| Columns {
+        terms.fold(Columns::nothing(), |all, (s, own)| Columns {
             axes: three(|i| sum(&all.axes[i], &scaled(&s, &own.axes[i]))),
             origin: sum(&all.origin, &scaled(&s, &own.origin)),
         })

@@ -58,6 +58,8 @@ pub mod newton_euler;
 pub mod operational;
 pub mod regressor;
 pub mod screws;
+#[cfg(test)]
+mod trees;
 
 pub use crate::scalar::SinCosPair;
 pub use arm::{Arm, At, DhVariables, JointPosition, Link};

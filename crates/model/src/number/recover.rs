@@ -32,6 +32,12 @@ pub fn recovered(value: &Wide, size: &Rational) -> Rational {
     simple(&value, &(size * near())).unwrap_or_else(|| rounded(&value))
 }
 
+/// Returns the first convergent within 2⁻⁵⁴: it mostly has half as many bits.
+pub fn short(value: &Rational) -> Rational {
+    let near = Rational::new(BigInt::one(), BigInt::one() << 54u32);
+    simple(value, &near).unwrap_or_else(|| rounded(value))
+}
+
 impl Angle {
     /// Returns the angle whose sine and cosine are in this ratio, in (−π, π]: a multiple of π or a
     /// number of radians that was meant, or radians rounded to 20 digits. Zero for two zeros.

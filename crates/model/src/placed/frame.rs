@@ -1,10 +1,10 @@
 //! Poses in wide floats.
 
-use num_traits::{Signed, Zero};
+use num_traits::{One, Signed, Zero};
 
 use crate::equations::matrix::{Columns, Vector, cross, dot, opposite, scaled, zero_vector};
 use crate::equations::{SinCosPair, pose_of};
-use crate::number::recover::recovered;
+use crate::number::recover::{recovered, short};
 use crate::number::{Angle, Rational, Wide};
 use crate::robot::{Inertia, Placement};
 use crate::scalar::Scalar;
@@ -100,6 +100,29 @@ pub fn direction(axis: &[Rational; 3]) -> Option<Vector<Wide>> {
     }
     let relative = |x: &Rational| Wide::from_rational(&(x / &largest));
     unit(&axis.each_ref().map(relative))
+}
+
+/// Returns fractions along a direction whose squares add up to one, exactly: those of the direction
+/// where its length is a fraction, else those of a point of the sphere beside it, within 1e-16.
+pub fn unit_fraction(axis: &[Rational; 3]) -> Option<[Rational; 3]> {
+    let square: Rational = axis.iter().map(|x| x * x).sum();
+    let [numer, denom] = [square.numer().sqrt(), square.denom().sqrt()];
+    let length = Rational::new(numer, denom);
+    if square.is_zero() {
+        return None;
+    }
+    if &length * &length == square {
+        return Some(axis.each_ref().map(|x| x / &length));
+    }
+    let [x, y, z] = direction(axis)?.map(|x| x.to_rational());
+    // From the pole that is further away, (u, v) → (2u, 2v, 1 − u² − v²) / (1 + u² + v²).
+    let height = Rational::one() + z.abs();
+    let [u, v] = [x, y].map(|own| short(&(own / &height)));
+    let flat = &u * &u + &v * &v;
+    let per = (Rational::one() + &flat).recip();
+    let [x, y] = [u, v].map(|own| Rational::from_integer(2.into()) * own * &per);
+    let up = (Rational::one() - flat) * &per;
+    Some([x, y, if z.is_negative() { -up } else { up }])
 }
 
 /// Returns a vector divided by its length, unless that is zero.

@@ -62,6 +62,19 @@ pub struct Placed {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoDirection(pub usize);
 
+/// Gives the joints of a robot whose links branch their places, each with an axis of length one: as
+/// it is where that is a fraction, else to sixteen digits. An axis without a direction, which is
+/// an error of its own, is left alone.
+pub fn place(robot: &mut Robot, placed: &[Placed]) {
+    for (joint, placed) in robot.joints.iter_mut().zip(placed) {
+        let axis = frame::unit_fraction(&placed.axis).unwrap_or_else(|| placed.axis.clone());
+        joint.place = Some(Placed {
+            placement: placed.placement.clone(),
+            axis,
+        });
+    }
+}
+
 /// Gives a robot whose joints are placed its DH rows.
 ///
 /// The robot's centres of mass and inertias are in the links' own frames, its

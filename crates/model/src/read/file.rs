@@ -9,8 +9,8 @@ use toml_span::Value;
 use super::report::quote;
 use super::table::{Table, locate};
 use super::value::{Context, payloads, placement};
-use super::{Reading, guard, joint, link, mimic, scene, suggest, syntax};
-use crate::placed::{Placed, derive};
+use super::{Reading, guard, joint, link, mimic, parent, scene, suggest, syntax};
+use crate::placed::{Placed, derive, place};
 use crate::robot::{Convention, Finding, Frame, Joint, Placement, Robot, RobotWarning};
 
 /// `None` only after an error.
@@ -100,6 +100,10 @@ fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Finding>) {
     };
     let frames = keys.optional(cx, "frame", |cx, list| frames(cx, &robot.joints, list));
     robot.frames = frames.unwrap_or_default();
+    let parents = parent::read(cx, &robot.joints, &read);
+    for (joint, parent) in robot.joints.iter_mut().zip(parents) {
+        joint.parent = parent;
+    }
     let mimics = mimic::read(cx, &robot.joints, &read);
     let findings = rows(cx, &mut robot, read);
     (mimic::split(cx, robot, &mimics), findings)
@@ -184,20 +188,38 @@ fn frames(cx: &mut Context, joints: &[Joint], list: &Value) -> Option<Vec<Frame>
 
 /// Warnings about placed joints are about their placements, not about the rows.
 fn rows(cx: &mut Context, robot: &mut Robot, read: Vec<joint::Read>) -> Vec<Finding> {
-    let is_placed = read.iter().any(|joint| joint.placed.is_some());
+    let (branches, is_any) = (
+        robot.branches(),
+        read.iter().any(|joint| joint.placed.is_some()),
+    );
+    let is_placed = branches || is_any;
     let mut placed: Vec<Placed> = Vec::with_capacity(read.len());
     for (index, joint) in read.into_iter().enumerate() {
+        let (why, help) = match branches {
+            true => (
+                "links branch",
+                "give all joints a placement and an axis: rows of a table cannot say where a \
+                 branch begins",
+            ),
+            false => (
+                "others are",
+                "give all joints a placement and an axis, or all of them DH rows",
+            ),
+        };
         match joint.placed {
             Some(own) => placed.push(own),
             None if is_placed => {
-                let message = format!("joint {} is not placed, and others are", index + 1);
-                let help = "give all joints a placement and an axis, or all of them DH rows";
+                let message = format!("joint {} is not placed, and {why}", index + 1);
                 cx.sink.error(joint.span, message, help);
             }
             None => {}
         }
     }
     let is_whole = is_placed && placed.len() == robot.joints.len();
+    if branches && is_whole {
+        place(robot, &placed);
+        return robot.validate();
+    }
     if !is_whole || !cx.unread.is_empty() {
         return robot.validate();
     }

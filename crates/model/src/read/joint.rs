@@ -17,6 +17,7 @@ const ROW: [&str; 6] = ["alpha", "beta", "a", "d", "theta", "offset"];
 pub(super) struct Read<'v> {
     pub(super) joint: Joint,
     pub(super) placed: Option<Placed>,
+    pub(super) parent: Option<&'v Value<'v>>,
     pub(super) mimic: Option<&'v Value<'v>>,
     pub(super) span: Range<usize>,
 }
@@ -51,8 +52,11 @@ pub(super) fn read<'v>(cx: &mut Context, mut keys: Table<'v>) -> Read<'v> {
         None if is_massless => None,
         _ => own.required(cx, "inertia", INERTIA, Context::inertia),
     };
+    let parent = own.get("parent");
     let joint = Joint {
         name,
+        parent: None,
+        place: None,
         kind: kind.unwrap_or(JointKind::Revolute),
         alpha,
         beta,
@@ -74,6 +78,7 @@ pub(super) fn read<'v>(cx: &mut Context, mut keys: Table<'v>) -> Read<'v> {
     Read {
         joint,
         placed,
+        parent,
         mimic,
         span,
     }

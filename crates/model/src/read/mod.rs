@@ -50,6 +50,7 @@ mod guard;
 mod joint;
 mod link;
 mod mimic;
+mod parent;
 mod report;
 mod scene;
 mod suggest;

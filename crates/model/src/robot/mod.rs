@@ -1,11 +1,12 @@
-//! A serial arm, fixed at build time, with exact parameters.
+//! A robot, fixed at build time, with exact parameters: a serial arm, or a tree of links.
 //!
-//! One [`Joint`] per row of the DH table; everything is SI, angles are exact
-//! ([`Angle`]), all other numbers are exact rationals.
+//! One [`Joint`] per row of the DH table, or per joint that is placed where links branch;
+//! everything is SI, angles are exact ([`Angle`]), all other numbers are exact rationals.
 //!
 //! - `findings`: errors and warnings, each at a place of the robot file ([`Finding`]), and the
 //!   names by which a file silences them ([`RobotWarning`])
 //! - `follower`: joints that follow others, rows without a coordinate ([`Follower`])
+//! - `tree`: which link carries which ([`Parent`])
 //! - `validate`: checks of robots, from files and from code ([`Robot::validate`])
 //! - `reach`: how far an arm reaches, and inertias too large for that
 //! - `units`: sizes that were probably meant in another unit
@@ -17,6 +18,7 @@ mod body;
 mod findings;
 mod follower;
 pub(crate) mod reach;
+mod tree;
 mod units;
 mod validate;
 pub mod values;
@@ -30,11 +32,13 @@ use core::fmt;
 use num_traits::{Signed, Zero};
 
 use crate::number::{Angle, Rational};
+use crate::placed::Placed;
 
 pub use body::Defect;
 pub(crate) use findings::Findings;
 pub use findings::{Finding, RobotWarning, Severity};
 pub use follower::Follower;
+pub use tree::Parent;
 
 pub(crate) use units::shown;
 pub(crate) use validate::{ENDINGS, WORDS, is_plain, is_snake};
@@ -77,7 +81,7 @@ impl JointKind {
     ];
 }
 
-/// A serial arm.
+/// A serial arm, or a tree of links.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Robot {
     /// Its name; the generated module is called after it.
@@ -99,8 +103,8 @@ pub struct Robot {
     pub payload_frame: Option<Placement>,
     /// The payloads that there may be, where a payload is an argument.
     pub payload_range: Option<PayloadRange>,
-    /// The joints from the base to the hand; 1 to [`Robot::MAX_JOINTS`]. Each is a row of the
-    /// table and a coordinate; rows between them may be followers.
+    /// The joints, each after the one that carries it; 1 to [`Robot::MAX_JOINTS`]. Each is a row of
+    /// the table and a coordinate; rows between them may be followers.
     pub joints: Vec<Joint>,
     /// Rows of the table whose joints follow others, in their order.
     pub followers: Vec<Follower>,
@@ -222,8 +226,13 @@ impl PayloadRange {
 pub struct Joint {
     /// Name, if the file gives one.
     pub name: Option<String>,
+    /// The link that carries it, unless that is the link before, or the base's for the first.
+    pub parent: Option<Parent>,
     /// Revolute or prismatic.
     pub kind: JointKind,
+    /// Where it is on the link that carries it, with an axis of length one: of every joint of a
+    /// robot whose links branch, and then its row is zero; of no other.
+    pub place: Option<Placed>,
     /// Twist α_i.
     pub alpha: Angle,
     /// A turn β_i about y after the twist, A_i Ry(β_i); of standard DH only.

@@ -2,6 +2,7 @@
 
 use alloc::format;
 use alloc::string::String;
+use alloc::vec::Vec;
 
 use num_traits::{Signed, Zero};
 
@@ -25,12 +26,18 @@ pub(crate) fn reach(robot: &Robot, placed: &[Placement]) -> Rational {
         lengths.max().unwrap_or_default()
     };
     let all = robot.rows();
-    let rows = all.iter();
-    let rows = rows.map(|joint| joint.a.abs() + joint.d.abs() + travel(joint));
-    let placements = placed.iter().chain(&robot.tool);
-    let steps: Rational = placements.map(|own| largest(&own.xyz)).sum();
+    let mut reached: Vec<Rational> = Vec::with_capacity(all.len());
+    for (row, joint) in all.iter().enumerate() {
+        let own = joint.place.as_ref().map(|place| &place.placement);
+        let step = own.or(placed.get(row)).map(|own| largest(&own.xyz));
+        let own = joint.a.abs() + joint.d.abs() + travel(joint) + step.unwrap_or_default();
+        let before = joint.carrier(row).and_then(|carrier| reached.get(carrier));
+        reached.push(before.cloned().unwrap_or_default() + own);
+    }
+    let tool: Rational = robot.tool.iter().map(|own| largest(&own.xyz)).sum();
     let bodies = all.iter().map(|joint| largest(&joint.com));
-    rows.sum::<Rational>() + steps + bodies.max().unwrap_or_default()
+    let furthest = reached.into_iter().max().unwrap_or_default();
+    furthest + tool + bodies.max().unwrap_or_default()
 }
 
 /// A body whose mass is all at a distance k from an axis has the moment m k².

@@ -64,6 +64,7 @@ impl Robot {
             let help = "each follows a joint of its kind, one that turns by a whole multiple";
             findings.error("joint", message, help);
         }
+        findings.tree(self);
         let mut names = BTreeMap::new();
         for (index, joint) in rows.into_iter().enumerate() {
             findings.joint(index, joint);
@@ -188,7 +189,7 @@ impl Findings {
         }
     }
 
-    fn placement(&mut self, place: &str, placement: &Placement) {
+    pub(super) fn placement(&mut self, place: &str, placement: &Placement) {
         for value in &placement.xyz {
             self.size(place, value);
         }

@@ -11,7 +11,8 @@ use super::values::{
     angle, lines, list, number, numbers, payloads, placement, position, quoted, range, short_hash,
     table, texts, unless_zero, word,
 };
-use super::{Convention, Joint, JointKind, Placement, Robot};
+use super::{Convention, Joint, JointKind, Parent, Placement, Robot};
+use crate::placed::Placed;
 
 /// Writes a robot as a robot file.
 ///
@@ -24,7 +25,10 @@ pub fn write(robot: &Robot) -> String {
     let convention = word(&Convention::WORDS, &robot.convention);
     let head = [
         ("name", Some(quoted(&robot.name))),
-        ("convention", Some(quoted(convention))),
+        (
+            "convention",
+            (!robot.branches()).then(|| quoted(convention)),
+        ),
         ("gravity", Some(numbers(&robot.gravity))),
     ];
     let placements = robot.placements();
@@ -78,6 +82,15 @@ impl Robot {
 
 fn write_joint(text: &mut String, joint: &Joint) {
     let zero = || String::from("0");
+    let parent = joint.parent.map(|parent| match parent {
+        Parent::Base => quoted(Parent::BASE),
+        Parent::Row(row) => format!("{}", row + 1),
+    });
+    let place = joint.place.as_ref();
+    let placed = |placed: &Placed| match placed.placement.is_identity() {
+        true => String::from("{}"),
+        false => placement(&placed.placement),
+    };
     let (d, theta, offset) = match joint.kind {
         JointKind::Revolute => (number(&joint.d), zero(), angle(&joint.theta)),
         JointKind::Prismatic => (zero(), angle(&joint.theta), number(&joint.d)),
@@ -93,7 +106,10 @@ fn write_joint(text: &mut String, joint: &Joint) {
         text,
         [
             ("name", joint.name.as_deref().map(quoted)),
+            ("parent", parent),
             ("kind", Some(quoted(word(&JointKind::WORDS, &joint.kind)))),
+            ("placement", place.map(placed)),
+            ("axis", place.map(|placed| numbers(&placed.axis))),
             ("alpha", unless_zero(angle(&joint.alpha))),
             ("beta", unless_zero(angle(&joint.beta))),
             ("a", unless_zero(number(&joint.a))),

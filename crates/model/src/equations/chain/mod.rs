@@ -19,8 +19,6 @@ pub mod second_derivatives;
 mod shoulder;
 pub mod skeleton;
 mod spin;
-#[cfg(test)]
-mod trees;
 
 use alloc::vec::Vec;
 

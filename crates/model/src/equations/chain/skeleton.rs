@@ -50,16 +50,29 @@ impl<S: Scalar> Skeleton<S> {
         columns: &[Column<S>],
     ) -> Skeleton<S> {
         let mut links: Vec<Segment<S>> = Vec::with_capacity(arm.links.len());
-        let mut turned = identity();
-        let mut moved: Vector<S> = zero_vector();
-        let mut merged = false;
-        for (joint, link) in arm.links.iter().enumerate() {
+        let base = Held {
+            carrier: None,
+            turned: identity(),
+            moved: zero_vector(),
+            merged: false,
+        };
+        arm.outward(&base, |joint, before: &Held<S>| {
+            let link = &arm.links[joint];
+            let Held {
+                carrier,
+                mut turned,
+                mut moved,
+                merged,
+            } = before.clone();
             let twist = match &link.beta {
                 None => turn(&link.alpha, ABOUT_X),
                 Some(beta) => product(&turn(&link.alpha, ABOUT_X), &turn(beta, ABOUT_Y)),
             };
             let along = [link.a.clone(), S::zero(), S::zero()];
-            if arm.convention == Convention::Modified {
+            if let Some(place) = &link.place {
+                moved = sum(&moved, &apply(&turned, &place.origin));
+                turned = product(&turned, &transposed(&place.axes));
+            } else if arm.convention == Convention::Modified {
                 moved = sum(&moved, &apply(&turned, &along));
                 turned = product(&turned, &twist);
             }
@@ -74,18 +87,23 @@ impl<S: Scalar> Skeleton<S> {
                 turned = product(&turned, &turn(&theta, ABOUT_Z));
                 moved = sum(&moved, &apply(&turned, &reach));
                 turned = product(&turned, &rest);
-                if let Some(Segment { link: carrier, .. }) = links.last_mut() {
+                if let Some(carrier) = carrier {
+                    let carrier = &mut links[carrier].link;
                     carrier.body = carrier.body.with(&body.carried(&turned, &moved));
                     // A drive that is locked feels nothing.
                     let own = probes(columns, joint, &turned, &moved);
                     carrier.probes.extend(own.filter(Probe::is_body));
                 }
-                merged = true;
-                continue;
+                return Held {
+                    carrier,
+                    turned,
+                    moved,
+                    merged: true,
+                };
             }
             let slide = [S::zero(), S::zero(), link.d.clone()];
             let mut own = ChainLink {
-                parent: links.len().checked_sub(1),
+                parent: carrier,
                 kind: link.kind,
                 rotation: identity(),
                 offset: moved.clone(),
@@ -102,7 +120,7 @@ impl<S: Scalar> Skeleton<S> {
             match link.kind {
                 JointKind::Revolute => {
                     own.rotation = turned;
-                    if merged && !links.is_empty() {
+                    if merged && carrier.is_some() {
                         own.absorb_turn();
                     }
                     moved = sum(&slide, &reach);
@@ -125,8 +143,13 @@ impl<S: Scalar> Skeleton<S> {
                 dh: (turned.clone(), moved.clone()),
                 link: own,
             });
-            merged = false;
-        }
+            Held {
+                carrier: Some(links.len() - 1),
+                turned,
+                moved,
+                merged: false,
+            }
+        });
         Skeleton {
             gravity: arm.gravity.clone(),
             base: None,
@@ -134,6 +157,16 @@ impl<S: Scalar> Skeleton<S> {
             columns: columns.len(),
         }
     }
+}
+
+/// Where the frame of a row is: in the frame of the segment that carries it, or of the base, and
+/// whether rows that are locked lie between.
+#[derive(Clone)]
+struct Held<S> {
+    carrier: Option<usize>,
+    turned: Rotation<S>,
+    moved: Vector<S>,
+    merged: bool,
 }
 
 impl<S: Scalar> ChainLink<S> {

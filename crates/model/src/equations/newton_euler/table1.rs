@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 use super::{Motion, with_drive};
+use crate::equations::arm::Step;
 use crate::equations::matrix::*;
 use crate::equations::screws::Wrench;
 use crate::equations::{Arm, At, Link};
@@ -55,31 +56,35 @@ pub(in crate::equations) fn tip_acceleration<S: Scalar>(
 }
 
 fn wrenches_on<S: Scalar>(arm: &Arm<S>, bodies: &[Body<S>]) -> Vec<Wrench<S>> {
-    let mut wrench = Wrench::zero();
-    let links = bodies.iter().zip(&arm.links).enumerate();
-    from_hand(links, |(i, (body, link))| {
+    arm.inward(|i, arrived: Vec<(usize, Wrench<S>)>| {
+        let (body, link) = (&bodies[i], &arm.links[i]);
         let inertial_force = scaled(&link.mass, &body.motion.acceleration_at(&body.com));
         let inertial_moment = body.euler(link);
 
         // The lever of f_{i+1}, and that of F_i, from the point the moment is taken about.
-        let [lever, centre] = match arm.convention {
-            Convention::Standard => [body.lever.clone(), sum(&body.lever, &body.com)],
-            Convention::Modified => {
-                let next = bodies.get(i + 1).map(|next| next.lever.clone());
-                [next.unwrap_or_else(zero_vector), body.com.clone()]
-            }
+        let centre = match arm.convention {
+            Convention::Standard => sum(&body.lever, &body.com),
+            Convention::Modified => body.com.clone(),
         };
-        let carried = sum(&wrench.moment, &cross(&lever, &wrench.force));
-        let moment = sum(&carried, &cross(&centre, &inertial_force));
+        let mut carried = Wrench::zero();
+        for (next, wrench) in &arrived {
+            let lever = match arm.convention {
+                Convention::Standard => &body.lever,
+                Convention::Modified => &bodies[*next].lever,
+            };
+            let moment = sum(&wrench.moment, &cross(lever, &wrench.force));
+            let force = wrench.force.clone();
+            carried = carried.with(&Wrench { force, moment });
+        }
+        let moment = sum(&carried.moment, &cross(&centre, &inertial_force));
         let moment = sum(&moment, &inertial_moment);
-        let force = sum(&inertial_force, &wrench.force);
-        wrench = Wrench { force, moment };
-        wrench.clone()
+        let force = sum(&inertial_force, &carried.force);
+        let wrench = Wrench { force, moment };
+        (wrench.clone(), wrench)
     })
 }
 
 fn bodies<S: Scalar>(arm: &Arm<S>, at: &At<S>, rates: [&[S]; 2], base: &Motion<S>) -> Vec<Body<S>> {
-    let mut bodies: Vec<Body<S>> = Vec::with_capacity(arm.links.len());
     let [qd, qdd] = rates;
     let base = Body {
         rotation: identity(),
@@ -88,8 +93,9 @@ fn bodies<S: Scalar>(arm: &Arm<S>, at: &At<S>, rates: [&[S]; 2], base: &Motion<S
         com: zero_vector(),
         motion: base.clone(),
     };
-    for (i, step) in arm.steps(at).enumerate() {
-        let (link, before) = (step.link, bodies.last().unwrap_or(&base));
+    let steps: Vec<Step<S>> = arm.steps(at).collect();
+    arm.outward(&base, |i, before: &Body<S>| {
+        let (step, link) = (&steps[i], &arm.links[i]);
         // The step's own origin is p_i*: no difference of two large positions.
         let frame = step.append(&Columns::turned(before.rotation.clone()));
         let body = Body {
@@ -99,9 +105,8 @@ fn bodies<S: Scalar>(arm: &Arm<S>, at: &At<S>, rates: [&[S]; 2], base: &Motion<S
             lever: frame.origin,
             motion: before.motion.clone(),
         };
-        bodies.push(body.moved(arm.convention, link.kind, &qd[i], &qdd[i]));
-    }
-    bodies
+        body.moved(arm.convention, link.kind, &qd[i], &qdd[i])
+    })
 }
 
 impl<S: Scalar> Body<S> {

@@ -56,45 +56,55 @@ pub fn inverse_dynamics<S: Scalar>(
 ) -> Vec<S> {
     let motions = motions(arm, at, qd, qdd);
     let steps: Vec<Step<'_, S>> = arm.steps(at).collect();
-    // f_{i+1} and n_{i+1}, in the axes of frame i+1.
-    let mut wrench = Wrench::zero();
-    from_hand(motions.iter().enumerate(), |(i, motion)| {
-        let (link, next) = (&arm.links[i], steps.get(i + 1));
-        let turned = |v: &Vector<S>| next.map_or_else(|| v.clone(), |next| next.to_previous(v));
-        let force_here = turned(&wrench.force);
+    arm.inward(|i, arrived: Vec<(usize, Wrench<S>)>| {
+        let (link, motion) = (&arm.links[i], &motions[i]);
+        // f_{i+1} of each link that it carries, in its axes.
+        let forces = arrived
+            .iter()
+            .map(|(next, wrench)| steps[*next].to_previous(&wrench.force));
+        let forces: Vec<Vector<S>> = forces.collect();
         let inertial_force = scaled(&link.mass, &motion.acceleration_at(&link.com));
         let inertial_moment = motion.euler(link, moment);
 
-        let (carried, arm_of_centre) = match arm.convention {
-            Convention::Standard => {
-                let lever = link.lever_here(&at[i].d);
-                let carried = match (next, moment) {
-                    (Some(next), Moment::AsPrinted) => {
-                        let moment = cross(&next.to_link(&lever), &wrench.force);
-                        next.to_previous(&sum(&wrench.moment, &moment))
-                    }
-                    _ => sum(&turned(&wrench.moment), &cross(&lever, &force_here)),
-                };
-                (carried, sum(&lever, &link.com))
-            }
-            Convention::Modified => {
-                let mut carried = turned(&wrench.moment);
-                if let Some(next) = next {
-                    carried = sum(&carried, &cross(&next.lever_before(), &force_here));
+        let lever = match arm.convention {
+            Convention::Standard => link.lever_here(&at[i].d),
+            Convention::Modified => zero_vector(),
+        };
+        let moments = arrived.iter().zip(&forces).map(|((next, wrench), force)| {
+            let next = &steps[*next];
+            match (arm.convention, moment) {
+                (Convention::Standard, Moment::AsPrinted) => {
+                    let moment = cross(&next.to_link(&lever), &wrench.force);
+                    next.to_previous(&sum(&wrench.moment, &moment))
                 }
-                (carried, link.com.clone())
+                (Convention::Standard, _) => {
+                    sum(&next.to_previous(&wrench.moment), &cross(&lever, force))
+                }
+                (Convention::Modified, _) => {
+                    let carried = next.to_previous(&wrench.moment);
+                    sum(&carried, &cross(&next.lever_before(), force))
+                }
             }
+        });
+        let all = |vectors: &mut dyn Iterator<Item = Vector<S>>| {
+            vectors.fold(zero_vector(), |all, vector| sum(&all, &vector))
+        };
+        let carried = all(&mut { moments });
+        let arm_of_centre = match arm.convention {
+            Convention::Standard => sum(&lever, &link.com),
+            Convention::Modified => link.com.clone(),
         };
         let moment = sum(&carried, &cross(&arm_of_centre, &inertial_force));
         let moment = sum(&moment, &inertial_moment);
-        let force = sum(&force_here, &inertial_force);
-        wrench = Wrench { force, moment };
+        let force = sum(&all(&mut forces.into_iter()), &inertial_force);
+        let wrench = Wrench { force, moment };
         let load = wrench.part(link.kind);
         let along = match arm.convention {
             Convention::Standard => dot(load, &link.axis_here()),
             Convention::Modified => load[2].clone(),
         };
-        with_drive(link, &along, &qd[i], &qdd[i])
+        let torque = with_drive(link, &along, &qd[i], &qdd[i]);
+        (wrench, torque)
     })
 }
 
@@ -109,15 +119,14 @@ pub(in crate::equations) fn last_motion<S: Scalar>(
 }
 
 fn motions<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], qdd: &[S]) -> Vec<Motion<S>> {
-    let mut before = Motion::of_base(&arm.gravity);
-    let motions = arm.steps(at).enumerate().map(|(i, step)| {
-        before = match step.convention {
-            Convention::Standard => standard(&step, &before, &qd[i], &qdd[i]),
-            Convention::Modified => modified(&step, &before, &qd[i], &qdd[i]),
-        };
-        before.clone()
-    });
-    motions.collect()
+    let steps: Vec<Step<S>> = arm.steps(at).collect();
+    arm.outward(&Motion::of_base(&arm.gravity), |i, before: &Motion<S>| {
+        let step = &steps[i];
+        match step.convention {
+            Convention::Standard => standard(step, before, &qd[i], &qdd[i]),
+            Convention::Modified => modified(step, before, &qd[i], &qdd[i]),
+        }
+    })
 }
 
 /// The joint moves along z_{i−1}, before the rotation X, and the rows of Table 2 stand as printed.
@@ -171,6 +180,9 @@ fn plus_z<S: Scalar>(v: &Vector<S>, s: &S) -> Vector<S> {
 impl<S: Scalar> Step<'_, S> {
     /// Returns P_i = (a_i, −d_i sin α_i, d_i cos α_i) in frame i−1 (modified DH).
     fn lever_before(&self) -> Vector<S> {
+        if let Some(place) = &self.link.place {
+            return sum(&place.origin, &scaled(&self.at.d, &place.axes[2]));
+        }
         let alpha = &self.link.alpha;
         let sideways = negative(&times(&self.at.d, &alpha.sin));
         [self.link.a.clone(), sideways, times(&self.at.d, &alpha.cos)]

@@ -6,18 +6,20 @@ use super::*;
 fn random_trees_move_as_lagrange_and_euler_say() {
     let mut draw = Draw(Points::new(0x7ee5));
     for round in 0..40 {
-        let skeleton = draw.skeleton(2 + round % 5, false);
-        fixed(&skeleton, &mut draw, round);
+        let arm = draw.arm(2 + round % 5);
+        fixed(&arm, &mut draw, round);
     }
 }
 
-fn fixed(skeleton: &Skeleton<S>, draw: &mut Draw, round: usize) {
-    let n = skeleton.links.len();
-    let position = draw.position(skeleton);
+fn fixed(arm: &Arm<S>, draw: &mut Draw, round: usize) {
+    let n = arm.links.len();
+    let position = draw.position(&arm.links);
+    let dh = arm.at(&position);
     let [qd, qdd, v, a] = [(); 4].map(|()| draw.values(n));
-    let links: Vec<&ChainLink<S>> = skeleton.links.iter().map(|own| &own.link).collect();
-    let written = LagrangeEuler::of(&links, &position, &skeleton.gravity);
-    let torques = sums(&written.torques(&qd, &qdd), &friction(skeleton, &qd));
+    let written = LagrangeEuler::new(arm, &dh);
+    let (d, c, h) = (written.inertia(), written.gravity(), written.christoffel());
+    let torques = written.inverse_dynamics(&qd, &qdd);
+    let skeleton = &Skeleton::with_columns(arm, &vec![None; n], &draw.columns(n));
     let chain = Chain::new(skeleton, &draw.regrouping(skeleton));
     let (posed, at) = chain.posed(&position);
     let composite = Composite::new(&posed, &at);
@@ -40,28 +42,20 @@ fn fixed(skeleton: &Skeleton<S>, draw: &mut Draw, round: usize) {
             "{round} composite"
         );
     }
-    let coriolis = written.coriolis(&qd);
+    let coriolis: Vec<Vec<S>> = h.iter().map(|h| products(h, &qd)).collect();
     for travel in TRAVELS {
-        assert_eq!(
-            flat(&composite.inertia(travel)),
-            flat(&written.inertia),
-            "{round} D"
-        );
-        assert_eq!(
-            fields(&composite.gravity(travel)),
-            fields(&written.gravity),
-            "{round} c"
-        );
+        assert_eq!(flat(&composite.inertia(travel)), flat(&d), "{round} D");
+        assert_eq!(fields(&composite.gravity(travel)), fields(&c), "{round} c");
         assert_eq!(
             flat(&composite.coriolis_matrix(&qd, travel)),
             flat(&coriolis),
             "{round} C"
         );
     }
-    for (found, expected) in composite.christoffel().iter().zip(&written.christoffel) {
+    for (found, expected) in composite.christoffel().iter().zip(&h) {
         assert_eq!(flat(found), flat(expected), "{round} h");
     }
-    let momentum = product_of(&written.inertia, &qd);
+    let momentum = products(&d, &qd);
     let energy = total(momentum.iter().zip(&qd).map(|(p, q)| times(p, q))).half();
     assert_eq!(
         field(&posed.kinetic_energy(&at, &qd)),
@@ -71,21 +65,36 @@ fn fixed(skeleton: &Skeleton<S>, draw: &mut Draw, round: usize) {
     let [found, slopes] = posed.momentum(&at, &qd);
     assert_eq!(fields(&found), fields(&momentum), "{round} p");
     // ∂T/∂q = Cᵀ q̇, since Ḋ = C + Cᵀ and Ḋ q̇ − ∂T/∂q = C q̇.
-    let expected = product_of(&columns_of(&coriolis), &qd);
+    let expected = products(&columns_of(&coriolis), &qd);
     assert_eq!(fields(&slopes), fields(&expected), "{round} ∂T/∂q");
-    let wanted = sums(
-        &product_of(&written.inertia, &a),
-        &product_of(&coriolis, &v),
-    );
-    let wanted = sums(&sums(&wanted, &written.gravity), &friction(skeleton, &v));
+    let wanted = sums(&products(&d, &a), &products(&coriolis, &v));
+    let wanted = sums(&sums(&wanted, &c), &friction(arm, &v));
     assert_eq!(
         fields(&posed.passivity(&at, &qd, &v, &a)),
         fields(&wanted),
         "{round}"
     );
-    forward(&posed, &at, [&qd, &qdd, &torques], &written.inertia, round);
+    forward(&posed, &at, [&qd, &qdd, &torques], &d, round);
     derivatives(&chain, &position, [&qd, &qdd, &v], round);
     regressors(skeleton, &chain, &position, [&qd, &qdd, &v, &a], round);
+    locked(arm, draw, &position, &d, round);
+}
+
+/// What is locked is a part of the link that carries it: D loses a row and a column.
+fn locked(arm: &Arm<S>, draw: &mut Draw, position: &Position, d: &[Vec<S>], round: usize) {
+    let n = position.len();
+    let joint = round % n;
+    let mut locks: Vec<Option<JointPosition<S>>> = vec![None; n];
+    locks[joint] = Some(position[joint].clone());
+    let skeleton = Skeleton::new(arm, &locks);
+    let chain = Chain::new(&skeleton, &draw.regrouping(&skeleton));
+    let mut moving = position.clone();
+    moving.remove(joint);
+    let (posed, at) = chain.posed(&moving);
+    let rest: Vec<usize> = (0..n).filter(|own| *own != joint).collect();
+    let expected = flat(&super::super::factor::submatrix(d, &rest));
+    let found = Composite::new(&posed, &at).inertia(CompositeOrder::Inward);
+    assert_eq!(flat(&found), expected, "{round} with joint {joint} locked");
 }
 
 fn forward(
@@ -180,9 +189,9 @@ fn regressors(
     [qd, qdd, v, a]: [&[S]; 4],
     round: usize,
 ) {
-    let n = qd.len();
     let mut weights = Points::new(round as u64);
-    let values: Vec<S> = (0..n).map(|_| Sparse::Value(weights.field())).collect();
+    let values = (0..skeleton.columns).map(|_| Sparse::Value(weights.field()));
+    let values: Vec<S> = values.collect();
     let more = skeleton.clone().with_values(&values);
     let plain = Regrouping::base(&more);
     let (heavier, at_heavier) = Chain::new(&more, &plain).posed(position);
@@ -194,10 +203,10 @@ fn regressors(
     let all_passive = heavier.passivity(&at_heavier, qd, v, a);
     for travel in TRAVELS {
         let y = posed.regressor(&at, qd, qdd, travel);
-        let found = sums(&torques, &product_of(&y, &values));
+        let found = sums(&torques, &products(&y, &values));
         assert_eq!(fields(&found), fields(&whole), "{round} Y");
         let y = posed.passivity_regressor(&at, qd, [v, a], travel);
-        let found = sums(&passive, &product_of(&y, &values));
+        let found = sums(&passive, &products(&y, &values));
         assert_eq!(
             fields(&found),
             fields(&all_passive),

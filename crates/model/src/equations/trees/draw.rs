@@ -1,4 +1,4 @@
-//! Trees, regroupings and states drawn at random.
+//! Arms, regroupings and states drawn at random.
 
 use super::*;
 
@@ -35,14 +35,24 @@ impl Draw {
         SinCosPair { sin, cos }
     }
 
-    fn rotation(&mut self) -> Rotation<S> {
-        let mut half = identity();
-        [half[1][1], half[2][2]] = [S::one().neg(), S::one().neg()];
+    /// A pose as those of robots are: half of them shift alone.
+    fn placement(&mut self) -> Columns<S> {
+        let mut pose = Columns::identity();
         match self.below(5) {
-            0 | 1 => identity(),
-            2 => half,
-            3 => turn(&self.angle(), ABOUT_X),
-            _ => product(&turn(&self.angle(), ABOUT_X), &turn(&self.angle(), ABOUT_Y)),
+            0 | 1 => {}
+            2 => {
+                let half = SinCosPair {
+                    sin: S::zero(),
+                    cos: S::one().neg(),
+                };
+                pose = pose.turn_x(&half);
+            }
+            3 => pose = pose.turn_x(&self.angle()),
+            _ => pose = pose.turn_x(&self.angle()).turn_y(&self.angle()),
+        }
+        Columns {
+            origin: self.vector(),
+            ..pose
         }
     }
 
@@ -70,70 +80,77 @@ impl Draw {
         body
     }
 
-    fn segment(&mut self, i: usize) -> Segment<S> {
-        let parent = match self.below(4) {
-            _ if i == 0 => None,
+    fn parent(&mut self, i: usize) -> Option<Parent> {
+        let carrier = match self.below(4) {
+            _ if i == 0 => return None,
             0 => (self.below(1 + i as u64) as usize).checked_sub(1),
             1 => Some(self.below(i as u64) as usize),
-            _ => Some(i - 1),
+            _ => return None,
         };
-        let slides = self.below(4) == 0;
-        let (sin, cos) = self.0.circle();
-        let slope = [Sparse::Value(sin), S::zero(), Sparse::Value(cos)];
-        let axis = match self.below(2) {
-            0 if slides => slope,
-            _ => unit_z(),
-        };
+        match carrier {
+            None => Some(Parent::Base),
+            Some(carrier) => (carrier + 1 < i).then_some(Parent::Row(carrier)),
+        }
+    }
+
+    pub(super) fn link(&mut self, i: usize) -> Link<S> {
+        let place = self.placement();
+        let body = self.body();
         let theta = match self.below(2) {
-            0 if !slides => self.angle(),
+            0 => self.angle(),
             _ => SinCosPair::straight(),
         };
-        let probes = match self.below(2) {
-            0 => Vec::new(),
-            _ => vec![Probe {
-                column: i,
-                of: Probed::Body(self.body()),
-            }],
-        };
-        let link = ChainLink {
-            parent,
-            kind: match slides {
-                true => JointKind::Prismatic,
-                false => JointKind::Revolute,
+        Link {
+            parent: self.parent(i),
+            kind: match self.below(4) {
+                0 => JointKind::Prismatic,
+                _ => JointKind::Revolute,
             },
-            rotation: match slides {
-                true => identity(),
-                false => self.rotation(),
-            },
-            offset: self.vector(),
-            axis,
+            place: Some(place),
             theta,
-            body: self.body(),
-            probes,
-            free: zero_vector(),
+            d: self.constant(),
+            mass: body.mass,
+            com: body.first,
+            inertia: body.second,
             armature: self.constant(),
             friction: Friction {
                 viscous: self.constant(),
                 coulomb: None,
             },
-            spins_freely: false,
-            axes: 0,
-        };
-        Segment {
-            joint: i,
-            d: self.constant(),
-            dh: (identity(), zero_vector()),
-            link,
+            ..Link::still()
         }
     }
 
-    pub(super) fn skeleton(&mut self, count: usize, floats: bool) -> Skeleton<S> {
-        Skeleton {
+    /// An arm of modified DH whose links branch, with a frame on one of them.
+    pub(super) fn arm(&mut self, count: usize) -> Arm<S> {
+        let links: Vec<Link<S>> = (0..count).map(|i| self.link(i)).collect();
+        let frame = NamedFrame {
+            name: "tip".into(),
+            joint: self.below(count.max(1) as u64) as usize,
+            pose: self.placement(),
+        };
+        Arm {
+            convention: Convention::Modified,
             gravity: self.vector(),
-            base: floats.then(|| self.body()),
-            links: (0..count).map(|i| self.segment(i)).collect(),
-            columns: count,
+            base: (self.below(2) == 0).then(|| self.placement()),
+            tool: None,
+            links,
+            following: Vec::new(),
+            frames: Frames {
+                named: vec![frame],
+                ..Frames::default()
+            },
         }
+    }
+
+    /// Columns of a regressor: bodies on half of the links.
+    pub(super) fn columns(&mut self, count: usize) -> Vec<Column<S>> {
+        let joints: Vec<usize> = (0..count).filter(|_| self.below(2) == 0).collect();
+        let columns = joints.into_iter().map(|joint| Column {
+            joint,
+            of: Probed::Body(self.body()),
+        });
+        columns.collect()
     }
 
     pub(super) fn regrouping(&mut self, skeleton: &Skeleton<S>) -> Regrouping<S> {
@@ -157,14 +174,11 @@ impl Draw {
         }
     }
 
-    pub(super) fn position(&mut self, skeleton: &Skeleton<S>) -> Position {
-        let joints = skeleton
-            .links
-            .iter()
-            .map(|segment| match segment.link.kind {
-                JointKind::Revolute => JointPosition::Revolute(self.angle()),
-                JointKind::Prismatic => JointPosition::Prismatic(self.value()),
-            });
+    pub(super) fn position(&mut self, links: &[Link<S>]) -> Position {
+        let joints = links.iter().map(|link| match link.kind {
+            JointKind::Revolute => JointPosition::Revolute(self.angle()),
+            JointKind::Prismatic => JointPosition::Prismatic(self.value()),
+        });
         joints.collect()
     }
 }

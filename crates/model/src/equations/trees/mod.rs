@@ -1,33 +1,34 @@
-//! Random trees on a base that is fixed or floats, in any regrouping, against Lagrange–Euler as
-//! written (eqs. 2.2–2.15) in a prime field; slopes against dual numbers.
+//! Random trees in a prime field: the textbook's formulations against each other, and the chain, in
+//! any regrouping and on a base that is fixed or floats, against Lagrange–Euler as written
+//! (eqs. 2.2–2.15); slopes against dual numbers.
 
 mod draw;
 mod fixed;
 mod floating;
-mod written;
+mod textbook;
 
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::composite::{Composite, CompositeOrder};
-use super::floating::Solving;
-use super::recursion::{AccelerationForm, MomentForm};
-use super::{
-    Body, Chain, ChainLink, Form, HandChoice, Probe, Probed, Rotation, Unknowns, product, turn,
+use super::chain::composite::{Composite, CompositeOrder};
+use super::chain::floating::Solving;
+use super::chain::recursion::{AccelerationForm, MomentForm};
+use super::chain::{
+    Body, Chain, Column, Displacement, EliminatedTip, Form, HandChoice, LinkRegrouping, Probed,
+    Regrouping, Skeleton, Unknowns,
 };
-use super::{Displacement, EliminatedTip, LinkRegrouping, Regrouping, Segment, Skeleton};
-use crate::equations::friction::Friction;
-use crate::equations::lagrange_euler::velocity_terms;
-use crate::equations::matrix::*;
-use crate::equations::{JointPosition, SinCosPair};
-use crate::robot::{Inertia, JointKind};
+use super::frames::{Frames, NamedFrame};
+use super::friction::Friction;
+use super::lagrange_euler::LagrangeEuler;
+use super::matrix::*;
+use super::{Arm, DhVariables, Formulation, JointPosition, Link, SinCosPair};
+use crate::robot::{Convention, Inertia, JointKind, Parent};
 use crate::scalar::dual::Dual;
 use crate::scalar::field::{Field, Points};
 use crate::scalar::sparse::Sparse;
 use crate::scalar::{Divide, Scalar};
 
 use draw::Draw;
-use written::{Joint, LagrangeEuler};
 
 type S = Sparse<Field>;
 type Position = Vec<JointPosition<S>>;
@@ -48,10 +49,10 @@ fn flat(rows: &[Vec<S>]) -> Vec<Field> {
     rows.iter().flat_map(|row| fields(row)).collect()
 }
 
-fn friction(skeleton: &Skeleton<S>, rates: &[S]) -> Vec<S> {
-    let links = skeleton.links.iter().zip(rates);
+fn friction(arm: &Arm<S>, rates: &[S]) -> Vec<S> {
+    let links = arm.links.iter().zip(rates);
     links
-        .map(|(segment, rate)| segment.link.friction.torque(rate))
+        .map(|(link, rate)| link.friction.torque(rate))
         .collect()
 }
 
@@ -99,9 +100,4 @@ fn form(travel: CompositeOrder) -> Form {
         travel,
         ..Form::all(true, true, false, HandChoice::None)[0]
     }
-}
-
-fn product_of(matrix: &[Vec<S>], v: &[S]) -> Vec<S> {
-    let dot = |row: &Vec<S>| total(row.iter().zip(v).map(|(x, y)| times(x, y)));
-    matrix.iter().map(dot).collect()
 }

@@ -6,36 +6,25 @@ use super::*;
 fn floating_trees_move_as_lagrange_and_euler_say() {
     let mut draw = Draw(Points::new(0xf10a7));
     for round in 0..20 {
-        let skeleton = draw.skeleton(round % 5, true);
-        floating(&skeleton, &mut draw, round);
+        let arm = Arm {
+            base: None,
+            ..draw.arm(round % 5)
+        };
+        floating(&arm, &mut draw, round);
     }
 }
 
 /// The base as six joints on links without mass, but for the last: slides along x, y and z, turns
 /// about z, x and y.
-fn carriers(body: &Body<S>) -> Vec<ChainLink<S>> {
-    let link = |k: usize| {
-        let slides = k < 3;
-        let axis = if slides { identity()[k] } else { unit_z() };
-        let cycle: Rotation<S> = three(|i| identity()[(i + 2) % 3]);
-        ChainLink {
-            parent: k.checked_sub(1),
-            kind: match slides {
-                true => JointKind::Prismatic,
-                false => JointKind::Revolute,
-            },
-            rotation: if k <= 3 { identity() } else { cycle },
-            offset: zero_vector(),
-            axis,
-            theta: SinCosPair::straight(),
-            body: if k == 5 { body.clone() } else { Body::zero() },
-            probes: Vec::new(),
-            free: zero_vector(),
-            armature: S::zero(),
-            friction: Friction::none(),
-            spins_freely: false,
-            axes: 0,
-        }
+fn carriers(body: &Link<S>) -> Vec<Link<S>> {
+    let link = |k: usize| Link {
+        kind: match k < 3 {
+            true => JointKind::Prismatic,
+            false => JointKind::Revolute,
+        },
+        // From z to x to y to z.
+        place: (k != 3).then(|| Columns::turned(three(|i| identity()[(i + 1) % 3]))),
+        ..if k == 5 { body.clone() } else { Link::still() }
     };
     (0..6).map(link).collect()
 }
@@ -52,14 +41,12 @@ struct Base {
 }
 
 impl Base {
-    fn of(position: &[JointPosition<S>], qd: &[S], qdd: &[S], gravity: &Vector<S>) -> Base {
-        let links = carriers(&Body::zero());
+    fn of(arm: &Arm<S>, dh: &[DhVariables<S>], [qd, qdd]: [&[S]; 2]) -> Base {
         let pose = |derived: &[usize]| {
-            (0..6).fold(Columns::identity(), |m, i| {
-                let (link, at) = (&links[i], &position[i]);
-                let joint = Joint { link, at };
+            let steps = arm.steps(dh).enumerate().take(6);
+            steps.fold(Columns::identity(), |m, (i, step)| {
                 let times = derived.iter().filter(|by| **by == i);
-                times.fold(joint.append(&m), |m, _| joint.derive(&m))
+                times.fold(step.append(&m), |m, _| m.derive(step.link.kind))
             })
         };
         let at = pose(&[]);
@@ -81,43 +68,50 @@ impl Base {
             omega: turn(&rate),
             omega_dot: turn(&bend),
             acceleration: back(&bend.origin),
-            gravity: back(gravity),
+            gravity: back(&arm.gravity),
             twists: first.iter().map(twist).collect(),
         }
     }
 
     /// Returns what the six joints feel of a wrench on the base, over τ.
     fn felt(&self, loads: &[S]) -> Vec<S> {
-        let felt = product_of(&self.twists, &loads[..6]);
+        let felt = products(&self.twists, &loads[..6]);
         felt.into_iter().chain(loads[6..].iter().cloned()).collect()
     }
 }
 
-fn floating(skeleton: &Skeleton<S>, draw: &mut Draw, round: usize) {
-    let n = skeleton.links.len();
-    let body = skeleton.base.as_ref().expect("a base that floats");
-    let mut position: Position = (0..6)
-        .map(|k| match k < 3 {
-            true => JointPosition::Prismatic(draw.value()),
-            false => JointPosition::Revolute(draw.angle()),
-        })
-        .collect();
-    let joints = draw.position(skeleton);
-    position.extend(joints.iter().cloned());
-    let [qd, qdd] = [(); 2].map(|()| draw.values(6 + n));
-    let trunk = carriers(body);
-    let limbs = skeleton.links.iter().map(|own| ChainLink {
-        parent: Some(own.link.parent.map_or(5, |parent| 6 + parent)),
-        ..own.link.clone()
-    });
-    let all: Vec<ChainLink<S>> = trunk.into_iter().chain(limbs).collect();
-    let links: Vec<&ChainLink<S>> = all.iter().collect();
-    let written = LagrangeEuler::of(&links, &position, &skeleton.gravity);
-    let mut expected = written.torques(&qd, &qdd);
-    for (torque, own) in expected[6..].iter_mut().zip(friction(skeleton, &qd[6..])) {
-        *torque = plus(torque, &own);
+fn floating(limbs: &Arm<S>, draw: &mut Draw, round: usize) {
+    let n = limbs.links.len();
+    let trunk = Link {
+        parent: None,
+        armature: S::zero(),
+        friction: Friction::none(),
+        theta: SinCosPair::straight(),
+        d: S::zero(),
+        kind: JointKind::Revolute,
+        ..draw.link(0)
+    };
+    let mut whole = limbs.clone();
+    whole.links = carriers(&trunk);
+    for (i, link) in limbs.links.iter().enumerate() {
+        let carrier = limbs.carrier(i).map_or(5, |carrier| 6 + carrier);
+        let parent = (carrier + 1 != 6 + i).then_some(Parent::Row(carrier));
+        whole.links.push(Link {
+            parent,
+            ..link.clone()
+        });
     }
-    let base = Base::of(&position[..6], &qd[..6], &qdd[..6], &skeleton.gravity);
+    let position = draw.position(&whole.links);
+    let joints = position[6..].to_vec();
+    let dh = whole.at(&position);
+    let [qd, qdd] = [(); 2].map(|()| draw.values(6 + n));
+    let written = LagrangeEuler::new(&whole, &dh);
+    let expected = written.inverse_dynamics(&qd, &qdd);
+    let base = Base::of(&whole, &dh, [&qd, &qdd]);
+    let skeleton = &Skeleton {
+        base: Some(Body::of(&trunk)),
+        ..Skeleton::new(limbs, &vec![None; n])
+    };
     let regrouping = draw.regrouping(skeleton);
     let chain = |gravity: Vector<S>| {
         let base_gravity = Skeleton {
@@ -146,7 +140,7 @@ fn floating(skeleton: &Skeleton<S>, draw: &mut Draw, round: usize) {
         let d = composite.floating_inertia(travel);
         let half: Vec<Vec<S>> = d.iter().map(|row| base.felt(row)).collect();
         let full: Vec<Vec<S>> = columns_of(&half).iter().map(|row| base.felt(row)).collect();
-        assert_eq!(flat(&full), flat(&written.inertia), "{round} D");
+        assert_eq!(flat(&full), flat(&written.inertia()), "{round} D");
     }
     let (spin, couple) = (SPINS[0], COUPLES[0]);
     let loads = posed.floating_dynamics(&at, rates, accelerations, spin, couple);

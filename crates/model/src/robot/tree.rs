@@ -1,0 +1,130 @@
+//! Which link carries which: rows are a tree, of which a serial arm is the case with one end.
+
+use alloc::format;
+use alloc::vec::Vec;
+
+use num_traits::{One, Zero};
+
+use super::findings::{Findings, of_joint};
+use super::{Joint, Robot};
+use crate::number::Rational;
+
+/// The link that carries another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Parent {
+    /// The base.
+    Base,
+    /// The link of a row that comes earlier, zero-based.
+    Row(usize),
+}
+
+impl Parent {
+    /// The word by which robot files name the base.
+    pub const BASE: &'static str = "base";
+}
+
+impl Robot {
+    /// Returns the row whose link carries that of a row, both zero-based; `None` for one that the
+    /// base carries.
+    pub fn carrier(&self, row: usize) -> Option<usize> {
+        let rows = self.rows();
+        rows.get(row).and_then(|joint| joint.carrier(row))
+    }
+
+    /// Returns true if some link is carried by another than the link before: the links branch, and
+    /// their joints are placed.
+    pub fn branches(&self) -> bool {
+        self.rows().iter().any(|joint| joint.parent.is_some())
+    }
+
+    /// Returns the rows whose links carry no other.
+    pub fn tips(&self) -> Vec<usize> {
+        let rows = self.rows();
+        let carried = rows.iter().enumerate();
+        let carriers: Vec<_> = carried.map(|(row, joint)| joint.carrier(row)).collect();
+        let is_tip = |row: &usize| !carriers.contains(&Some(*row));
+        (0..rows.len()).filter(is_tip).collect()
+    }
+}
+
+impl Joint {
+    pub(crate) fn carrier(&self, row: usize) -> Option<usize> {
+        match self.parent {
+            None => row.checked_sub(1),
+            Some(Parent::Base) => None,
+            Some(Parent::Row(parent)) => Some(parent),
+        }
+    }
+
+    fn has_row(&self) -> bool {
+        let lengths = [&self.a, &self.d];
+        let angles = [&self.alpha, &self.beta, &self.theta];
+        lengths.iter().any(|x| !x.is_zero()) || angles.iter().any(|angle| !angle.is_zero())
+    }
+}
+
+impl Findings {
+    /// Checks who carries whom, and that joints are placed exactly where links branch. Placements
+    /// that a file has, and that rows are still to be derived from, are not looked at.
+    pub(super) fn tree(&mut self, robot: &Robot) {
+        let branches = robot.branches();
+        for (row, joint) in robot.rows().into_iter().enumerate() {
+            let parent = of_joint(row, "parent");
+            match joint.parent {
+                Some(Parent::Row(carrier)) if carrier >= row => {
+                    let message = format!("the link that carries joint {} comes later", row + 1);
+                    self.error(
+                        parent,
+                        message,
+                        "put each joint after the one that carries it",
+                    );
+                }
+                Some(own) if own == Parent::Row(row.wrapping_sub(1)) || row == 0 => {
+                    let message = "a parent that is the link before";
+                    self.error(parent, message, "leave it out: it is the default");
+                }
+                _ => {}
+            }
+            let Some(placed) = &joint.place else {
+                if branches {
+                    let message = format!("joint {} has no placement, and links branch", row + 1);
+                    let help = "give every joint a placement and an axis: rows of a table cannot \
+                                say where a branch begins";
+                    self.error(of_joint(row, "placement"), message, help);
+                }
+                continue;
+            };
+            self.placement(&of_joint(row, "placement"), &placed.placement);
+            let square: Rational = placed.axis.iter().map(|x| x * x).sum();
+            if !square.is_one() {
+                let message = "an axis whose length is not exactly one";
+                self.error(
+                    of_joint(row, "axis"),
+                    message,
+                    "such as [0, 0, 1] or [0.6, 0.8, 0]",
+                );
+            }
+            if !branches || joint.has_row() {
+                let message = "a joint that is placed and has a row";
+                let help = "joints are placed where links branch; elsewhere they have rows";
+                self.error(of_joint(row, "placement"), message, help);
+            }
+        }
+        if !branches {
+            return;
+        }
+        let tips = robot.tips().len();
+        let ends = [
+            ("tool", &robot.tool),
+            ("payload_frame", &robot.payload_frame),
+        ];
+        for (key, _) in ends
+            .into_iter()
+            .filter(|(_, placement)| placement.is_some())
+        {
+            let message = format!("`{key}` of a robot whose links have {tips} ends");
+            let help = "a [[frame]] with a `link` says which end";
+            self.error(key, message, help);
+        }
+    }
+}
