@@ -1,6 +1,7 @@
 //! The file of a robot in Rust: the contents of one module in one scalar, with header, table,
 //! structs and functions.
 
+use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Convention, Follower, JointKind, Position, Robot};
 use dalembert_model::scene::Scene;
 
@@ -84,8 +85,9 @@ pub(super) fn header(
     scalar: ScalarType,
 ) -> Vec<String> {
     let convention = match robot.convention {
-        Convention::Standard => "standard",
-        Convention::Modified => "modified (Craig)",
+        _ if robot.branches() => "a tree of links",
+        Convention::Standard => "standard DH",
+        Convention::Modified => "modified (Craig) DH",
     };
     let (name, n) = (&robot.name, robot.joints.len());
     let gravity = arguments::gravity(robot, setup);
@@ -93,7 +95,7 @@ pub(super) fn header(
         format!("Dynamics of the robot `{name}`, {n} joints, in `{scalar}`."),
         format!("Input hash {}.", robot.short_hash()),
         String::new(),
-        format!("SI units, radians; {convention} DH; {gravity}"),
+        format!("SI units, radians; {convention}; {gravity}"),
     ];
     if let Some(base) = &robot.base {
         let at = placed(base);
@@ -110,8 +112,19 @@ pub(super) fn header(
         let notes = robot.notes.iter();
         lines.extend(notes.map(|note| format!("- {}", sentence(note))));
     }
-    let head = "| joint | kind | α | a | d | θ | mass |";
-    say(&mut lines, ["", head, "|---|---|---|---|---|---|---|"]);
+    let branches = robot.branches();
+    let heads = match branches {
+        true => [
+            "| joint | kind | carried by | xyz | rpy | axis | mass |",
+            "|---|---|---|---|---|---|---|",
+        ],
+        false => [
+            "| joint | kind | α | a | d | θ | mass |",
+            "|---|---|---|---|---|---|---|",
+        ],
+    };
+    say(&mut lines, [""]);
+    say(&mut lines, heads);
     for (row, joint) in robot.rows().into_iter().enumerate() {
         let mut followers = robot.followers.iter();
         let own = followers.find(|own| own.row == row);
@@ -128,10 +141,36 @@ pub(super) fn header(
             negative if negative.starts_with('-') => format!("{q} - {}", &negative[1..]),
             positive => format!("{q} + {positive}"),
         };
+        let kind = match joint.kind {
+            JointKind::Revolute => "revolute",
+            JointKind::Prismatic => "prismatic",
+        };
+        if let Some(place) = &joint.place {
+            let carrier = match robot.carrier(row) {
+                None => "the base".to_owned(),
+                Some(carrier) => match &robot.rows()[carrier].name {
+                    Some(name) => escaped(name),
+                    None => format!("link {}", carrier + 1),
+                },
+            };
+            let list = |list: &[Rational; 3]| list.each_ref().map(decimal).join(", ");
+            let rpy = place
+                .placement
+                .rpy
+                .each_ref()
+                .map(Angle::to_string)
+                .join(", ");
+            let (xyz, axis) = (list(&place.placement.xyz), list(&place.axis));
+            let mass = decimal(&joint.mass);
+            lines.push(format!(
+                "| {label} | {kind} | {carrier} | {xyz} | {rpy} | {axis} | {mass} |"
+            ));
+            continue;
+        }
         let (d, theta) = (decimal(&joint.d), joint.theta.to_string());
-        let (kind, d, theta) = match joint.kind {
-            JointKind::Revolute => ("revolute", d, plus(theta)),
-            JointKind::Prismatic => ("prismatic", plus(d), theta),
+        let (d, theta) = match joint.kind {
+            JointKind::Revolute => (d, plus(theta)),
+            JointKind::Prismatic => (plus(d), theta),
         };
         let (alpha, a, mass) = (&joint.alpha, decimal(&joint.a), decimal(&joint.mass));
         lines.push(format!(

@@ -249,6 +249,9 @@ fn check(robot: &Robot, request: &Request) -> Outcome<()> {
 fn check_frames(robot: &Robot, function: Function) -> Outcome<()> {
     let frames = robot.frames.iter();
     let names: Vec<&str> = frames.map(|frame| frame.name.as_str()).collect();
+    if robot.branches() && function.is_of_hand() {
+        return Err(no_hand(robot, function, &names));
+    }
     let known = |frame: &&str| *frame == HAND || names.contains(frame);
     let Some(frame) = function.frames().into_iter().find(|frame| !known(frame)) else {
         return Ok(());
@@ -260,6 +263,24 @@ fn check_frames(robot: &Robot, function: Function) -> Outcome<()> {
     };
     let message = format!("`{}`: the robot has no frame `{frame}`", function.text());
     Err(GenerateError::refused(function, message, fix))
+}
+
+fn no_hand(robot: &Robot, function: Function, names: &[&str]) -> GenerateError {
+    let text = function.text();
+    let tips = robot.tips().len();
+    let message = format!("`{text}` is of the hand, and the links of this robot have {tips} ends");
+    let name = text.split('@').next().unwrap_or_default();
+    let fix = match names {
+        [] => format!(
+            "name an end by a [[frame]] table in the robot file (`name`, `link`, `xyz`, `rpy`), and ask for \
+             `{name}@NAME`"
+        ),
+        [first, ..] => format!(
+            "ask for `{name}@{first}`; frames are `{}`",
+            names.join("`, `")
+        ),
+    };
+    GenerateError::refused(function, message, fix)
 }
 
 type Found = (Vec<GeneratedFunction>, Vec<ScalarType>);

@@ -72,6 +72,11 @@ impl Setup {
             .placements()
             .into_iter()
             .filter_map(|(.., frame)| frame);
+        let places = robot
+            .rows()
+            .into_iter()
+            .filter_map(|joint| joint.place.as_ref());
+        let frames = frames.chain(places.map(|place| &place.placement));
         let frames = frames.flat_map(|Placement { rpy, .. }| rpy);
         let locks = self.scene().into_iter().flat_map(|scene| &scene.lock);
         let positions = offsets.chain(locks.map(|(_, at)| at));

@@ -144,6 +144,13 @@ impl Request {
     pub fn setup(&self, robot: &Robot) -> Result<Setup, Complaint> {
         let setup = Setup::in_scene(robot, self.scene.as_ref())?;
         let setup = setup.taking(&self.parameters);
+        if setup.has(RuntimeParameter::Payload) && robot.branches() {
+            let message = "a payload that is an argument is on the last link, and the links of this robot \
+                           branch";
+            let help =
+                "give it to a link in a scene: payload = { link = \"left_hand\", mass = 2.5, … }";
+            return Err(Complaint::new(message, help));
+        }
         if !setup.robot().has_mass() && !setup.has(RuntimeParameter::Payload) {
             // A function that no payload changes is kinematics, or over any parameters.
             let weighs = |own: &&Function| own.payload_dependence() != PayloadDependence::None;

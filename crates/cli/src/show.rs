@@ -77,7 +77,9 @@ fn poses(robot: &Robot, at: &[f64]) -> Result<Report, WrongLength> {
     report.value("input", robot.short_hash());
     report.value("at", at);
     report.value("links", links.json());
-    report.value("hand", rows(&runtime.hand(&q)?));
+    if !robot.branches() {
+        report.value("hand", rows(&runtime.hand(&q)?));
+    }
     Ok(report)
 }
 

@@ -124,7 +124,9 @@ impl<T: Float> JointVectors<T> {
 ///     base: None,
 ///     tool: None,
 ///     links: vec![Link {
+///         parent: None,
 ///         kind: JointKind::Revolute,
+///         place: None,
 ///         alpha: straight.clone(),
 ///         beta: None,
 ///         theta: straight,

@@ -29,7 +29,9 @@ pub fn link<S: Scalar>(
     inertia: Inertia<S>,
 ) -> Link<S> {
     Link {
+        parent: None,
         kind,
+        place: None,
         alpha,
         beta: None,
         theta,

@@ -85,12 +85,15 @@ fn weighed(name: &str, (body, centre): (Body<Fixed>, Pose<Fixed>), frame: &Pose<
 fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Parts, String> {
     let gravity = Digits.list(entries(Some(&file.gravity)))?;
     let mut all = vec![("gravity".to_owned(), gravity.to_vec())];
-    let mut frame = Digits.placement(file.base.as_ref())?;
-    let mut links = Vec::new();
+    let base = Digits.placement(file.base.as_ref())?;
+    let (mut frame, mut links) = (base.clone(), Vec::new());
     for (index, row) in file.joint.iter().enumerate() {
         let name = |what: &str| format!("{what} of joint {}", index + 1);
         let [before, behind] = Digits.ways(row, file.convention.as_deref())?;
-        let at = frame.then(&before);
+        let carrier = file
+            .carrier(index)?
+            .map_or(&base, |carrier| &links[carrier]);
+        let at = carrier.then(&before);
         frame = at.then(&behind);
         let along = at.rotate(Digits.axis(row)?);
         all.push((name("axis"), along.to_vec()));
@@ -118,7 +121,11 @@ fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Part
     all.push(("payload_frame".to_owned(), held.rows()));
     if let Some(own) = payload {
         let body = Digits.body(Some(&own.mass), Some(&own.com), own.inertia.as_ref())?;
-        let frame = if has_frame { &held } else { &frame };
+        let holder = &links[file.holder(own.link.as_ref())?];
+        let frame = match has_frame {
+            true => &holder.then(&Digits.placement(file.payload_frame.as_ref())?),
+            false => holder,
+        };
         all.extend(weighed("the payload", body, frame));
     }
     for own in &file.frame {

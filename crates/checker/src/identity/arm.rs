@@ -2,6 +2,7 @@
 //! state.
 
 use std::array::from_fn;
+use std::iter::successors;
 
 use num_rational::BigRational as Rational;
 use num_traits::{ToPrimitive, Zero};
@@ -16,6 +17,8 @@ use super::state::State;
 /// A joint and its link, at q = 0 in base axes.
 #[derive(Clone, Debug)]
 pub struct Joint {
+    /// The row whose link carries it; none of one that the base carries.
+    pub(super) parent: Option<usize>,
     turns: bool,
     pub(super) axis: Screw,
     /// The joint that moves it, and how many times as far: itself, but for one that follows.
@@ -65,7 +68,7 @@ pub struct Arm {
     pub(super) locked: Vec<usize>,
     /// The acceleration of gravity, m/s².
     pub(super) gravity: Vector,
-    /// The hand, then the frames that have names.
+    /// The hand, where links have one end, then the frames that have names.
     pub(super) frames: Vec<Frame>,
     /// One half, in this field.
     pub half: Number,
@@ -238,7 +241,8 @@ impl Arm {
     pub fn read(setting: &Setting, point: &Point) -> Result<Arm, String> {
         let (file, scene) = (setting.file, setting.scene);
         let convention = file.convention.as_deref();
-        let mut frame = point.placement(file.base.as_ref())?;
+        let base = point.placement(file.base.as_ref())?;
+        let mut frame = base;
         let mut joints: Vec<Joint> = Vec::new();
         for (index, row) in file.joint.iter().enumerate() {
             let in_joint = |why: &str| format!("joint {}: {why}", index + 1);
@@ -248,7 +252,9 @@ impl Arm {
                 _ => return Err("expected `convention` and rows, or placements".into()),
             }
             let [before, behind] = point.ways(row, convention)?;
-            let at = frame.then(&before);
+            let parent = file.carrier(index)?;
+            let carrier = parent.map_or(base, |own| joints[own].link);
+            let at = carrier.then(&before);
             frame = at.then(&behind);
             let along = point.axis(row)?;
             if dot(along, along).value(point.prime) != Some(1) {
@@ -262,6 +268,7 @@ impl Arm {
             let [viscous, coulomb, armature] = point.list(drive.map(Option::as_ref))?;
             let (leader, line) = point.line(setting, index)?;
             joints.push(Joint {
+                parent,
                 turns,
                 leader,
                 line,
@@ -283,9 +290,12 @@ impl Arm {
             });
         }
         let gravity = scene.gravity.as_ref().unwrap_or(&file.gravity);
-        let (name, row) = (HAND.to_owned(), joints.len().saturating_sub(1));
-        let pose = frame.then(&point.placement(file.tool.as_ref())?);
-        let mut frames = vec![Frame { name, row, pose }];
+        let mut frames = Vec::new();
+        if !file.branches() {
+            let (name, row) = (HAND.to_owned(), joints.len().saturating_sub(1));
+            let pose = frame.then(&point.placement(file.tool.as_ref())?);
+            frames.push(Frame { name, row, pose });
+        }
         for own in &file.frame {
             let (name, row) = (own.name.clone(), file.row(&own.link)?);
             let placed = point.placement(Some(&own.placement()))?;
@@ -307,21 +317,27 @@ impl Arm {
         };
         if let Some((own, frame)) = carried {
             let carried = point.body(Some(&own.mass), Some(&own.com), own.inertia.as_ref())?;
-            arm.carry(carried, &point.placement(frame)?);
+            let row = file.holder(own.link.as_ref())?;
+            arm.carry(row, carried, &point.placement(frame)?);
         }
         Ok(arm)
     }
 
-    /// Adds a body to the last link, in a frame of that; the link's own is then both as one.
-    pub(super) fn carry(&mut self, (body, centre): (Body, Pose), frame: &Pose) {
-        if let Some(last) = self.joints.last_mut() {
-            let at = last.link.then(frame).then(&centre);
-            last.body = last.body.plus(&body.moved(&at));
-            let under = Number::from(1) / last.body.mass;
-            let centre = scaled(under, last.body.first);
-            let mut about = last.body.moved(&Pose::shift(opposite(centre)));
+    /// Lists a row and those that carry its link, to the base.
+    pub(super) fn way(&self, row: usize) -> impl Iterator<Item = usize> {
+        successors(Some(row), |&row| self.joints[row].parent)
+    }
+
+    /// Adds a body to a link, in a frame of that; the link's own is then both as one.
+    fn carry(&mut self, row: usize, (body, centre): (Body, Pose), frame: &Pose) {
+        if let Some(link) = self.joints.get_mut(row) {
+            let at = link.link.then(frame).then(&centre);
+            link.body = link.body.plus(&body.moved(&at));
+            let under = Number::from(1) / link.body.mass;
+            let centre = scaled(under, link.body.first);
+            let mut about = link.body.moved(&Pose::shift(opposite(centre)));
             about.first = Vector::default();
-            last.given = (about, Pose::shift(centre));
+            link.given = (about, Pose::shift(centre));
         }
     }
 
@@ -336,7 +352,8 @@ impl Arm {
         let mut body = Body::new(own);
         let centre = Pose::shift(std::mem::take(&mut body.first));
         let frame = point.placement(setting.file.payload_frame.as_ref())?;
-        self.carry((body, centre), &frame);
+        let row = setting.file.holder(None)?;
+        self.carry(row, (body, centre), &frame);
         Ok(self)
     }
 

@@ -25,10 +25,11 @@ struct At<'a> {
 impl<'a> At<'a> {
     fn new(arm: &'a Arm, state: &'a State, view: &'a View) -> At<'a> {
         let mut poses = vec![Pose::shift(Vector::default())];
-        for (k, joint) in arm.joints.iter().enumerate() {
-            poses.push(poses[k].then(&joint.motion(state)));
+        let carrier = |joint: &Joint| joint.parent.map_or(0, |own| own + 1);
+        for joint in &arm.joints {
+            poses.push(poses[carrier(joint)].then(&joint.motion(state)));
         }
-        let axes = arm.joints.iter().zip(&poses);
+        let axes = arm.joints.iter().map(|own| (own, &poses[carrier(own)]));
         let bodies = arm.joints.iter().zip(&poses[1..]);
         At {
             arm,
@@ -67,21 +68,26 @@ impl<'a> At<'a> {
     fn wrenches(&self, qd: &[Number], qdd: &[Number], gravity: Vector) -> Vec<Screw> {
         let [qd, qdd] = [qd, qdd].map(|rates| self.arm.spread(rates));
         // A base that is accelerated upward feels what one in gravity does.
-        let mut a = Screw(Vector::default(), opposite(gravity));
-        let mut v = Screw::default();
-        let rates = self.axes.iter().zip(qd).zip(qdd);
-        let wrenches = rates.zip(&self.bodies).map(|(((axis, qd), qdd), body)| {
-            let own = axis.times(qd);
-            a = a.plus(axis.times(qdd)).plus(v.across(own));
-            v = v.plus(own);
+        let base = (
+            Screw::default(),
+            Screw(Vector::default(), opposite(gravity)),
+        );
+        let mut motions: Vec<(Screw, Screw)> = Vec::new();
+        let mut wrenches: Vec<Screw> = Vec::new();
+        for (k, joint) in self.arm.joints.iter().enumerate() {
+            let (v, a) = joint.parent.map_or(base, |carrier| motions[carrier]);
+            let (axis, body) = (self.axes[k], &self.bodies[k]);
+            let own = axis.times(qd[k]);
+            let a = a.plus(axis.times(qdd[k])).plus(v.across(own));
+            let v = v.plus(own);
+            motions.push((v, a));
             let turned = v.across_momentum(body.momentum(v));
-            body.momentum(a).plus(turned)
-        });
-        let mut wrenches: Vec<Screw> = wrenches.collect();
-        let mut all = Screw::default();
-        for wrench in wrenches.iter_mut().rev() {
-            all = all.plus(*wrench);
-            *wrench = all;
+            wrenches.push(body.momentum(a).plus(turned));
+        }
+        for k in (0..wrenches.len()).rev() {
+            if let Some(carrier) = self.arm.joints[k].parent {
+                wrenches[carrier] = wrenches[carrier].plus(wrenches[k]);
+            }
         }
         wrenches
     }
@@ -120,15 +126,17 @@ impl<'a> At<'a> {
     /// Returns D: if one joint alone moves, all links behind it move as one body.
     fn inertia(&self) -> Matrix {
         let mut d = vec![self.zeros(); self.count()];
-        let mut behind = Body::default();
+        let mut behind = self.bodies.clone();
         for (k, joint) in self.arm.joints.iter().enumerate().rev() {
-            behind = behind.plus(&self.bodies[k]);
-            let momentum = behind.momentum(self.axes[k]);
+            if let Some(carrier) = joint.parent {
+                behind[carrier] = behind[carrier].plus(&behind[k]);
+            }
+            let momentum = behind[k].momentum(self.axes[k]);
             let (row, factor) = joint.leader;
             d[row][row] = d[row][row] + joint.armature * factor * factor;
-            for (i, axis) in self.axes.iter().enumerate().take(k + 1) {
+            for i in self.arm.way(k) {
                 let (column, other) = self.arm.joints[i].leader;
-                let entry = axis.power(momentum) * factor * other;
+                let entry = self.axes[i].power(momentum) * factor * other;
                 d[row][column] = d[row][column] + entry;
                 if i < k {
                     d[column][row] = d[column][row] + entry;
@@ -214,8 +222,10 @@ impl<'a> At<'a> {
         let Some((last, hand)) = self.hand() else {
             return Vec::new();
         };
+        let way: Vec<usize> = self.arm.way(last).collect();
         let column = |(row, own): (usize, &Screw)| {
-            let own = if row <= last { *own } else { Screw::default() };
+            let is_on_way = way.contains(&row);
+            let own = if is_on_way { *own } else { Screw::default() };
             self.seen(own, &hand)
         };
         let columns = self.axes.iter().enumerate().map(column).collect();
@@ -414,7 +424,9 @@ fn parts(values: Vec<Number>, part: usize) -> Vec<Number> {
 pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
     let own = At::new(arm, state, &field.view);
     // A frame that is not there has no results, of which others would be short.
-    own.hand()?;
+    if field.is_of_frame() {
+        own.hand()?;
+    }
     let n = arm.movers.len();
     let mut words = field.is.split('_');
     let first = words.next()?;

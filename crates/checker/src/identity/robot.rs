@@ -81,6 +81,7 @@ pub(super) struct Payload {
     pub(super) mass: String,
     pub(super) com: [String; 3],
     pub(super) inertia: Option<[String; 6]>,
+    pub(super) link: Option<String>,
 }
 
 #[derive(Default, Deserialize)]
@@ -136,6 +137,7 @@ impl NamedFrame {
 pub(super) struct Row {
     pub(super) name: Option<String>,
     pub(super) kind: String,
+    pub(super) parent: Option<String>,
     pub(super) placement: Option<Placement>,
     pub(super) axis: Option<[String; 3]>,
     pub(super) beta: Option<String>,
@@ -174,6 +176,48 @@ pub(super) struct Limits {
 }
 
 impl File {
+    /// Returns the row whose link carries that of a row; none of one that the base carries.
+    ///
+    /// # Errors
+    /// A parent that does not come before, or of a joint that is not placed.
+    pub(super) fn carrier(&self, row: usize) -> Result<Option<usize>, String> {
+        let own = &self.joint[row];
+        let why = match own.parent.as_deref() {
+            None => return Ok(row.checked_sub(1)),
+            Some(_) if own.placement.is_none() => "has a `parent` and no placement",
+            Some("base") => return Ok(None),
+            Some(word) => match self.row(word)? {
+                carrier if carrier < row => return Ok(Some(carrier)),
+                _ => "comes before its `parent`",
+            },
+        };
+        Err(format!("joint {}: it {why}", row + 1))
+    }
+
+    /// Returns true if links have more than one end: there is no hand, and nothing to hold.
+    pub(super) fn branches(&self) -> bool {
+        let rows = 1..self.joint.len();
+        rows.into_iter()
+            .any(|row| self.carrier(row) != Ok(Some(row - 1)))
+    }
+
+    /// Returns the row whose link holds a payload: the last, but where links branch.
+    ///
+    /// # Errors
+    /// A link that is not named, or is another than the last one of a chain.
+    pub(super) fn holder(&self, link: Option<&String>) -> Result<usize, String> {
+        let last = self.joint.len().saturating_sub(1);
+        let row = link.map(|link| self.row(link)).transpose()?;
+        match (row, self.branches()) {
+            (Some(row), true) => Ok(row),
+            (None, true) => Err("a payload, and no link that holds it".into()),
+            (Some(row), false) if row != last => {
+                Err("a payload on another than the last link".into())
+            }
+            _ => Ok(last),
+        }
+    }
+
     /// Returns true if numbers of it may be rounded: its joints are placed, and have no rows, or
     /// payloads are in a frame of their own.
     pub fn is_placed(&self) -> bool {

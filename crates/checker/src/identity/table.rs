@@ -127,16 +127,28 @@ impl Field {
         }
         own.rows.is_sorted_by(|a, b| a < b).then_some(())?;
         // A pose has no axes of motion, and of what acts at a frame all six components are given.
-        let has_rows = MOVES.split_whitespace().any(|own| own == self.is);
-        let acts = ["tau_wrench", "qdd_wrench"].contains(&self.is);
+        let has_rows = self.moves();
         let is_pose = self.is == "pose" && own.axes.is_empty();
-        let is_whole = own.rows.is_empty() && (acts || is_pose);
+        let is_whole = own.rows.is_empty() && (self.acts() || is_pose);
         (has_rows || is_whole).then_some(())?;
         let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
         (!own.frame.is_empty() && own.frame.chars().all(is_name)).then_some(())?;
         self.name = format!("{}_{}", self.name, view.replace(':', "_"));
         self.view = own;
         Some(self)
+    }
+
+    fn moves(&self) -> bool {
+        MOVES.split_whitespace().any(|own| own == self.is)
+    }
+
+    fn acts(&self) -> bool {
+        ["tau_wrench", "qdd_wrench"].contains(&self.is)
+    }
+
+    /// Returns true if it is of the hand, or of a frame that has a name.
+    pub(super) fn is_of_frame(&self) -> bool {
+        self.moves() || self.acts() || self.is == "pose"
     }
 
     /// Returns true if it is by the inverse of a matrix: of others, no state is without.

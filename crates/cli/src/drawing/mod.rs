@@ -13,9 +13,10 @@ pub(crate) mod paper;
 mod table;
 
 use dalembert_model::equations::matrix::{Columns, Vector};
+use dalembert_model::equations::{Arm, Link};
 use dalembert_model::number::Rounded;
 use dalembert_model::reference::{Reference, WrongLength};
-use dalembert_model::robot::{Convention, Joint, JointKind, Robot};
+use dalembert_model::robot::{Convention, JointKind, Robot};
 use nalgebra::DVector;
 
 use page::View;
@@ -33,7 +34,8 @@ struct Scene<'r> {
     robot: &'r Robot,
     first: Columns<f64>,
     frames: Vec<Columns<f64>>,
-    hand: Columns<f64>,
+    /// Of a robot whose links have one end.
+    hand: Option<Columns<f64>>,
     bodies: Vec<Body>,
 }
 
@@ -48,8 +50,11 @@ pub fn svg(robot: &Robot, q: &[f64]) -> Result<String, WrongLength> {
     let scene = Scene {
         robot,
         first: runtime.arm().base.clone().unwrap_or_else(Columns::identity),
-        hand: runtime.hand(&at)?,
-        bodies: bodies(robot, &frames),
+        hand: match robot.branches() {
+            true => None,
+            false => Some(runtime.hand(&at)?),
+        },
+        bodies: bodies(runtime.arm(), &frames),
         frames,
     };
     let mut page = Paper::of_arm(&robot.name, &table::lines(robot, q));
@@ -59,20 +64,19 @@ pub fn svg(robot: &Robot, q: &[f64]) -> Result<String, WrongLength> {
     Ok(page.end())
 }
 
-fn bodies(robot: &Robot, frames: &[Columns<f64>]) -> Vec<Body> {
-    let body = |(joint, frame): (&Joint, &Columns<f64>)| {
-        let com = joint.com.each_ref().map(f64::nearest_rational);
-        let own = joint.inertia.map(f64::nearest_rational).rows();
+fn bodies(arm: &Arm<f64>, frames: &[Columns<f64>]) -> Vec<Body> {
+    let body = |(link, frame): (&Link<f64>, &Columns<f64>)| {
+        let own = link.inertia.rows();
         // R I Rᵀ
         let half = own.map(|row| frame.rotate(&row));
         let column = |k: usize| frame.rotate(&[half[0][k], half[1][k], half[2][k]]);
         Body {
-            mass: f64::nearest_rational(&joint.mass),
-            centre: frame.apply(&com, &1.0),
+            mass: link.mass,
+            centre: frame.apply(&link.com, &1.0),
             inertia: [column(0), column(1), column(2)],
         }
     };
-    let bodies = robot.rows().into_iter().zip(frames).map(body);
+    let bodies = arm.links.iter().zip(frames).map(body);
     bodies.filter(|body| body.mass > 0.0).collect()
 }
 
@@ -102,7 +106,8 @@ impl Body {
 
 impl Scene<'_> {
     fn points(&self) -> Vec<Vector<f64>> {
-        let mut points = vec![[0.0; 3], self.first.origin, self.hand.origin];
+        let mut points = vec![[0.0; 3], self.first.origin];
+        points.extend(self.hand.iter().map(|hand| hand.origin));
         points.extend(self.frames.iter().map(|frame| frame.origin));
         points.extend(self.bodies.iter().map(|body| body.centre));
         points
@@ -120,11 +125,35 @@ impl Scene<'_> {
 
     fn axis(&self, row: usize) -> (Vector<f64>, Vector<f64>) {
         let frame = match (self.robot.convention, row) {
+            _ if self.robot.branches() => &self.frames[row],
             (Convention::Standard, 0) => &self.first,
             (Convention::Standard, _) => &self.frames[row - 1],
             (Convention::Modified, _) => &self.frames[row],
         };
         (frame.origin, frame.axes[2])
+    }
+
+    /// The frames along each limb, from what carries its first link to its end.
+    fn limbs(&self) -> Vec<Vec<&Columns<f64>>> {
+        let mut limbs: Vec<(Option<usize>, Vec<&Columns<f64>>)> = Vec::new();
+        for (row, frame) in self.frames.iter().enumerate() {
+            let carrier = self.robot.carrier(row);
+            let goes_on = limbs.iter_mut().find(|(last, _)| *last == carrier);
+            match goes_on.filter(|_| carrier.is_some()) {
+                Some((last, limb)) => {
+                    *last = Some(row);
+                    limb.push(frame);
+                }
+                None => {
+                    let from = carrier.map_or(&self.first, |carrier| &self.frames[carrier]);
+                    limbs.push((Some(row), vec![from, frame]));
+                }
+            }
+        }
+        if let Some(hand) = &self.hand {
+            limbs.iter_mut().for_each(|(_, limb)| limb.push(hand));
+        }
+        limbs.into_iter().map(|(_, limb)| limb).collect()
     }
 
     fn draw(&self, view: &View, page: &mut Paper) {
@@ -136,9 +165,9 @@ impl Scene<'_> {
             let radius = (2.5 * libm::cbrt(body.mass)).clamp(1.5, 9.0);
             page.circle("m", centre, radius);
         }
-        let origins = [&self.first].into_iter().chain(&self.frames);
-        let origins = origins.chain([&self.hand]);
-        page.polyline("l", origins.map(|frame| view.place(&frame.origin)));
+        for limb in self.limbs() {
+            page.polyline("l", limb.into_iter().map(|frame| view.place(&frame.origin)));
+        }
         let mut labels: Vec<([f64; 2], String)> = Vec::new();
         // A joint that follows another has the number of the joint that moves it.
         for (row, joint) in self.robot.rows().into_iter().enumerate() {
@@ -155,13 +184,17 @@ impl Scene<'_> {
             page.arrow(class, end(-0.09), to);
             label(&mut labels, to, (self.robot.mover_of(row) + 1).to_string());
         }
-        let hand = view.place(&self.hand.origin);
-        label(&mut labels, [hand[0], hand[1] + 16.0], "hand".to_owned());
+        if let Some(hand) = &self.hand {
+            let hand = view.place(&hand.origin);
+            label(&mut labels, [hand[0], hand[1] + 16.0], "hand".to_owned());
+        }
         view.triad(&Columns::identity(), 0.16, page);
         for frame in &self.frames {
             view.triad(frame, 0.06, page);
         }
-        view.triad(&self.hand, 0.1, page);
+        if let Some(hand) = &self.hand {
+            view.triad(hand, 0.1, page);
+        }
         // Drawn last, so that no line crosses a text.
         view.head(page);
         let gravity = self.robot.gravity.each_ref().map(f64::nearest_rational);

@@ -2,6 +2,7 @@
 
 use dalembert_model::number::parse::write_decimal;
 use dalembert_model::number::{Angle, Rational, Rounded};
+use dalembert_model::placed::Placed;
 use dalembert_model::robot::{Convention, Joint, JointKind, Placement, Robot};
 
 use crate::report::{Cell, Table};
@@ -14,6 +15,10 @@ pub(super) fn lines(robot: &Robot, q: &[f64]) -> Vec<String> {
     let gravity = robot.gravity.each_ref().map(number).join(", ");
     let at = q.iter().map(|&q| short(Some(q.to_string()), 7, q));
     let at = at.collect::<Vec<String>>().join(", ");
+    let convention = match robot.branches() {
+        true => "joints are placed on the links that carry them",
+        false => convention,
+    };
     let mut lines = vec![
         format!("{convention}, gravity ({gravity}) m/s², lengths in m, masses in kg"),
         format!("drawn at q = ({at})"),
@@ -21,9 +26,15 @@ pub(super) fn lines(robot: &Robot, q: &[f64]) -> Vec<String> {
     for (what, end) in robot.placements() {
         lines.extend(end.map(|end| placement(what, end)));
     }
-    let heads = "joint|theta|d|a|alpha|mass|centre of mass";
+    let heads = match robot.branches() {
+        true => "joint|carried by|xyz|rpy|axis|mass|centre of mass",
+        false => "joint|theta|d|a|alpha|mass|centre of mass",
+    };
     let joints = robot.joints.iter().enumerate();
-    let rows = joints.map(|(i, joint)| row(i, joint).map(Cell::from).to_vec());
+    let rows = joints.map(|(i, joint)| match &joint.place {
+        None => row(i, joint).map(Cell::from).to_vec(),
+        Some(place) => placed(robot, i, place).map(Cell::from).to_vec(),
+    });
     let table = Table::new(heads).with(rows).unbroken().to_string();
     lines.extend(table.lines().map(|line| line.trim_start().to_owned()));
     // Below the table, because such a sentence does not fit beside it.
@@ -56,6 +67,24 @@ fn row(index: usize, joint: &Joint) -> [String; 7] {
         twist,
         number(&joint.mass),
         format!("({})", joint.com.each_ref().map(number).join(", ")),
+    ]
+}
+
+fn placed(robot: &Robot, index: usize, place: &Placed) -> [String; 7] {
+    let joint = &robot.joints[index];
+    let name = joint.name.as_deref().unwrap_or_default();
+    let carrier = robot
+        .carrier(robot.row_of(index))
+        .map(|row| robot.rows()[row].name.clone());
+    let list = |numbers: &[Rational; 3]| format!("({})", numbers.each_ref().map(number).join(", "));
+    [
+        format!("{} {name}", index + 1).trim_end().to_owned(),
+        carrier.map_or_else(|| "base".to_owned(), Option::unwrap_or_default),
+        list(&place.placement.xyz),
+        format!("({})", place.placement.rpy.each_ref().map(angle).join(", ")),
+        list(&place.axis),
+        number(&joint.mass),
+        list(&joint.com),
     ]
 }
 

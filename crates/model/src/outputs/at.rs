@@ -17,6 +17,7 @@ use super::function::{Definition, Made};
 use super::quantity::{Facts, FrameChoice};
 use super::{Axis, Function, Quantity, Regrouped, Shape, Written};
 use crate::equations::frames::{Axes, Rows, View};
+use crate::robot::HAND;
 use crate::scalar::Divide;
 
 const AT: char = '@';
@@ -191,6 +192,14 @@ impl Function {
         };
         let function = at.quantity().function();
         Some(format!("{function}{AT}{}", at.words()))
+    }
+
+    /// Returns true if a result of it is of the robot's hand.
+    pub fn is_of_hand(self) -> bool {
+        self.quantities().iter().any(|quantity| match quantity {
+            Quantity::At(at) => at.view().frame == HAND,
+            own => own.facts().frame != FrameChoice::None,
+        })
     }
 
     /// Returns the frames that it is at, each once.

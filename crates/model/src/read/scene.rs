@@ -54,6 +54,10 @@ fn scene(cx: &mut Context, robot: &Robot, name: &str, keys: &mut Table) -> Scene
     const JOINTS: &str = "joints = [1, 2, \"elbow\"]: numbers from 1, or names";
     const GRAVITY: &str = "gravity = [0, 0, -9.81], or [0, 0, 0] for none";
     let outputs = keys.optional(cx, "outputs", |cx, value| cx.outputs(value, "a scene"));
+    let (payload, payload_link) = match payload(cx, robot, keys) {
+        Some((payload, link)) => (Some(payload), link),
+        None => (None, None),
+    };
     Scene {
         name: name.to_string(),
         outputs: outputs.unwrap_or_default(),
@@ -70,7 +74,8 @@ fn scene(cx: &mut Context, robot: &Robot, name: &str, keys: &mut Table) -> Scene
         }),
         velocity_zero: zero(cx, keys, "velocity"),
         acceleration_zero: zero(cx, keys, "acceleration"),
-        payload: payload(cx, keys),
+        payload,
+        payload_link,
         bounds: bounds(cx, robot, keys).unwrap_or_default(),
         tolerance: tolerance(cx, keys),
         scalar: keys.optional(cx, "scalar", |cx, value| cx.word(value, &Float::WORDS, "")),
@@ -140,9 +145,11 @@ fn zero(cx: &mut Context, keys: &mut Table, key: &'static str) -> bool {
     read.is_some()
 }
 
-fn payload(cx: &mut Context, keys: &mut Table) -> Option<Payload> {
-    const HELP: &str = "payload = { mass = 2.5, com = [0, 0, 0.05], inertia = [0.01, 0.01, 0.01, 0, 0, 0] }, in the last link's frame";
+/// Returns the payload, and the row whose link holds it.
+fn payload(cx: &mut Context, robot: &Robot, keys: &mut Table) -> Option<(Payload, Option<usize>)> {
+    const HELP: &str = "payload = { mass = 2.5, com = [0, 0, 0.05], inertia = [0.01, 0.01, 0.01, 0, 0, 0] }, in the last link's frame; `link = \"left_hand\"` names another where links branch";
     const COM: &str = "com = [x, y, z], in the frame of the last link, m";
+    let rows: Vec<Joint> = robot.rows().into_iter().cloned().collect();
     keys.table(cx, "payload", HELP, |cx, keys| {
         let mass = keys.required(cx, "mass", HELP, Context::number);
         let com = keys.required(cx, "com", COM, |cx, value| {
@@ -150,11 +157,13 @@ fn payload(cx: &mut Context, keys: &mut Table) -> Option<Payload> {
         });
         // Without an inertia it is a point mass.
         let inertia = keys.optional(cx, "inertia", Context::inertia);
-        Some(Payload {
+        let link = keys.optional(cx, "link", |cx, value| link::read(cx, &rows, value, HELP));
+        let payload = Payload {
             mass: mass?,
             com: com?,
             inertia: inertia.unwrap_or_default(),
-        })
+        };
+        Some((payload, link))
     })
 }
 

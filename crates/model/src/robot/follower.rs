@@ -163,12 +163,13 @@ impl Robot {
         ascends && self.followers.iter().all(can)
     }
 
-    /// Returns the last row, to be changed.
-    pub fn last_row_mut(&mut self) -> Option<&mut Joint> {
-        let last = self.joints.len() + self.followers.len();
-        match self.followers.last_mut() {
-            Some(follower) if follower.row + 1 == last => Some(&mut follower.joint),
-            _ => self.joints.last_mut(),
+    /// Returns a row, to be changed.
+    pub fn row_mut(&mut self, row: usize) -> Option<&mut Joint> {
+        let joint = self.mover_of(row);
+        let mut followers = self.followers.iter_mut();
+        match followers.find(|follower| follower.row == row) {
+            Some(follower) => Some(&mut follower.joint),
+            None => self.joints.get_mut(joint),
         }
     }
 

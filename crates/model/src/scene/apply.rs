@@ -20,8 +20,10 @@ impl Scene {
             robot.gravity = gravity.clone();
         }
         let payload = self.carried(&robot);
-        if let (Some(payload), Some(last)) = (payload, robot.last_row_mut()) {
-            carry(last, &payload);
+        let last = (robot.joints.len() + robot.followers.len()).checked_sub(1);
+        let holder = self.payload_link.or(last);
+        if let (Some(payload), Some(link)) = (payload, holder.and_then(|row| robot.row_mut(row))) {
+            carry(link, &payload);
         }
         if let Some(range) = &self.bounds.payload {
             robot.payload_range = Some(range.clone());

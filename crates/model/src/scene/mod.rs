@@ -41,6 +41,8 @@ pub struct Scene {
     /// The payload on the last link, given in that one's own frame: in the robot's
     /// [`payload_frame`](crate::robot::Robot::payload_frame).
     pub payload: Option<Payload>,
+    /// The row whose link holds the payload, in the link's frame: where links have several ends.
+    pub payload_link: Option<usize>,
     /// The ranges of the motion, instead of the robot's limits.
     pub bounds: MotionBox,
     /// The accuracy that may be given up.

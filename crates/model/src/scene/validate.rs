@@ -134,6 +134,22 @@ impl<'a> Check<'a> {
         let Some(payload) = &self.scene.payload else {
             return;
         };
+        let rows = self.robot.rows().len();
+        let message = match (self.scene.payload_link, self.robot.branches()) {
+            (Some(link), _) if link >= rows => Some("the payload is on no link of the robot"),
+            (None, true) => {
+                Some("a payload of a robot whose links branch, and no link that holds it")
+            }
+            (Some(link), false) if link + 1 != rows => {
+                Some("a payload on another than the last link")
+            }
+            _ => None,
+        };
+        if let Some(message) = message {
+            let help = "payload = { link = \"left_hand\", mass = 2.5, com = [0, 0, 0.05] } where links \
+                        branch; the last link of a serial arm holds it";
+            self.error("payload/link", message, help);
+        }
         if payload.mass.is_negative() {
             let message = "the payload's mass is negative";
             self.error("payload/mass", message, "a mass in kg");

@@ -26,6 +26,7 @@ pub fn write(scene: &Scene) -> String {
             ("mass", Some(number(&payload.mass))),
             ("com", Some(numbers(&payload.com))),
             ("inertia", Some(numbers(payload.inertia.entries()))),
+            ("link", scene.payload_link.map(|row| format!("{}", row + 1))),
         ])
     });
     let bounds = &scene.bounds;
