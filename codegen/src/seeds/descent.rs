@@ -3,6 +3,7 @@
 use std::cell::Cell;
 
 use dalembert_model::equations::chain::{Chain, Regrouping};
+use dalembert_model::equations::matrix::zero_vector;
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::RuntimeParameter;
 
@@ -42,7 +43,15 @@ fn price(graph: &Dag, limit: Option<Limit<'_>>, below: u64) -> u64 {
     }
 }
 
+/// Returns the cheapest regrouping before a search.
 pub(crate) fn tuned(problem: &Problem<'_>, forms: &[Form]) -> Tuned {
+    tunings(problem, forms).0
+}
+
+/// Returns the regrouping that a descent from base parameters ends at. One link at a time it does
+/// not get to frames whose origins are all beside those of the links that carry them: also returns
+/// where a descent from there ends, if that is cheaper before the search. After it either may be.
+pub(crate) fn tunings(problem: &Problem<'_>, forms: &[Form]) -> (Tuned, Option<Tuned>) {
     let (task, effort, limit) = (problem.task, problem.effort, problem.limit);
     let Task { setup, function } = task;
     let arm = skeleton_for(task);
@@ -65,7 +74,10 @@ pub(crate) fn tuned(problem: &Problem<'_>, forms: &[Form]) -> Tuned {
         && let Some(load) = setup.load()
     {
         // The numbers of the load are those of one regrouping, for all functions.
-        return tune::tune(&arm, load.regrouping.clone(), forms, 0, traced);
+        return (
+            tune::tune(&arm, load.regrouping.clone(), forms, 0, traced),
+            None,
+        );
     }
     let start = tune::start(&arm);
     let with = |axes: Vec<i32>| {
@@ -89,17 +101,22 @@ pub(crate) fn tuned(problem: &Problem<'_>, forms: &[Form]) -> Tuned {
         });
         starts.truncate(1);
     }
+    let beside = starts.first().map(at_feet);
     starts.extend_from_slice(problem.from);
     let watched = |chain: &Chain<Exact>, form: Form, below: u64| match is_over() {
         true => u64::MAX,
         false => traced(chain, form, below),
     };
-    let mut tuned: Option<Tuned> = None;
-    for from in starts {
+    let descend = |from: Regrouping<Exact>| {
         let mut found = tune::tune(&arm, from, forms, effort.regrouping_rounds(), watched);
         if arm.links.len() <= MAX_QUICK_LINKS {
             found.price = quick(&Chain::new(&arm, &found.regrouping), found.form, u64::MAX);
         }
+        found
+    };
+    let mut tuned: Option<Tuned> = None;
+    for from in starts {
+        let found = descend(from);
         if tuned.as_ref().is_none_or(|best| found.price < best.price) {
             tuned = Some(found);
         }
@@ -109,10 +126,21 @@ pub(crate) fn tuned(problem: &Problem<'_>, forms: &[Form]) -> Tuned {
         form: forms[0],
         price: u64::MAX,
     });
+    let mut second = beside.map(descend);
+    second = second.filter(|second| second.price < tuned.price);
     if effort == Effort::Thorough && arm.links.len() <= MAX_QUICK_LINKS && !is_over() {
-        tuned = tune::tune(&arm, tuned.regrouping, &[tuned.form], 2, quick);
+        let finished = |own: Tuned| tune::tune(&arm, own.regrouping, &[own.form], 2, quick);
+        (tuned, second) = (finished(tuned), second.map(finished));
     }
-    tuned
+    (tuned, second)
+}
+
+fn at_feet(from: &Regrouping<Exact>) -> Regrouping<Exact> {
+    let mut from = from.clone();
+    for link in &mut from.links {
+        link.origin = zero_vector();
+    }
+    from
 }
 
 /// Each link's own axes; the last link's before it turns; those before each group.

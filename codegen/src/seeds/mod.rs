@@ -20,7 +20,7 @@ use crate::scalar::{Erased, restored};
 use crate::setup::Task;
 pub(crate) use chain::regrouped;
 pub use chain::{skeleton, skeleton_for, trace_chain};
-pub(crate) use descent::{Limit, tuned};
+pub(crate) use descent::{Limit, tuned, tunings};
 pub use start::Start;
 pub(crate) use tune::Tuned;
 

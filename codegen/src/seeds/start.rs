@@ -5,7 +5,7 @@ use dalembert_model::equations::chain::{Chain, Regrouping};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::RuntimeParameter;
 
-use super::{Form, Limit, Seed, Source, Tuned, regrouped, skeleton_for, trace, tuned};
+use super::{Form, Limit, Seed, Source, Tuned, regrouped, skeleton_for, trace, tunings};
 use crate::dag::Dag;
 use crate::function::Function;
 use crate::search::Effort;
@@ -57,9 +57,7 @@ impl Start {
                 definition.source = Source::Definition;
                 vec![Approach::of(vec![definition])]
             }
-            Start::Auto if quantities.any(|quantity| quantity.is_regrouped()) => {
-                vec![by_chain(problem)]
-            }
+            Start::Auto if quantities.any(|quantity| quantity.is_regrouped()) => by_chain(problem),
             Start::Auto => by_textbook(problem),
         }
     }
@@ -136,7 +134,7 @@ fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
     [both].into_iter().chain(others).collect()
 }
 
-fn by_chain(problem: &Problem<'_>) -> Approach {
+fn by_chain(problem: &Problem<'_>) -> Vec<Approach> {
     let task = problem.task;
     let Task { setup, function } = task;
     // Where no axes meet at the base, the forms that need it are the others.
@@ -144,19 +142,22 @@ fn by_chain(problem: &Problem<'_>) -> Approach {
     let has_shoulder = Chain::new(&arm, &Regrouping::base(&arm)).has_shoulder();
     let mut forms = function.forms();
     forms.retain(|form| has_shoulder || !form.shoulder);
-    let tuned = tuned(problem, &forms);
-    // Seen in other axes the hand has hardly a value in common.
-    forms.retain(|form: &Form| form.hand == tuned.form.hand);
-    let mut seeds = regrouped(task, &forms, &tuned);
-    // The textbook recursion gives D column by column and h_ikm by polarisation, with
-    // n² of work a link or more: no match. It has no load, but a body in the hand.
-    let mut quantities = function.quantities().iter();
-    let is_loaded = setup.takes(function, RuntimeParameter::Payload);
-    if !is_loaded && quantities.all(|quantity| quantity.facts().starts_from_recursion) {
-        seeds.push(trace(task, Formulation::NewtonEulerLink));
-    }
-    Approach {
-        tuned: Some(tuned),
-        ..Approach::of(seeds)
-    }
+    let (first, second) = tunings(problem, &forms);
+    let approach = |tuned: Tuned| {
+        // Seen in other axes the hand has hardly a value in common.
+        let like = forms.iter().filter(|form| form.hand == tuned.form.hand);
+        let mut seeds = regrouped(task, &like.copied().collect::<Vec<Form>>(), &tuned);
+        // The textbook recursion gives D column by column and h_ikm by polarisation, with
+        // n² of work a link or more: no match. It has no load, but a body in the hand.
+        let mut quantities = function.quantities().iter();
+        let is_loaded = setup.takes(function, RuntimeParameter::Payload);
+        if !is_loaded && quantities.all(|quantity| quantity.facts().starts_from_recursion) {
+            seeds.push(trace(task, Formulation::NewtonEulerLink));
+        }
+        Approach {
+            tuned: Some(tuned),
+            ..Approach::of(seeds)
+        }
+    };
+    [first].into_iter().chain(second).map(approach).collect()
 }
