@@ -21,3 +21,4 @@ mod read_robots;
 mod read_warnings;
 mod scene_read;
 mod support;
+mod trees;

@@ -22,7 +22,7 @@ pub(super) struct Turning {
 }
 
 impl Turning {
-    /// Returns none if a mass or a moment is negative, or if joints follow others.
+    /// Returns none if a mass or a moment is negative, if joints follow others, or if links branch.
     pub(super) fn new(robot: &Robot) -> Option<Turning> {
         let is_body = |joint: &Joint| {
             let defect = joint.inertia.defect(&joint.mass);
@@ -30,7 +30,8 @@ impl Turning {
         };
         let joints = || robot.joints.iter();
         let armature = |joint: &Joint| f64::nearest_rational(&joint.armature) * SLACK;
-        (joints().all(is_body) && robot.followers.is_empty()).then(|| Turning {
+        let is_chain = robot.followers.is_empty() && !robot.branches();
+        (joints().all(is_body) && is_chain).then(|| Turning {
             kinds: joints().map(|joint| joint.kind).collect(),
             moments: joints().map(least_moment).collect(),
             armatures: joints().map(armature).collect(),

@@ -70,7 +70,7 @@ pub(super) fn parts(
 ) -> Option<Vec<Body<Exact>>> {
     let mut parts = vec![Body::zero(); chain.links.len()];
     let mut arriving = body.clone();
-    for i in (0..=link).rev() {
+    for i in chain.way(link) {
         if terms(&arriving) > MAX_TERMS {
             return None;
         }

@@ -44,8 +44,9 @@ pub(super) fn without_bodies(skeleton: &Skeleton<Exact>) -> Skeleton<Exact> {
 
 fn candidates(skeleton: &Skeleton<Exact>, link: usize) -> Vec<Vector<Exact>> {
     let own = &skeleton.links[link].link;
-    let next = skeleton.links.get(link + 1);
-    let next = next.map(|next| next.link.offset.clone());
+    let links = skeleton.links.iter().map(|segment| &segment.link);
+    let next = links.filter(|next| next.parent == Some(link));
+    let next = next.map(|next| next.offset.clone());
     let mut candidates = vec![zero_vector()];
     match own.kind {
         JointKind::Revolute => candidates.extend(next.map(|[_, _, z]| {

@@ -66,6 +66,13 @@ impl Reading for Digits {
     }
 }
 
+/// Divides a direction by its length; zero stays.
+fn unit(axis: [Fixed; 3]) -> [Fixed; 3] {
+    let square: BigInt = axis.iter().map(|x| &x.0 * &x.0).sum();
+    let length = square.sqrt().max(BigInt::from(1));
+    axis.map(|x| Fixed((x.0 << BITS) / &length))
+}
+
 type Parts = Vec<(String, Vec<Fixed>)>;
 
 fn weighed(name: &str, (body, centre): (Body<Fixed>, Pose<Fixed>), frame: &Pose<Fixed>) -> Parts {
@@ -95,7 +102,7 @@ fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Part
             .map_or(&base, |carrier| &links[carrier]);
         let at = carrier.then(&before);
         frame = at.then(&behind);
-        let along = at.rotate(Digits.axis(row)?);
+        let along = at.rotate(unit(Digits.axis(row)?));
         all.push((name("axis"), along.to_vec()));
         if row.turns() {
             all.push((name("place"), cross(at.origin, along).to_vec()));

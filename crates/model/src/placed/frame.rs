@@ -114,15 +114,28 @@ pub fn unit_fraction(axis: &[Rational; 3]) -> Option<[Rational; 3]> {
     if &length * &length == square {
         return Some(axis.each_ref().map(|x| x / &length));
     }
-    let [x, y, z] = direction(axis)?.map(|x| x.to_rational());
-    // From the pole that is further away, (u, v) → (2u, 2v, 1 − u² − v²) / (1 + u² + v²).
-    let height = Rational::one() + z.abs();
-    let [u, v] = [x, y].map(|own| short(&(own / &height)));
+    // A point of the sphere from the pole that is further away, (u, v) → (2u, 2v, 1 − u² − v²) /
+    // (1 + u² + v²), of the circle where a component is zero and stays so: v is zero then.
+    let direction = direction(axis)?.map(|x| x.to_rational());
+    let order = match axis.each_ref().map(Zero::is_zero) {
+        [true, _, _] => [1, 0, 2],
+        [_, _, true] => [0, 2, 1],
+        _ => [0, 1, 2],
+    };
+    let pole = &direction[order[2]];
+    let height = Rational::one() + pole.abs();
+    let [u, v] = [order[0], order[1]].map(|i| match axis[i].is_zero() {
+        true => Rational::zero(),
+        false => short(&(&direction[i] / &height)),
+    });
     let flat = &u * &u + &v * &v;
     let per = (Rational::one() + &flat).recip();
-    let [x, y] = [u, v].map(|own| Rational::from_integer(2.into()) * own * &per);
     let up = (Rational::one() - flat) * &per;
-    Some([x, y, if z.is_negative() { -up } else { up }])
+    let mut point = core::array::from_fn(|_| Rational::zero());
+    point[order[0]] = Rational::from_integer(2.into()) * u * &per;
+    point[order[1]] = Rational::from_integer(2.into()) * v * &per;
+    point[order[2]] = if pole.is_negative() { -up } else { up };
+    Some(point)
 }
 
 /// Returns a vector divided by its length, unless that is zero.

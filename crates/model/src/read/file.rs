@@ -220,6 +220,15 @@ fn rows(cx: &mut Context, robot: &mut Robot, read: Vec<joint::Read>) -> Vec<Find
         place(robot, &placed);
         return robot.validate();
     }
+    if branches {
+        // The joints that are not placed are reported.
+        let mut chain = robot.clone();
+        chain
+            .joints
+            .iter_mut()
+            .for_each(|joint| joint.parent = None);
+        return chain.validate();
+    }
     if !is_whole || !cx.unread.is_empty() {
         return robot.validate();
     }

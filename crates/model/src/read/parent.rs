@@ -16,12 +16,16 @@ pub(super) fn read(
     joints: &[Joint],
     read: &[joint::Read],
 ) -> Vec<Option<Parent>> {
+    // A parent that is not understood is of a robot that branches: nothing else is wrong with that.
+    let unknown = (read.iter().any(|read| read.placed.is_some())).then_some(Parent::Base);
     let parents = read.iter().enumerate().map(|(row, read)| {
         let value = read.parent?;
         if value.as_str() == Some(Parent::BASE) {
             return (row > 0).then_some(Parent::Base);
         }
-        let parent = link::read(cx, joints, value, HELP)?;
+        let Some(parent) = link::read(cx, joints, value, HELP) else {
+            return unknown.filter(|_| row > 0);
+        };
         if parent >= row {
             let label = |row: usize| match joints[row].name.as_deref() {
                 Some(name) => format!("joint {} ({name})", row + 1),
@@ -37,7 +41,8 @@ pub(super) fn read(
                     ),
                 ),
             };
-            return cx.refuse(value, message, &help);
+            cx.refuse::<()>(value, message, &help);
+            return unknown.filter(|_| row > 0);
         }
         (parent + 1 != row).then_some(Parent::Row(parent))
     });

@@ -151,8 +151,8 @@ impl<S: Scalar> Chain<S> {
         self.base.is_none() && parents.all(|(i, parent)| parent == i.checked_sub(1))
     }
 
-    /// Lists a link and those that carry it, up to the base.
-    fn way(&self, from: usize) -> impl Iterator<Item = usize> {
+    /// Lists a link and those that carry it, to the base.
+    pub fn way(&self, from: usize) -> impl Iterator<Item = usize> {
         core::iter::successors(Some(from), |&i| self.links[i].parent)
     }
 
