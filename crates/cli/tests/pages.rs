@@ -219,6 +219,7 @@ pages!(
     renew,
     scenes,
     show,
+    trees,
     verify
 );
 #[cfg(unix)]

@@ -2,8 +2,8 @@
 
 use dalembert_model::number::parse::write_decimal;
 use dalembert_model::number::{Angle, Rational, Rounded};
-use dalembert_model::placed::Placed;
-use dalembert_model::robot::{Convention, Joint, JointKind, Placement, Robot};
+
+use dalembert_model::robot::{Convention, Joint, JointKind, Placed, Placement, Robot};
 
 use crate::report::{Cell, Table};
 

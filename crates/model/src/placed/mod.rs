@@ -41,22 +41,11 @@ use num_traits::{One, Signed, Zero};
 use crate::equations::matrix::Columns;
 use crate::number::recover::{near, recovered};
 use crate::number::{Rational, Wide};
-use crate::robot::{Joint, Placement, Robot};
+use crate::robot::{Joint, Placed, Placement, Robot};
 use crate::scalar::Scalar;
 
 pub use frame::Body;
 pub use row::NEARLY_PARALLEL;
-
-/// Where a joint's link is, and what it moves about or along.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Placed {
-    /// The link's frame at q = 0, in that of the link before; of the first
-    /// link, in the frame that the robot's base places.
-    pub placement: Placement,
-    /// The direction of the joint's axis, which passes through the origin of
-    /// the link's frame, in the axes of that frame. Its length does not matter.
-    pub axis: [Rational; 3],
-}
 
 /// A joint's axis has no direction; the joint is counted from zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

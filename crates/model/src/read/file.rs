@@ -10,8 +10,8 @@ use super::report::quote;
 use super::table::{Table, locate};
 use super::value::{Context, payloads, placement};
 use super::{Reading, guard, joint, link, mimic, parent, scene, suggest, syntax};
-use crate::placed::{Placed, derive, place};
-use crate::robot::{Convention, Finding, Frame, Joint, Placement, Robot, RobotWarning};
+use crate::placed::{derive, place};
+use crate::robot::{Convention, Finding, Frame, Joint, Placed, Placement, Robot, RobotWarning};
 
 /// `None` only after an error.
 pub(super) fn read(source: &str, cx: &mut Context) -> Option<Reading> {

@@ -9,7 +9,7 @@ use toml_span::Value;
 use super::table::Table;
 use super::value::{Context, placement};
 use crate::number::{Angle, Rational};
-use crate::placed::Placed;
+use crate::robot::Placed;
 use crate::robot::{Joint, JointKind, Limits};
 
 const ROW: [&str; 6] = ["alpha", "beta", "a", "d", "theta", "offset"];

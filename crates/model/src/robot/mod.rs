@@ -32,13 +32,12 @@ use core::fmt;
 use num_traits::{Signed, Zero};
 
 use crate::number::{Angle, Rational};
-use crate::placed::Placed;
 
 pub use body::Defect;
 pub(crate) use findings::Findings;
 pub use findings::{Finding, RobotWarning, Severity};
 pub use follower::Follower;
-pub use tree::Parent;
+pub use tree::{Parent, Placed};
 
 pub(crate) use units::shown;
 pub(crate) use validate::{ENDINGS, WORDS, is_plain, is_snake};

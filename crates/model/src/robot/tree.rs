@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use num_traits::{One, Zero};
 
 use super::findings::{Findings, of_joint};
-use super::{Joint, Robot};
+use super::{Joint, Placement, Robot};
 use crate::number::Rational;
 
 /// The link that carries another.
@@ -16,6 +16,17 @@ pub enum Parent {
     Base,
     /// The link of a row that comes earlier, zero-based.
     Row(usize),
+}
+
+/// Where a joint's link is, and what it moves about or along.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Placed {
+    /// The link's frame at q = 0, in that of the link before; of the first
+    /// link, in the frame that the robot's base places.
+    pub placement: Placement,
+    /// The direction of the joint's axis, which passes through the origin of
+    /// the link's frame, in the axes of that frame. Its length does not matter.
+    pub axis: [Rational; 3],
 }
 
 impl Parent {

@@ -11,8 +11,7 @@ use super::values::{
     angle, lines, list, number, numbers, payloads, placement, position, quoted, range, short_hash,
     table, texts, unless_zero, word,
 };
-use super::{Convention, Joint, JointKind, Parent, Placement, Robot};
-use crate::placed::Placed;
+use super::{Convention, Joint, JointKind, Parent, Placed, Placement, Robot};
 
 /// Writes a robot as a robot file.
 ///
