@@ -159,3 +159,31 @@ fn rows_have_frames_on_their_links() {
     let why = aligned::check(&on(1), &on(2), None).unwrap_err();
     assert!(why.contains("frames on other links"), "{why}");
 }
+
+/// At q = 0 a joint that another link carries, or a payload on another link, may be in the same place.
+#[test]
+fn rows_are_carried_by_the_links_of_the_file() {
+    let source = file("crates/model/tests/data/puma560_placed.toml");
+    let (before, _) = source.split_once("[[joint]]").unwrap();
+    let joint = |parent: &str| {
+        format!(
+            "[[joint]]\n{parent}placement = {{}}\naxis = [0, 0, 1]\nkind = \"revolute\"\nmass = 1\ncom = [1, 0, 0]\ninertia = [1, 1, 1, 0, 0, 0]\n"
+        )
+    };
+    let tree = |parent: &str, holder: usize| {
+        let joints = [joint(""), joint(""), joint(parent)].concat();
+        let payload = format!("{{ mass = 1, com = [0, 0, 0], link = {holder} }}");
+        let text = format!("{before}{joints}[scene.hold]\npayload = {payload}\n");
+        robot::read(&text).unwrap()
+    };
+    let on_base = "parent = \"base\"\n";
+    let file = tree(on_base, 2);
+    let check = |rows, scene| aligned::check(&file, &rows, scene);
+    assert_eq!(check(tree(on_base, 2), Some("hold")), Ok(()));
+    for parent in ["", "parent = 1\n"] {
+        let why = check(tree(parent, 3), None).unwrap_err();
+        assert!(why.contains("carried by other links"), "{why}");
+    }
+    let why = check(tree(on_base, 3), Some("hold")).unwrap_err();
+    assert!(why.contains("payload on another link"), "{why}");
+}

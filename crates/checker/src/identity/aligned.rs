@@ -177,6 +177,13 @@ pub fn check(file: &File, aligned: &File, scene: Option<&str>) -> Result<(), Str
     if kinds(file) != kinds(aligned) || follows(file)? != follows(aligned)? {
         return Err("the rows are of other joints than the robot file's".into());
     }
+    // At q = 0 alone, a link that another carries is in the same place.
+    let carriers = |file: &File| -> Result<Vec<Option<usize>>, String> {
+        (0..file.joint.len()).map(|row| file.carrier(row)).collect()
+    };
+    if carriers(file)? != carriers(aligned)? {
+        return Err("the rows are carried by other links than the robot file's".into());
+    }
     let links = |file: &File| -> Result<Vec<usize>, String> {
         let frames = file.frame.iter();
         frames.map(|own| file.row(&own.link)).collect()
@@ -188,6 +195,12 @@ pub fn check(file: &File, aligned: &File, scene: Option<&str>) -> Result<(), Str
     let given = payload(file, scene).filter(|_| moved.is_some());
     if moved.is_some() != given.is_some() {
         return Err("the rows have a payload, and the scene has none".into());
+    }
+    let holder = |file: &File, own: Option<&Payload>| {
+        own.map(|own| file.holder(own.link.as_ref())).transpose()
+    };
+    if holder(file, given)? != holder(aligned, moved)? {
+        return Err("the rows have the payload on another link than the scene".into());
     }
     let (own, other) = (parts(file, given, true)?, parts(aligned, moved, false)?);
     let double = |own: &Fixed| (&own.0 >> (BITS - 64)).to_f64().unwrap_or(0.0) / 2f64.powi(64);

@@ -34,7 +34,7 @@ struct Scene<'r> {
     robot: &'r Robot,
     first: Columns<f64>,
     frames: Vec<Columns<f64>>,
-    /// Of a robot whose links have one end.
+    /// Where the links have one end.
     hand: Option<Columns<f64>>,
     bodies: Vec<Body>,
 }

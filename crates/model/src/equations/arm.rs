@@ -108,11 +108,7 @@ pub(super) type Posed<S> = (Arm<S>, Vec<DhVariables<S>>);
 impl<S> Arm<S> {
     /// Returns the link that carries a link; `None` where the base does.
     pub fn carrier(&self, link: usize) -> Option<usize> {
-        match self.links.get(link).and_then(|link| link.parent) {
-            None => link.checked_sub(1),
-            Some(Parent::Base) => None,
-            Some(Parent::Row(carrier)) => Some(carrier),
-        }
+        Parent::carrier(self.links.get(link).and_then(|link| link.parent), link)
     }
 
     /// Lists a link and those that carry it, to the base.

@@ -231,7 +231,7 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
     }
 }
 
-/// What a link has of those before it: ω, the printed sum α, and the acceleration of its origin.
+/// The motion that a link passes on: ω, the printed sum α, and the acceleration of its origin.
 #[derive(Clone)]
 struct Carried<S> {
     omega: Vector<S>,

@@ -193,19 +193,19 @@ fn rows(cx: &mut Context, robot: &mut Robot, read: Vec<joint::Read>) -> Vec<Find
         read.iter().any(|joint| joint.placed.is_some()),
     );
     let is_placed = branches || is_any;
+    let (why, help) = match branches {
+        true => (
+            "links branch",
+            "give all joints a placement and an axis: rows of a table cannot say where a branch \
+             begins",
+        ),
+        false => (
+            "others are",
+            "give all joints a placement and an axis, or all of them DH rows",
+        ),
+    };
     let mut placed: Vec<Placed> = Vec::with_capacity(read.len());
     for (index, joint) in read.into_iter().enumerate() {
-        let (why, help) = match branches {
-            true => (
-                "links branch",
-                "give all joints a placement and an axis: rows of a table cannot say where a \
-                 branch begins",
-            ),
-            false => (
-                "others are",
-                "give all joints a placement and an axis, or all of them DH rows",
-            ),
-        };
         match joint.placed {
             Some(own) => placed.push(own),
             None if is_placed => {

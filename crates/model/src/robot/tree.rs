@@ -32,6 +32,16 @@ pub struct Placed {
 impl Parent {
     /// The word by which robot files name the base.
     pub const BASE: &'static str = "base";
+
+    /// Returns the row that carries a row of this parent: the one before, if it has none; `None` for
+    /// the base.
+    pub fn carrier(parent: Option<Parent>, row: usize) -> Option<usize> {
+        match parent {
+            None => row.checked_sub(1),
+            Some(Parent::Base) => None,
+            Some(Parent::Row(carrier)) => Some(carrier),
+        }
+    }
 }
 
 impl Robot {
@@ -60,11 +70,7 @@ impl Robot {
 
 impl Joint {
     pub(crate) fn carrier(&self, row: usize) -> Option<usize> {
-        match self.parent {
-            None => row.checked_sub(1),
-            Some(Parent::Base) => None,
-            Some(Parent::Row(parent)) => Some(parent),
-        }
+        Parent::carrier(self.parent, row)
     }
 
     fn has_row(&self) -> bool {

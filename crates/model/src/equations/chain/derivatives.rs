@@ -131,7 +131,7 @@ impl<S: Scalar> Composite<'_, S> {
         [by_position, by_velocity, by_omega]
     }
 
-    /// Returns what each joint contributes by itself, from the hand inward.
+    /// Returns each joint's contribution by itself.
     pub(super) fn own_slopes(&self, qd: &[S], qdd: &[S]) -> Vec<Joint<S>> {
         self.own_slopes_to(qd, qdd).0
     }

@@ -16,7 +16,7 @@ use crate::scalar::Divide;
 pub struct Solving {
     /// The base's linear acceleration is eliminated before its angular one.
     pub angular_last: bool,
-    /// What stands for q̈.
+    /// The unknowns that stand for q̈.
     pub unknowns: Unknowns,
     /// From accelerations that shorten the recursion, or from rest.
     pub reference: bool,

@@ -80,7 +80,7 @@ fn fixed(arm: &Arm<S>, draw: &mut Draw, round: usize) {
     locked(arm, draw, &position, &d, round);
 }
 
-/// What is locked is a part of the link that carries it: D loses a row and a column.
+/// A locked link is a part of the one that carries it: D loses a row and a column.
 fn locked(arm: &Arm<S>, draw: &mut Draw, position: &Position, d: &[Vec<S>], round: usize) {
     let n = position.len();
     let joint = round % n;

@@ -33,7 +33,7 @@ fn carriers(body: &Link<S>) -> Vec<Link<S>> {
 struct Base {
     omega: Vector<S>,
     omega_dot: Vector<S>,
-    /// Of the origin.
+    /// The acceleration of its origin.
     acceleration: Vector<S>,
     gravity: Vector<S>,
     /// The twists of the six joints, linear over angular.
@@ -73,7 +73,7 @@ impl Base {
         }
     }
 
-    /// Returns what the six joints feel of a wrench on the base, over τ.
+    /// Returns the loads of the six joints under a wrench on the base, over τ.
     fn felt(&self, loads: &[S]) -> Vec<S> {
         let felt = products(&self.twists, &loads[..6]);
         felt.into_iter().chain(loads[6..].iter().cloned()).collect()
