@@ -145,5 +145,6 @@ fn hash_angle(angle: &Angle) -> u64 {
     match angle {
         Angle::PiTimes(value) => word(0, value),
         Angle::Radians(value) => word(1, value),
+        Angle::TwiceAtan(value) => word(2, value),
     }
 }

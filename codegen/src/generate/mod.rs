@@ -16,7 +16,7 @@ pub(crate) mod tolerate;
 use dalembert_checker::read::Text;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::read::closest;
-use dalembert_model::robot::{HAND, Robot};
+use dalembert_model::robot::{Frame, HAND, Robot};
 use dalembert_stamp::{Comment, Stamp};
 
 use crate::emit::{GeneratedFunction, header, module};
@@ -247,19 +247,33 @@ fn check(robot: &Robot, request: &Request) -> Outcome<()> {
 }
 
 fn check_frames(robot: &Robot, function: Function) -> Outcome<()> {
-    let frames = robot.frames.iter();
-    let names: Vec<&str> = frames.map(|frame| frame.name.as_str()).collect();
+    // What ends a limb is most often meant.
+    let tips = robot.tips();
+    let (ends, others): (Vec<&Frame>, Vec<&Frame>) = robot
+        .frames
+        .iter()
+        .partition(|frame| tips.contains(&frame.joint));
+    let names: Vec<&str> = [ends, others]
+        .concat()
+        .iter()
+        .map(|frame| frame.name.as_str())
+        .collect();
     if robot.branches() && function.is_of_hand() {
         return Err(no_hand(robot, function, &names));
     }
-    let known = |frame: &&str| *frame == HAND || names.contains(frame);
+    let has_hand = !robot.branches();
+    let known = |frame: &&str| has_hand && *frame == HAND || names.contains(frame);
     let Some(frame) = function.frames().into_iter().find(|frame| !known(frame)) else {
         return Ok(());
     };
     let fix = match (closest(frame, &names), names.as_slice()) {
         (Some(meant), _) => format!("did you mean `{meant}`?"),
-        (None, []) => format!("it has `{HAND}`; others are [[frame]] tables of its file"),
-        (None, names) => format!("it has `{HAND}`, `{}`", names.join("`, `")),
+        (None, []) if has_hand => {
+            format!("it has `{HAND}`; others are [[frame]] tables of its file")
+        }
+        (None, []) => "frames are [[frame]] tables of its file".to_owned(),
+        (None, names) if has_hand => format!("it has `{HAND}`, `{}`", names.join("`, `")),
+        (None, names) => format!("it has `{}`", names.join("`, `")),
     };
     let message = format!("`{}`: the robot has no frame `{frame}`", function.text());
     Err(GenerateError::refused(function, message, fix))

@@ -32,6 +32,8 @@ pub struct Arm {
     base: Option<String>,
     tip: Option<String>,
     #[serde(default)]
+    tree: bool,
+    #[serde(default)]
     lock: BTreeMap<String, String>,
     #[serde(default)]
     without: Vec<String>,
@@ -93,7 +95,8 @@ impl Arm {
     fn make(self) -> Result<Entry, String> {
         let options = Options {
             base: self.base.clone(),
-            tip: self.tip.clone(),
+            tips: self.tip.iter().cloned().collect(),
+            tree: self.tree,
             lock: self.lock.clone().into_iter().collect(),
             without: self.without.clone(),
             snap: true,

@@ -14,9 +14,13 @@ pub struct ChainArgs {
     /// The base link of a URDF or an MJCF, which does not move [default: the root]
     #[cfg_attr(feature = "clap", arg(long, value_name = "LINK", help_heading = MODEL))]
     pub base: Option<String>,
-    /// The link whose frame is the hand [default: the palm, or the end of the longest chain]
+    /// The link whose frame is the hand [default: the palm, or the end of the longest chain]; given
+    /// several times, the joints on the ways to all of them
     #[cfg_attr(feature = "clap", arg(long, value_name = "LINK", help_heading = MODEL))]
-    pub tip: Option<String>,
+    pub tip: Vec<String>,
+    /// Take every joint that moves: arms on a torso, fingers on a hand
+    #[cfg_attr(feature = "clap", arg(long, conflicts_with = "tip", help_heading = MODEL))]
+    pub tree: bool,
     /// Lock a joint at a position in rad or m, such as 0.3, pi/2 or 90deg; JOINT is its name or its
     /// number among the moving joints; may be given several times
     #[cfg_attr(feature = "clap", arg(long, value_name = "JOINT=VALUE", value_parser = lock, help_heading = MODEL))]
@@ -27,7 +31,7 @@ pub struct ChainArgs {
     /// Leave out a link and everything attached to it; may be given several times
     #[cfg_attr(feature = "clap", arg(long, value_name = "LINK", help_heading = MODEL))]
     pub without: Vec<String>,
-    /// Leave out tendons, loops and equality constraints, which a serial chain cannot have
+    /// Leave out tendons, loops and equality constraints, which links that hang on each other cannot have
     #[cfg_attr(feature = "clap", arg(long, help_heading = MODEL))]
     pub ignore_ties: bool,
 }
@@ -52,7 +56,8 @@ impl ChainArgs {
         let others = self.lock_others.iter().map(to_others);
         Options {
             base: self.base.clone(),
-            tip: self.tip.clone(),
+            tips: self.tip.clone(),
+            tree: self.tree,
             lock: self.lock.iter().cloned().chain(others).collect(),
             without: self.without.clone(),
             ignore_ties: self.ignore_ties,
@@ -64,10 +69,11 @@ impl ChainArgs {
     pub fn pairs(&self) -> Vec<(String, String)> {
         let lock = |(joint, at): &(String, String)| format!("{joint}={at}");
         let locks: Vec<String> = self.lock.iter().map(lock).collect();
-        let ties = self.ignore_ties.then(String::new);
-        let options: [(&str, &[String]); 6] = [
+        let [tree, ties] = [self.tree, self.ignore_ties].map(|is_set| is_set.then(String::new));
+        let options: [(&str, &[String]); 7] = [
             ("base", self.base.as_slice()),
-            ("tip", self.tip.as_slice()),
+            ("tip", &self.tip),
+            ("tree", tree.as_slice()),
             ("lock", &locks),
             ("lock-others", self.lock_others.as_slice()),
             ("without", &self.without),
@@ -87,7 +93,8 @@ impl ChainArgs {
             let value = value.clone();
             match option.as_str() {
                 "base" => args.base = Some(value),
-                "tip" => args.tip = Some(value),
+                "tip" => args.tip.push(value),
+                "tree" => args.tree = true,
                 "lock" => args.lock.push(lock(&value).ok()?),
                 "lock-others" => args.lock_others = Some(value),
                 "without" => args.without.push(value),
@@ -102,9 +109,12 @@ impl ChainArgs {
 /// Formats the options as command-line arguments: `--tip tool0 --lock elbow=0`.
 impl fmt::Display for ChainArgs {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let argument = |(option, value): (String, String)| format!("--{option} {value}");
+        let argument = |(option, value): (String, String)| match value.is_empty() {
+            true => format!("--{option}"),
+            false => format!("--{option} {value}"),
+        };
         let arguments: Vec<String> = self.pairs().into_iter().map(argument).collect();
-        f.write_str(one_line(&arguments.join(" ")).trim_end())
+        f.write_str(&one_line(&arguments.join(" ")))
     }
 }
 
@@ -115,7 +125,8 @@ mod tests {
     #[test]
     fn what_is_set_reads_back() {
         let args = ChainArgs {
-            tip: Some("tool0".to_owned()),
+            tip: vec!["left".to_owned(), "right".to_owned()],
+            tree: true,
             lock: vec![("elbow".to_owned(), "pi/2".to_owned())],
             lock_others: Some("-0.1".to_owned()),
             without: vec!["left".to_owned(), "right".to_owned()],
@@ -123,7 +134,7 @@ mod tests {
             ..ChainArgs::default()
         };
         assert_eq!(ChainArgs::from_pairs(&args.pairs()), Some(args.clone()));
-        let shown = "--tip tool0 --lock elbow=pi/2 --lock-others -0.1 --without left --without right --ignore-ties";
+        let shown = "--tip left --tip right --tree --lock elbow=pi/2 --lock-others -0.1 --without left --without right --ignore-ties";
         assert_eq!(args.to_string(), shown);
         assert!(ChainArgs::default().pairs().is_empty());
         let unknown = [("top".to_owned(), String::new())];

@@ -55,7 +55,8 @@ pub fn arms(
             name = format!("{wish}_{}", names.len());
         }
         let of_arm = Options {
-            tip: Some(tip),
+            tips: vec![tip],
+            tree: false,
             lock: lock.clone(),
             name: Some(name.clone()),
             ..options.clone()

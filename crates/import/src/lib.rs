@@ -1,7 +1,7 @@
 //! Robot files from URDF and MJCF.
 //!
-//! [`import`] takes one chain of a model, from a base to a tip, and writes the robot file that says
-//! the same: every joint by its placement.
+//! [`import`] takes a part of a model, the chain from a base to a tip or all that moves, and writes
+//! the robot file that says the same: every joint by its placement.
 //!
 //! - `open`: a robot of a path, whichever format it has
 //! - `text`, `xml`, `include`: the text of a model, as elements that know their places
@@ -9,7 +9,7 @@
 //! - `keywords`, `read`: which names are read, and words and numbers of attributes
 //! - `model`: links and joints as a file says them; `urdf` and `mjcf` read it
 //! - `orientation`, `bounds`: orientations in all their forms; masses that MuJoCo's compiler changes
-//! - `args`, `arms`: the options of a chain; every arm of a robot
+//! - `args`, `arms`: the options that choose a part; every arm of a robot
 //! - `select`: the part of a model that is the robot
 //! - `snap`, `meant`: numbers that were meant to be others: 1.57079632679 is π/2
 //! - `merge`: links that are fixed to each other, as one body of a tree
@@ -63,14 +63,17 @@ pub use text::{MAX_BYTES, Text};
 /// The largest change of a torque, relative to its limit, that snapping makes unasked.
 pub const FELT: f64 = 1e-6;
 
-/// The chain to take of a model, and how.
+/// The part to take of a model, and how.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// The link that stands still; without one, the root.
     pub base: Option<String>,
     /// The link whose frame is the hand; without one, the palm that the fingers hang on
     /// or the end of the longest chain, if there is one; the first of several that one joint moves.
-    pub tip: Option<String>,
+    /// Of several, the joints on the ways to all of them.
+    pub tips: Vec<String>,
+    /// Take every joint that moves; no tips are given then.
+    pub tree: bool,
     /// Joints that stay where they are, each with its position, within the joint's
     /// limits: a number of the model's units, `pi/2` or `90deg`. The name `*` stands for
     /// every joint that hangs on the chain: each is held there, or at the nearest limit. A
@@ -94,7 +97,7 @@ pub struct Options {
     pub name: Option<String>,
 }
 
-/// A chain of a model.
+/// A part of a model as a robot file.
 #[derive(Clone, Debug)]
 pub struct Import {
     /// The robot file.
@@ -110,7 +113,7 @@ pub struct Import {
     pub change: Option<Change>,
 }
 
-/// Makes a robot file of a chain of a model that is one text.
+/// Makes a robot file of a part of a model that is one text.
 ///
 /// # Errors
 /// Everything that is wrong with the model or the options, at once, each at its
@@ -119,7 +122,7 @@ pub fn import(source: &str, options: &Options) -> Result<Import, Diagnostics> {
     import_text(&Text::of("", source.to_owned()), options)
 }
 
-/// Makes a robot file of a chain of a model that may be in several files.
+/// Makes a robot file of a part of a model that may be in several files.
 ///
 /// # Errors
 /// Those of [`import`]; [`Text::render`] says in which file they are.
@@ -151,17 +154,14 @@ fn read_model(text: &Text, options: &Options, problems: &mut Problems) -> Option
     (!problems.has_errors()).then_some(model)
 }
 
-/// Makes the robot file of a chain; the problems are those of reading the model.
+/// Makes the robot file of a part; the problems are those of reading the model.
 fn import_model(
     model: Option<&Model>,
     options: &Options,
     mut problems: Problems,
 ) -> Result<Import, Diagnostics> {
-    let tips: Vec<&str> = options.tip.iter().map(String::as_str).collect();
-    let selected = model.and_then(|model| {
-        let selection = select::select(model, options, &tips, &mut problems)?;
-        Some((model, selection))
-    });
+    let selected =
+        model.and_then(|model| Some((model, select::select(model, options, &mut problems)?)));
     let parts = selected
         .as_ref()
         .map(|(model, selection)| selection.parts(model));

@@ -25,8 +25,8 @@ pub(crate) struct Tree {
     pub(crate) bodies: Vec<Branch>,
     /// Every link that moves, in the frame of the joint that moves it.
     pub(crate) frames: Vec<Frame>,
-    /// The tips, each in the frame of its body.
-    pub(crate) tools: Vec<Placement>,
+    /// The tips that move, each in the frame of its body.
+    pub(crate) ends: Vec<(usize, Placement)>,
 }
 
 #[derive(Clone, Debug)]
@@ -142,15 +142,35 @@ pub(crate) fn merged(
         };
         problems.say(id, &first.at, &[&names.join("`, `")]);
     }
-    let tools = selection
-        .tips
-        .iter()
-        .map(|tip| Some(placement(&places.get(tip)?.1, &size)));
+    let ends = selection.tips.iter().filter_map(|tip| {
+        let (body, way, _) = places.get(tip)?;
+        Some((body.as_ref().copied()?, placement(way, &size)))
+    });
     Some(Tree {
-        tools: tools.collect::<Option<_>>()?,
+        ends: ends.collect(),
         bodies,
         frames,
     })
+}
+
+impl Tree {
+    /// True if a body carries two others, or the base does.
+    pub(crate) fn branches(&self) -> bool {
+        let mut bodies = self.bodies.iter().enumerate();
+        bodies.any(|(index, body)| body.parent != index.checked_sub(1))
+    }
+
+    /// Returns the hand in the frame of the last body, if all bodies lie on one chain.
+    pub(crate) fn hand(&self) -> Option<&Placement> {
+        let last = self
+            .bodies
+            .len()
+            .checked_sub(1)
+            .filter(|_| !self.branches())?;
+        let mut ends = self.ends.iter();
+        ends.find(|(body, _)| *body == last)
+            .map(|(_, placement)| placement)
+    }
 }
 
 /// Returns the inertia of a link whose defects are no larger than rounding errors without them.
@@ -276,15 +296,17 @@ mod tests {
             let mut problems = Problems::of(&text);
             let options = Options {
                 lock: vec![("*".to_owned(), "0".to_owned())],
+                tips: tips.iter().map(|tip| (*tip).to_owned()).collect(),
                 ..Options::default()
             };
             let model = read_model(&text, &options, &mut problems).unwrap();
-            let selection = select(&model, &options, tips, &mut problems).unwrap();
+            let selection = select(&model, &options, &mut problems).unwrap();
             merged(&model, &selection, &mut problems).unwrap()
         };
         let hands = ["left_hand_link", "right_hand_link"];
         let both = tree(&hands);
-        assert_eq!((both.bodies.len(), both.tools.len()), (14, 2));
+        assert_eq!((both.bodies.len(), both.ends.len()), (14, 2));
+        assert!(both.branches() && both.hand().is_none());
         assert_eq!(
             both.bodies
                 .iter()
@@ -292,9 +314,9 @@ mod tests {
                 .count(),
             2
         );
-        for (tip, tool) in hands.iter().zip(&both.tools) {
+        for (tip, (_, tool)) in hands.iter().zip(&both.ends) {
             let alone = tree(&[tip]);
-            assert_eq!((alone.bodies.len(), &alone.tools[0]), (7, tool));
+            assert_eq!((alone.bodies.len(), alone.hand()), (7, Some(tool)));
             for (index, body) in alone.bodies.iter().enumerate() {
                 assert_eq!(body.parent, index.checked_sub(1));
                 let same = both

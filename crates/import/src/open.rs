@@ -121,7 +121,8 @@ impl Options {
     fn refuse_chain(&self, name: &str) -> Result<(), String> {
         let options = [
             ("base", self.base.is_some()),
-            ("tip", self.tip.is_some()),
+            ("tip", !self.tips.is_empty()),
+            ("tree", self.tree),
             ("lock", !self.lock.is_empty()),
             ("without", !self.without.is_empty()),
             ("ignore-ties", self.ignore_ties),
@@ -130,7 +131,7 @@ impl Options {
             None => Ok(()),
             Some((option, _)) => Err(format!(
                 "error: --{option}: `{name}` is a robot file, and not a URDF or an MJCF\n  = help: leave it out: \
-                 a robot file has one chain"
+                 a robot file is one robot"
             )),
         }
     }

@@ -229,7 +229,7 @@ fn by_digits(axes: [Vector<Wide>; 3], numbers: &[Number]) -> Both {
     };
     let rpy = angles.map(|angle| match &angle {
         Angle::Radians(value) => meant::within(value, unit.clone(), count).unwrap_or(angle),
-        Angle::PiTimes(_) => angle,
+        _ => angle,
     });
     let meant = pose(&Placement {
         rpy,

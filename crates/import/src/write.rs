@@ -1,4 +1,4 @@
-//! The robot file of a chain.
+//! The robot file of a part of a model.
 
 use std::collections::BTreeSet;
 use std::fmt::Display;
@@ -29,8 +29,8 @@ pub(crate) fn file(
     options: &Options,
     problems: &mut Problems,
 ) -> String {
-    let [base, tip] =
-        [selection.base, selection.tips[0]].map(|link| model.links[link].name.as_str());
+    let link = |link: usize| model.links[link].name.as_str();
+    let base = link(selection.base);
     let file = match options.file.as_str() {
         "" if model.format == Format::Mjcf => "an MJCF",
         "" => "a URDF",
@@ -40,8 +40,14 @@ pub(crate) fn file(
         None => "taken to pull against its z",
         Some(_) => "the model's in them",
     };
+    let tips: Vec<&str> = selection.tips.iter().map(|tip| link(*tip)).collect();
+    let part = match tips.as_slice() {
+        _ if options.tree && tree.branches() => format!("All that moves on link {base}"),
+        [tip] => format!("From link {base} to link {tip}"),
+        tips => format!("From link {base} to the links {}", tips.join(", ")),
+    };
     let mut head = vec![
-        format!("From link {base} to link {tip} of {file}, by `dalembert import`."),
+        format!("{part} of {file}, by `dalembert import`."),
         format!("Base axes are those of {base}; gravity is {gravity}."),
     ];
     if snaps.iter().any(|snap| snap.changes) {
@@ -61,7 +67,13 @@ pub(crate) fn file(
         Some(gravity) => list(gravity.iter().map(|x| number(&x.value))),
     };
     let gravity = ("gravity", Some(gravity));
-    let tool = (!tree.tools[0].is_identity()).then(|| placement(&as_read(&tree.tools[0])));
+    let writer = Writer {
+        model,
+        tree,
+        on_the_circle: tree.branches() && !options.exact,
+    };
+    let hand = tree.hand().filter(|hand| !hand.is_identity());
+    let tool = hand.map(|hand| writer.placement(hand));
     let allow = stays.then(|| "[\"near_right_angle\"]".to_owned());
     let (tool, allow) = (("tool", tool), ("allow", allow));
     let name = ("name", Some(quoted(&name)));
@@ -72,15 +84,29 @@ pub(crate) fn file(
     let differences: Vec<String> = messages.iter().map(|message| one_line(message)).collect();
     let notes = ("notes", texts(&differences));
     lines(&mut text, [name, gravity, tool, allow, notes]);
+    let joint_names: Vec<String> = (joints.iter().enumerate())
+        .map(|(index, joint)| name_of(joint, index, problems))
+        .collect();
     for (index, (model_joint, link)) in joints.iter().zip(&tree.bodies).enumerate() {
         text.push_str("\n[[joint]]\n");
-        let name = name_of(model_joint, index, problems);
-        lines(&mut text, [("name", Some(quoted(&name)))]);
-        joint(&mut text, model_joint, link, options);
+        let parent = (link.parent != index.checked_sub(1)).then(|| match link.parent {
+            Some(parent) => quoted(&joint_names[parent]),
+            None => quoted("base"),
+        });
+        let name = Some(quoted(&joint_names[index]));
+        lines(&mut text, [("name", name), ("parent", parent)]);
+        writer.joint(&mut text, model_joint, link, options);
         lines(&mut text, [("mimic", mimic(model_joint, &joints))]);
     }
-    frames(&mut text, model, tree);
+    writer.frames(&mut text);
     text
+}
+
+struct Writer<'m> {
+    model: &'m Model,
+    tree: &'m Tree,
+    /// Write angles that are no parts of π as points of the circle with rational coordinates.
+    on_the_circle: bool,
 }
 
 fn mimic(follower: &Joint, joints: &[&Joint]) -> Option<String> {
@@ -99,22 +125,76 @@ fn mimic(follower: &Joint, joints: &[&Joint]) -> Option<String> {
     ])
 }
 
-fn frames(text: &mut String, model: &Model, tree: &Tree) {
-    let mut taken = BTreeSet::from([HAND.to_owned()]);
-    for frame in tree.frames.iter().take(Robot::MAX_FRAMES) {
-        let link_name = model.links[frame.link].name.as_str();
-        let Some(name) = frame_name(link_name, &taken) else {
-            continue;
-        };
-        text.push('\n');
-        if name != link_name {
-            text.push_str(&comment(&format!("Link {link_name}.")));
+impl Writer<'_> {
+    fn frames(&self, text: &mut String) {
+        let mut taken = BTreeSet::from([HAND.to_owned()]);
+        for frame in self.tree.frames.iter().take(Robot::MAX_FRAMES) {
+            let link_name = self.model.links[frame.link].name.as_str();
+            let Some(name) = frame_name(link_name, &taken) else {
+                continue;
+            };
+            text.push('\n');
+            if name != link_name {
+                text.push_str(&comment(&format!("Link {link_name}.")));
+            }
+            text.push_str("[[frame]]\n");
+            let link = (frame.body + 1).to_string();
+            lines(text, [("name", Some(quoted(&name))), ("link", Some(link))]);
+            write_frame(text, &self.as_read(&frame.placement));
+            taken.insert(name);
         }
-        text.push_str("[[frame]]\n");
-        let link = (frame.body + 1).to_string();
-        lines(text, [("name", Some(quoted(&name))), ("link", Some(link))]);
-        write_frame(text, &as_read(&frame.placement));
-        taken.insert(name);
+    }
+
+    fn joint(&self, text: &mut String, joint: &Joint, link: &Branch, options: &Options) {
+        let kind = match joint.kind {
+            Kind::Prismatic => "prismatic",
+            _ => "revolute",
+        };
+        let range = joint.position.as_ref().map(|range| {
+            list(range.each_ref().map(|end| match &end.value {
+                Position::Angle(angle) => position(&Position::Angle(right(angle.clone()))),
+                length => position(length),
+            }))
+        });
+        let limit = |limit: &Option<Number>| positive(limit).map(|limit| number(&limit.value));
+        let acceleration = limit(&joint.acceleration).or(options.acceleration.as_ref().map(number));
+        let limits = table([
+            ("position", range),
+            ("velocity", limit(&joint.velocity)),
+            ("torque", limit(&joint.effort)),
+            ("acceleration", acceleration),
+        ]);
+        let axis = joint.axis.each_ref().map(|x| number(&x.value));
+        let damping = joint.damping.as_ref();
+        let viscous = damping.and_then(|damping| unless_zero(number(&damping.value)));
+        let keys = [
+            ("kind", Some(quoted(kind))),
+            ("placement", Some(self.placement(&link.placement))),
+            ("axis", Some(list(axis))),
+            ("mass", Some(number(&link.body.mass))),
+            ("com", Some(list(link.body.com.iter().map(number)))),
+            ("inertia", Some(numbers(link.body.inertia.entries()))),
+            ("viscous", viscous),
+            ("armature", unless_zero(number(&joint.armature))),
+            ("limits", limits),
+        ];
+        lines(text, keys);
+    }
+
+    /// Returns a placement whose angles the reader of robot files takes without a warning.
+    fn as_read(&self, placement: &Placement) -> Placement {
+        let angle = |angle: Angle| match right(angle) {
+            Angle::Radians(value) if self.on_the_circle => Angle::Radians(value).on_the_circle(),
+            angle => angle,
+        };
+        Placement {
+            xyz: placement.xyz.clone(),
+            rpy: placement.rpy.clone().map(angle),
+        }
+    }
+
+    fn placement(&self, at: &Placement) -> String {
+        placement(&self.as_read(at))
     }
 }
 
@@ -137,50 +217,6 @@ fn name_of(joint: &Joint, index: usize, problems: &mut Problems) -> String {
             other
         }
         _ => name.clone(),
-    }
-}
-
-fn joint(text: &mut String, joint: &Joint, link: &Branch, options: &Options) {
-    let kind = match joint.kind {
-        Kind::Prismatic => "prismatic",
-        _ => "revolute",
-    };
-    let range = joint.position.as_ref().map(|range| {
-        list(range.each_ref().map(|end| match &end.value {
-            Position::Angle(angle) => position(&Position::Angle(right(angle.clone()))),
-            length => position(length),
-        }))
-    });
-    let limit = |limit: &Option<Number>| positive(limit).map(|limit| number(&limit.value));
-    let acceleration = limit(&joint.acceleration).or(options.acceleration.as_ref().map(number));
-    let limits = table([
-        ("position", range),
-        ("velocity", limit(&joint.velocity)),
-        ("torque", limit(&joint.effort)),
-        ("acceleration", acceleration),
-    ]);
-    let axis = joint.axis.each_ref().map(|x| number(&x.value));
-    let damping = joint.damping.as_ref();
-    let viscous = damping.and_then(|damping| unless_zero(number(&damping.value)));
-    let keys = [
-        ("kind", Some(quoted(kind))),
-        ("placement", Some(placement(&as_read(&link.placement)))),
-        ("axis", Some(list(axis))),
-        ("mass", Some(number(&link.body.mass))),
-        ("com", Some(list(link.body.com.iter().map(number)))),
-        ("inertia", Some(numbers(link.body.inertia.entries()))),
-        ("viscous", viscous),
-        ("armature", unless_zero(number(&joint.armature))),
-        ("limits", limits),
-    ];
-    lines(text, keys);
-}
-
-/// Writes angles as the robot-file reader takes them, so that it gives no warning.
-fn as_read(placement: &Placement) -> Placement {
-    Placement {
-        xyz: placement.xyz.clone(),
-        rpy: placement.rpy.clone().map(right),
     }
 }
 

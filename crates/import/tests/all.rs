@@ -6,3 +6,4 @@ mod mimic;
 mod parameters;
 mod reports;
 mod support;
+mod trees;

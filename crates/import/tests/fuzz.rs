@@ -90,7 +90,12 @@ fn answers(seed: u64, cases: &[(String, Options)]) -> (usize, usize) {
 
 #[test]
 fn an_answer_for_every_text() {
-    let cases = URDFS.map(|name| (source(name), snapped(name)));
+    let mut cases = Vec::from(URDFS.map(|name| (source(name), snapped(name))));
+    let tree = Options {
+        tree: true,
+        ..Options::default()
+    };
+    cases.push((source("panda"), tree));
     let (made, refused) = answers(0x9e37_79b9_7f4a_7c15, &cases);
     assert!(made > 30 && refused > 30, "{made} made, {refused} refused");
 }

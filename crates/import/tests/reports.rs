@@ -18,7 +18,7 @@ fn options(case: &Value) -> Options {
     while let Some(option) = words.next() {
         match option.as_str() {
             "--exact" => options.exact = true,
-            "--tip" => options.tip = words.next(),
+            "--tip" => options.tips.extend(words.next()),
             "--without" => options.without.extend(words.next()),
             _ => panic!("{option}"),
         }

@@ -162,7 +162,8 @@ fn name(text: String) -> PyResult<String> {
 fn wanted(options: &Options<'_, '_>) -> PyResult<Load> {
     let mut load = Load::default();
     load.urdf.base = options.get("base")?;
-    load.urdf.tip = options.get("tip")?;
+    load.urdf.tips = options.get("tip")?.unwrap_or_default();
+    load.urdf.tree = options.get("tree")?.unwrap_or_default();
     load.urdf.lock = options.get("lock")?.unwrap_or_default();
     load.urdf.without = options.get("without")?.unwrap_or_default();
     load.urdf.exact = options.get("exact")?.unwrap_or_default();

@@ -21,13 +21,15 @@ const MOST_FACTORS: u32 = 1 << 6;
 const BITS: u32 = 320;
 const PLACES: u32 = 1400;
 
-/// An angle: a multiple of π, or a number of radians.
+/// An angle: a multiple of π, a number of radians, or 2 atan of a fraction.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Angle {
     /// A multiple of π.
     Pi(Rational),
     /// Radians.
     Radians(Rational),
+    /// Twice the arc tangent.
+    TwiceAtan(Rational),
 }
 
 /// Reads a decimal, or a fraction of two.
@@ -56,13 +58,60 @@ pub(crate) fn fixed(value: &Rational, bits: u32) -> BigInt {
     (value.numer() << bits) / value.denom()
 }
 
+/// Returns sine and cosine of 2 atan t: (2t, 1 − t²)/(1 + t²).
+fn circle(t: Number) -> [Number; 2] {
+    let one = Number::from(1);
+    [(t + t) / (one + t * t), (one - t * t) / (one + t * t)]
+}
+
+/// Returns 2 atan x in units of 2 to the power of −`bits`, to a few of them.
+fn twice_atan(x: &Rational, bits: u32) -> BigInt {
+    let is_steep = x.abs() > Rational::one();
+    let one = BigInt::one() << bits;
+    let mut x = fixed(&if is_steep { x.recip() } else { x.clone() }, bits);
+    // tan(φ/2) = tan φ / (1 + √(1 + tan² φ)), four times: the series is short then.
+    for _ in 0..4 {
+        let root = (&one * &one + &x * &x).sqrt();
+        x = &x * &one / (&one + root);
+    }
+    let (mut power, mut sum, mut k) = (x.clone(), BigInt::zero(), 1u32);
+    while !power.is_zero() {
+        let part = &power / k;
+        sum += if k % 4 == 1 { part } else { -part };
+        power = &power * &x / &one * &x / &one;
+        k += 2;
+    }
+    let half_turn = Angle::Pi(if x.is_negative() {
+        -Rational::one()
+    } else {
+        Rational::one()
+    });
+    match is_steep {
+        true => half_turn.scaled(bits) - sum * 32,
+        false => sum * 32,
+    }
+}
+
 impl Angle {
-    /// Reads `0.3`, `"pi/2"`, `"-3*pi/4"`, `"90deg"`, or `1*pi/5` of a program. A decimal within 4
-    /// ulp of a quarter turn, up to a whole one, is that.
+    /// Reads `0.3`, `"pi/2"`, `"-3*pi/4"`, `"90deg"`, `"2*atan(1/3)"`, or `1*pi/5` of a program. A
+    /// decimal within 4 ulp of a quarter turn, up to a whole one, is that.
     pub fn read(text: &str) -> Option<Angle> {
         let text = text.trim();
         if let Some(degrees) = text.strip_suffix("deg") {
             return Some(Angle::Pi(number(degrees.trim())? / BigInt::from(180)));
+        }
+        if let Some((factor, tangent)) = text.split_once("atan(") {
+            let tangent = number(tangent.strip_suffix(')')?.trim())?;
+            let tangent = match factor.trim() {
+                "2*" | "+2*" => tangent,
+                "-2*" => -tangent,
+                _ => return None,
+            };
+            let is_quarter = tangent.is_zero() || tangent.abs().is_one();
+            return Some(match is_quarter {
+                true => Angle::Pi(tangent / BigInt::from(2)),
+                false => Angle::TwiceAtan(tangent),
+            });
         }
         if let Some((factor, under)) = text.split_once("pi") {
             let factor = match factor.trim() {
@@ -93,6 +142,7 @@ impl Angle {
         match self {
             Angle::Pi(multiple) => Some(multiple.to_f64()? * std::f64::consts::PI),
             Angle::Radians(radians) => radians.to_f64(),
+            Angle::TwiceAtan(tangent) => Some(2.0 * tangent.to_f64()?.atan()),
         }
     }
 
@@ -111,6 +161,7 @@ impl Angle {
         match self {
             Angle::Radians(x) => fixed(x, bits),
             Angle::Pi(x) => (fixed(x, bits) * (16 * arc(5) - 4 * arc(239))) >> bits,
+            Angle::TwiceAtan(x) => twice_atan(x, bits),
         }
     }
 
@@ -364,10 +415,9 @@ impl Point {
         self.draws.borrow_mut().residue(self.prime)
     }
 
-    /// Returns a sine and a cosine that were not drawn before: (2t, 1 − t²)/(1 + t²).
+    /// Returns a sine and a cosine that were not drawn before.
     pub fn pair(&self) -> [Number; 2] {
-        let (t, one) = (self.residue(), Number::from(1));
-        [(t + t) / (one + t * t), (one - t * t) / (one + t * t)]
+        circle(self.residue())
     }
 
     /// Returns the residue of a fraction.
@@ -390,6 +440,7 @@ impl Point {
                 let [sin, cos] = drawn(Angle::Radians(radians.abs()));
                 return [if radians.is_negative() { -sin } else { sin }, cos];
             }
+            Angle::TwiceAtan(tangent) => return circle(self.number(tangent)),
         };
         let half = Rational::new(1.into(), 2.into());
         let halves = multiple / &half;

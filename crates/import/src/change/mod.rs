@@ -30,8 +30,8 @@ use pair::{Pair, next_up_unless_zero, root_of_squares, upward, vectors};
 #[derive(Clone, Debug)]
 pub struct Change {
     links: Vec<Parts>,
-    /// From the last joint's frame to the hand: how far, and how it is turned.
-    tool: [Pair; 2],
+    /// The ends, each with its body, and from there: how far it is, and how it is turned.
+    ends: Vec<(usize, [Pair; 2])>,
     limits: Motion,
     /// The size of gravity, m/s².
     gravity: f64,
@@ -131,18 +131,26 @@ impl Change {
         torques
     }
 
-    /// Returns how far the hand may be off over a motion, in the base.
+    /// Returns how far the hand may be off over a motion, in the base: of several ends, the most
+    /// that one of them is.
     pub fn hand(&self, motion: &Motion) -> Displacement {
-        let (mut at, mut turn) = (Pair::ZERO, Pair::of(1.0));
+        let mut poses: Vec<[Pair; 2]> = Vec::with_capacity(self.links.len());
         for (i, part) in self.links.iter().enumerate() {
             let q = motion.position.get(i).copied().unwrap_or(0.0).abs();
-            at = at + turn * part.lever_at(Pair::of(q));
-            turn = turn * part.turn;
+            let base = [Pair::ZERO, Pair::of(1.0)];
+            let [at, turn] = part.parent.map_or(base, |parent| poses[parent]);
+            poses.push([at + turn * part.lever_at(Pair::of(q)), turn * part.turn]);
         }
-        let [lever, turned] = self.tool;
+        let most = |off: fn([Pair; 2], [Pair; 2]) -> f64| {
+            let ends = self
+                .ends
+                .iter()
+                .map(|(body, tool)| off(poses[*body], *tool));
+            ends.fold(0.0, f64::max)
+        };
         Displacement {
-            position: (at + turn * lever).off,
-            angle: angle((turn * turned).off),
+            position: most(|[at, turn], [lever, _]| (at + turn * lever).off),
+            angle: most(|[_, turn], [_, turned]| angle((turn * turned).off)),
         }
     }
 
@@ -240,9 +248,12 @@ pub(crate) fn bound(written: &Tree, snapped: &Tree, model: &Model, options: &Opt
     };
     let least = |value: &Number| f64::nearest_rational(&value.value).next_down();
     let efforts = joints().map(|joint| positive(&joint.effort).map(least));
-    let tools = [written, snapped].map(|tree| pose(&tree.tools[0]));
-    let turned = [0, 1, 2].map(|k| vectors(&tools[0].axes[k], &tools[1].axes[k]).off);
-    let turned = Pair::new(1.0, root_of_squares(&turned));
+    let ends = written.ends.iter().zip(&snapped.ends).map(|(one, other)| {
+        let tools = [one, other].map(|(_, tool)| pose(tool));
+        let turned = [0, 1, 2].map(|k| vectors(&tools[0].axes[k], &tools[1].axes[k]).off);
+        let turned = Pair::new(1.0, root_of_squares(&turned));
+        (one.0, [vectors(&tools[0].origin, &tools[1].origin), turned])
+    });
     let gravity = model.gravity.as_ref().map(|gravity| {
         let sizes = gravity.each_ref().map(|x| upper(&x.value));
         root_of_squares(&sizes)
@@ -250,7 +261,7 @@ pub(crate) fn bound(written: &Tree, snapped: &Tree, model: &Model, options: &Opt
     Change {
         limits,
         gravity: gravity.unwrap_or(9.81),
-        tool: [vectors(&tools[0].origin, &tools[1].origin), turned],
+        ends: ends.collect(),
         efforts: efforts.collect(),
         links: links
             .map(|((one, other), joint)| parts(one, other, joint.kind == Kind::Prismatic))

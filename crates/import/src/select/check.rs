@@ -116,7 +116,7 @@ impl<'m> Select<'m, '_, '_> {
 /// Checks the names of links and joints in the options.
 pub(crate) fn check_names(model: &Model, options: &Options, problems: &mut Problems) {
     let base = options.base.iter().map(|name| ("--base", name));
-    let tip = options.tip.iter().map(|name| ("--tip", name));
+    let tip = options.tips.iter().map(|name| ("--tip", name));
     let without = options.without.iter().map(|name| ("--without", name));
     let links = base.chain(tip).chain(without);
     for (option, name) in links.filter(|(_, name)| model.link(name).is_none()) {

@@ -1,6 +1,6 @@
 //! The part of a model that is the robot: what each joint does in it, and which joint moves a link.
 //!
-//! - `tip`: the end of an arm if no tip is given
+//! - `tip`: where limbs end if no tip is given
 //! - `position`: positions of joints that are held
 //! - `check`: ties, followers, names in options
 
@@ -78,18 +78,20 @@ pub(crate) struct Select<'m, 'p, 't> {
     held: BTreeSet<usize>,
 }
 
-/// Selects the robot from its base to the tips that are given, or to the one that is found.
+/// Selects the robot from its base to the tips that are given, to the one that is found, or with all
+/// that moves.
 pub(crate) fn select(
     model: &Model,
     options: &Options,
-    tips: &[&str],
     problems: &mut Problems,
 ) -> Option<Selection> {
     let mut select = Select::new(model, options, problems)?;
     let base = select.base(options)?;
-    let tips = match tips {
-        [] => vec![select.tip(base)?],
-        names => {
+    let tips = match (options.tree, options.tips.as_slice()) {
+        (true, []) => select.ends(base)?,
+        (true, _) => return select.problems.refuse("tree_and_tips", &model.at, &[]),
+        (false, []) => vec![select.tip(base)?],
+        (false, names) => {
             let links = names.iter().map(|name| model.link(name));
             links.collect::<Option<Vec<_>>>()?
         }
@@ -179,7 +181,7 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
     }
 
     /// Returns the joints from a link up to the root, or once around a circle.
-    fn way(&self, link: usize) -> impl Iterator<Item = usize> {
+    pub(crate) fn way(&self, link: usize) -> impl Iterator<Item = usize> {
         let up = |joint: &usize| self.model.above[self.model.ends[*joint][0]];
         std::iter::successors(self.model.above[link], up).take(self.model.ends.len())
     }
@@ -427,7 +429,7 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
             .iter()
             .find(|other| joints[**other].name == mimic.leader);
         let Some(leader) = leader else {
-            return Some(", which is not in the chain".to_owned());
+            return Some(", which is not part of the robot".to_owned());
         };
         if self.stays(*leader) {
             return Some(", which does not move".to_owned());

@@ -1,5 +1,5 @@
 //! Finds the end of an arm if no tip is given: the palm that holds the fingers, or the end of the
-//! longest chain.
+//! longest chain; and the ends of all limbs.
 
 use std::collections::BTreeSet;
 use std::fmt::Display;
@@ -27,21 +27,8 @@ impl Select<'_, '_, '_> {
         let most = heights[base];
         let name = |link: &usize| self.model.links[*link].name.as_str();
         let moved: BTreeSet<usize> = tips.iter().map(|tip| self.moved_with(*tip, base)).collect();
-        if let ([link, rest @ ..], 1) = (tips.as_slice(), moved.len()) {
-            let others: Vec<&str> = rest.iter().take(MAX_NAMES).map(name).collect();
-            let (at, end) = (&self.model.links[*link].at, name(link));
-            let (names, moves) = (
-                others.join("`, `"),
-                if rest.len() == 1 { "moves" } else { "move" },
-            );
-            match others.first() {
-                None => self.problems.say("ends_at", at, &[&end]),
-                Some(first) => {
-                    let words: [&dyn Display; 4] = [&end, &names, &moves, first];
-                    self.problems.say("ends_at_with", at, &words);
-                }
-            }
-            return Some(*link);
+        if moved.len() == 1 {
+            return self.first(&tips);
         }
         let message = match holds {
             true => format!("{} links may be where the arm ends", moved.len()),
@@ -66,6 +53,64 @@ impl Select<'_, '_, '_> {
         }
         self.problems
             .refuse("ends", &self.model.at, &[&message, &help])
+    }
+
+    /// Returns the first of links that one joint moves, and says so.
+    fn first(&mut self, tips: &[usize]) -> Option<usize> {
+        let (link, rest) = tips.split_first()?;
+        let name = |link: &usize| self.model.links[*link].name.as_str();
+        let others: Vec<&str> = rest.iter().take(MAX_NAMES).map(name).collect();
+        let (at, end) = (&self.model.links[*link].at, name(link));
+        let (names, moves) = (
+            others.join("`, `"),
+            if rest.len() == 1 { "moves" } else { "move" },
+        );
+        match others.first() {
+            None => self.problems.say("ends_at", at, &[&end]),
+            Some(first) => {
+                let words: [&dyn Display; 4] = [&end, &names, &moves, first];
+                self.problems.say("ends_at_with", at, &words);
+            }
+        }
+        Some(*link)
+    }
+
+    /// Returns the link of each joint that is the last to move; if that is one joint, the link at
+    /// which a chain of all joints ends.
+    pub(crate) fn ends(&mut self, base: usize) -> Option<Vec<usize>> {
+        let mut moving = Vec::new();
+        let mut open = vec![base];
+        while let Some(link) = open.pop() {
+            for joint in self.hanging(link) {
+                let stays = self.stays(joint);
+                // Behind a ball, nothing has one coordinate each.
+                if stays || self.model.joints[joint].kind.has_one_axis() {
+                    moving.extend((!stays).then_some(joint));
+                    open.push(self.model.ends[joint][1]);
+                }
+            }
+        }
+        let carries = moving
+            .iter()
+            .flat_map(|joint| self.way(self.model.ends[*joint][0]));
+        let carries: BTreeSet<usize> = carries.collect();
+        moving.retain(|joint| !carries.contains(joint));
+        moving.sort_unstable();
+        let ends: Vec<usize> = moving
+            .iter()
+            .map(|joint| self.model.ends[*joint][1])
+            .collect();
+        let heights = self.heights(base);
+        let (tips, _) = self.chain_ends(base, &heights, false);
+        match ends[..] {
+            [] => self.problems.refuse("no_arm", &self.model.at, &[]),
+            [end] => {
+                let is_moved = |tip: &usize| self.moved_with(*tip, base) == end;
+                let tips: Vec<usize> = tips.into_iter().filter(is_moved).collect();
+                Some(vec![self.first(&tips).unwrap_or(end)])
+            }
+            _ => Some(ends),
+        }
     }
 
     /// Returns one link for each joint that is the last to move.

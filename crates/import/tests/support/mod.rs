@@ -71,7 +71,7 @@ pub fn json(name: &str) -> Value {
 pub fn to(tip: &str, lock: &[(&str, &str)]) -> Options {
     let lock = lock.iter().map(|&(joint, at)| (joint.into(), at.into()));
     Options {
-        tip: Some(tip.into()),
+        tips: vec![tip.into()],
         lock: lock.collect(),
         ..Options::default()
     }

@@ -162,12 +162,12 @@ fn a_urdf_is_loaded() {
     let folder = Folder::new("urdf");
     let urdf = path("crates/import/tests/data/panda.urdf");
     let mut load = folder.load();
-    load.urdf.tip = Some("panda_link8".to_owned());
+    load.urdf.tips = vec!["panda_link8".to_owned()];
     load.urdf.lock = vec![("*".to_owned(), "0".to_owned())];
     let arm = Arm::load(&urdf, &load).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(arm.robot().joints.len(), 7);
     assert!(Arm::load(&urdf, &load).unwrap().is_from_cache());
-    load.urdf.tip = Some("panda_link9".to_owned());
+    load.urdf.tips = vec!["panda_link9".to_owned()];
     let error = refusal(Arm::load(&urdf, &load));
     assert!(error.contains("panda_link9"), "{error}");
     let error = refusal(Arm::load(path("nowhere.toml"), &load));

@@ -8,8 +8,10 @@ use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::parse::{self, NumberError};
+use super::recover::short;
 use super::small::compare;
-use super::{Rational, ratio, trig};
+use super::{Rational, Wide, ratio, trig};
+use crate::scalar::SinCosPair;
 
 /// An angle as the robot file gives it.
 ///
@@ -21,17 +23,19 @@ pub enum Angle {
     PiTimes(Rational),
     /// A rational number of radians.
     Radians(Rational),
+    /// 2 atan t, whose sine 2t/(1 + t²) and cosine (1 − t²)/(1 + t²) are rational: `"2*atan(1/3)"`.
+    TwiceAtan(Rational),
 }
 
 impl Ord for Angle {
     fn cmp(&self, other: &Self) -> Ordering {
-        match (self, other) {
-            (Angle::PiTimes(a), Angle::PiTimes(b)) | (Angle::Radians(a), Angle::Radians(b)) => {
-                compare(a, b)
-            }
-            (Angle::PiTimes(_), Angle::Radians(_)) => Ordering::Less,
-            (Angle::Radians(_), Angle::PiTimes(_)) => Ordering::Greater,
-        }
+        let form = |angle: &Angle| match angle {
+            Angle::PiTimes(_) => 0,
+            Angle::Radians(_) => 1,
+            Angle::TwiceAtan(_) => 2,
+        };
+        let forms = form(self).cmp(&form(other));
+        forms.then_with(|| compare(self.number(), other.number()))
     }
 }
 
@@ -53,19 +57,46 @@ impl Angle {
         Angle::PiTimes(ratio(n, 2))
     }
 
-    /// Returns whether it is zero, in either form.
-    pub fn is_zero(&self) -> bool {
+    /// Returns the number that its form has: the multiple of π, the radians, the tangent.
+    pub fn number(&self) -> &Rational {
         match self {
-            Angle::PiTimes(value) | Angle::Radians(value) => value.is_zero(),
+            Angle::PiTimes(value) | Angle::Radians(value) | Angle::TwiceAtan(value) => value,
         }
     }
 
+    /// Returns whether it is zero, in any form.
+    pub fn is_zero(&self) -> bool {
+        self.number().is_zero()
+    }
+
     /// Returns the angle in the form that compares equal whenever the value does: zero radians
-    /// become zero times π. (No other rational number of radians is a rational multiple of π.)
+    /// become zero times π, and 2 atan 1 becomes π/2. (No other values have two forms.)
     #[must_use]
     pub fn canonical(self) -> Self {
-        let is_zero = self.is_zero();
-        if is_zero { Angle::default() } else { self }
+        match self {
+            Angle::TwiceAtan(tangent) if tangent.abs().is_one() => {
+                Angle::PiTimes(tangent * ratio(1, 2))
+            }
+            angle if angle.is_zero() => Angle::default(),
+            angle => angle,
+        }
+    }
+
+    /// Returns the angle with rational sine and cosine that is within 2⁻⁵² rad of this one, the
+    /// tangent of its half a fraction of some 27 bits; a multiple of π/2 as it is.
+    #[must_use]
+    pub fn on_the_circle(&self) -> Self {
+        if self.quarter_turns().is_some() || matches!(self, Angle::TwiceAtan(_)) {
+            return self.clone();
+        }
+        let SinCosPair { sin, cos } = Wide::sincos(self);
+        let [sin, cos] = [sin, cos].map(|part| part.to_rational());
+        let tangent = match cos.is_negative() {
+            // Of half a turn less than this, whose tangent is at most one.
+            true => short(&((Rational::one() + cos) / sin)).recip(),
+            false => short(&(sin / (Rational::one() + cos))),
+        };
+        Angle::TwiceAtan(tangent).canonical()
     }
 
     /// Returns the opposite angle.
@@ -74,6 +105,7 @@ impl Angle {
         match self {
             Angle::PiTimes(value) => Angle::PiTimes(-value),
             Angle::Radians(value) => Angle::Radians(-value),
+            Angle::TwiceAtan(value) => Angle::TwiceAtan(-value),
         }
     }
 
@@ -87,7 +119,7 @@ impl Angle {
                 }
                 quarters.to_integer().mod_floor(&4.into()).to_u8()
             }
-            Angle::Radians(value) => value.is_zero().then_some(0),
+            Angle::Radians(value) | Angle::TwiceAtan(value) => value.is_zero().then_some(0),
         }
     }
 
@@ -96,6 +128,9 @@ impl Angle {
         match self {
             Angle::PiTimes(value) => value * pi(),
             Angle::Radians(value) => value.clone(),
+            Angle::TwiceAtan(value) => {
+                Rational::new(trig::twice_atan(value, BITS), BigInt::one() << BITS)
+            }
         }
     }
 
@@ -112,7 +147,8 @@ impl Angle {
         }
     }
 
-    /// Reads the text forms: `"[-][k*]pi[/m]"`, `"90deg"`, and a fraction of radians, `"1/3"`.
+    /// Reads the text forms: `"[-][k*]pi[/m]"`, `"90deg"`, `"[-]2*atan(p/q)"`, and a fraction of
+    /// radians, `"1/3"`.
     ///
     /// # Errors
     /// [`NumberError`] if it is none of them.
@@ -124,6 +160,17 @@ impl Angle {
         if let Some(degrees) = text.strip_suffix("deg") {
             let degrees = parse::parse_decimal(degrees.trim_end())?;
             return Ok(Angle::PiTimes(degrees / Rational::from_integer(180.into())));
+        }
+        if let Some((before, tangent)) = text.split_once("atan(") {
+            let (negative, before) = parse::split_sign(before);
+            let tangent = tangent.strip_suffix(')').filter(|_| before.trim() == "2*");
+            let tangent = tangent.ok_or(NumberError::Malformed)?.trim();
+            let tangent = match tangent.contains('/') {
+                true => parse::parse_fraction(tangent)?,
+                false => parse::parse_decimal(tangent)?,
+            };
+            let angle = Angle::TwiceAtan(if negative { -tangent } else { tangent });
+            return Ok(angle.canonical());
         }
         if !text.contains("pi") {
             return parse::parse_fraction(text).map(|value| Angle::Radians(value).canonical());
@@ -153,7 +200,7 @@ impl Angle {
     }
 }
 
-/// As the robot file writes it: `pi/2`, `-3*pi/4`, `0.3`, `1/3`.
+/// As the robot file writes it: `pi/2`, `-3*pi/4`, `0.3`, `1/3`, `2*atan(-1/3)`.
 impl fmt::Display for Angle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -176,6 +223,7 @@ impl fmt::Display for Angle {
                 Some(text) => f.write_str(&text),
                 None => write!(f, "{value}"),
             },
+            Angle::TwiceAtan(value) => write!(f, "2*atan({value})"),
         }
     }
 }
@@ -250,8 +298,82 @@ impl Snapped {
     }
 }
 
-/// 400 bits round any angle of a robot file, and order any two that are not absurdly close.
+/// So many round any angle of a robot file, and order any two that are not absurdly close.
+const BITS: usize = 400;
+
 fn pi() -> Rational {
-    const BITS: usize = 400;
     Rational::new(trig::pi(BITS), BigInt::one() << BITS)
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::string::ToString;
+
+    use super::*;
+    use crate::scalar::Scalar;
+
+    /// Checks that both texts are this angle, and that it is written as the first.
+    fn reads(texts: [&str; 2], angle: Angle) {
+        for text in texts {
+            assert_eq!(Angle::parse(text), Ok(angle.clone()), "{text}");
+        }
+        assert_eq!(angle.to_string(), texts[0]);
+    }
+
+    #[test]
+    fn angles_of_rational_points_read_back() {
+        reads(
+            ["2*atan(-1/3)", "-2*atan(1/3)"],
+            Angle::TwiceAtan(ratio(-1, 3)),
+        );
+        reads(
+            ["2*atan(7)", " 2*atan( 14/2 )"],
+            Angle::TwiceAtan(ratio(7, 1)),
+        );
+        reads(["-pi/2", "2*atan(-1)"], Angle::right_angles(-1));
+        assert_eq!(Angle::parse("2*atan(0)"), Ok(Angle::default()));
+        for text in [
+            "atan(1/3)",
+            "3*atan(1/3)",
+            "2*atan(1/3",
+            "2*atan(pi)",
+            "2*atan()",
+        ] {
+            assert!(Angle::parse(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn their_radians_are_right() {
+        for (tangent, radians) in [
+            (ratio(1, 3), 0.643_501_108_793_284_4),
+            (ratio(-9, 2), -2.704_254_761_841_909_3),
+        ] {
+            let angle = Angle::TwiceAtan(tangent);
+            assert_eq!(angle.to_f64(), radians);
+            // As exactly as the series of sine and cosine: 240 bits.
+            let [here, there] =
+                [angle.clone(), Angle::Radians(angle.radians())].map(|angle| Wide::sincos(&angle));
+            let off = here.sin.sub(&there.sin).to_rational().abs()
+                + here.cos.sub(&there.cos).to_rational().abs();
+            assert!(off < Rational::new(BigInt::one(), BigInt::one() << 240u32));
+        }
+    }
+
+    /// Within 2⁻⁵² rad, in few bits, on both halves of the circle.
+    #[test]
+    fn any_angle_has_a_rational_point_beside_it() {
+        let least = Rational::new(BigInt::one(), BigInt::one() << 52u32);
+        for thousandths in [-3141, -2200, -1571, -300, 0, 1, 812, 1570, 1572, 2500, 3140] {
+            let angle = Angle::Radians(ratio(thousandths, 1000)).canonical();
+            let point = angle.on_the_circle();
+            assert!(
+                (angle.radians() - point.radians()).abs() <= least,
+                "{angle}"
+            );
+            let bits = point.number().denom().bits() + point.number().numer().bits();
+            assert!(bits <= 60, "{point}");
+            assert_eq!(point.on_the_circle(), point);
+        }
+    }
 }

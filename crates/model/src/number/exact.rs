@@ -365,6 +365,12 @@ fn reduce(angle: &Angle) -> (u8, [Exact; 2]) {
             (0, [sin.neg(), cos])
         }
         Angle::Radians(_) => (0, generators(angle.clone())),
+        Angle::TwiceAtan(tangent) => {
+            let (square, one) = (tangent * tangent, Rational::one());
+            let per = (&one + &square).recip();
+            let [sin, cos] = [tangent + tangent, one - square].map(|part| part * &per);
+            (0, [Exact::from(sin), Exact::from(cos)])
+        }
     }
 }
 

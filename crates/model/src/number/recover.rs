@@ -32,10 +32,27 @@ pub fn recovered(value: &Wide, size: &Rational) -> Rational {
     simple(&value, &(size * near())).unwrap_or_else(|| rounded(&value))
 }
 
-/// Returns the first convergent within 2⁻⁵⁴: it mostly has half as many bits.
+/// Returns the fraction of the least numerator and denominator that is within 2⁻⁵³: mostly of 27 bits.
 pub fn short(value: &Rational) -> Rational {
-    let near = Rational::new(BigInt::one(), BigInt::one() << 54u32);
-    simple(value, &near).unwrap_or_else(|| rounded(value))
+    let near = Rational::new(BigInt::one(), BigInt::one() << 53u32);
+    let size = value.abs();
+    if size <= near {
+        return Rational::zero();
+    }
+    let found = simplest(&size - &near, size + near);
+    if value.is_negative() { -found } else { found }
+}
+
+/// Returns the simplest fraction between two that are positive: the convergents of all numbers
+/// between them begin alike, up to one that differs.
+fn simplest(low: Rational, high: Rational) -> Rational {
+    let whole = low.ceil();
+    if whole <= high {
+        return whole;
+    }
+    let whole = low.floor();
+    let rest = simplest((high - &whole).recip(), (low - &whole).recip());
+    whole + rest.recip()
 }
 
 impl Angle {

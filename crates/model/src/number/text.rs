@@ -41,7 +41,7 @@ impl fmt::Display for Exact {
 fn angle_text(angle: &Angle) -> String {
     match angle {
         Angle::PiTimes(multiple) => alloc::format!("{}*pi/{}", multiple.numer(), multiple.denom()),
-        Angle::Radians(value) => value.to_string(),
+        Angle::Radians(value) | Angle::TwiceAtan(value) => value.to_string(),
     }
 }
 

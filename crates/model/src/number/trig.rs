@@ -5,7 +5,7 @@
 
 use num_bigint::{BigInt, Sign};
 use num_integer::Integer;
-use num_traits::{One, Zero};
+use num_traits::{One, Signed, Zero};
 
 use super::{Angle, Rational};
 
@@ -51,10 +51,19 @@ pub(super) const SLACK: usize = 8;
 /// Returns (sin, cos) of an angle as integers scaled by 2^w, each within
 /// 2^`SLACK` units of the true value.
 pub(super) fn sin_cos(angle: &Angle, w: usize) -> (BigInt, BigInt) {
+    if let Angle::TwiceAtan(tangent) = angle {
+        let square = tangent * tangent;
+        let one = Rational::one();
+        let scaled = |part: Rational| {
+            let part = part / (&one + &square);
+            (part.numer() << w).div_floor(part.denom())
+        };
+        return (scaled(tangent + tangent), scaled(&one - &square));
+    }
     // Bits to spare: for the reduction by π, and for the series' roundings.
     let size = match angle {
-        Angle::PiTimes(_) => 0,
         Angle::Radians(value) => value.to_integer().bits() as usize,
+        _ => 0,
     };
     let work = w + size + 32;
     let pi = pi(work + size);
@@ -66,7 +75,7 @@ pub(super) fn sin_cos(angle: &Angle, w: usize) -> (BigInt, BigInt) {
             let scaled = (&pi >> size) * rest.numer();
             (whole, scaled.div_floor(&(rest.denom() * 2)))
         }
-        Angle::Radians(value) => {
+        Angle::Radians(value) | Angle::TwiceAtan(value) => {
             let scaled = (value.numer() << (work + size)).div_floor(value.denom());
             let quarter: BigInt = &pi >> 1;
             let whole = (&scaled + (&quarter >> 1u32)).div_floor(&quarter);
@@ -82,6 +91,41 @@ pub(super) fn sin_cos(angle: &Angle, w: usize) -> (BigInt, BigInt) {
         2 => (-sin, -cos),
         _ => (-cos, sin),
     }
+}
+
+/// Returns 2 atan t as an integer scaled by 2^w, within a few units.
+pub(super) fn twice_atan(tangent: &Rational, w: usize) -> BigInt {
+    const HALVINGS: u32 = 4;
+    let work = w + 32;
+    let is_steep = tangent.abs() > Rational::one();
+    let flat = if is_steep {
+        tangent.recip()
+    } else {
+        tangent.clone()
+    };
+    let one = BigInt::one() << work;
+    let mut x = (flat.numer() << work).div_floor(flat.denom());
+    for _ in 0..HALVINGS {
+        // tan(φ/2) = tan φ / (1 + √(1 + tan² φ))
+        let root = (&one * &one + &x * &x).sqrt();
+        x = (&x << work).div_floor(&(&one + root));
+    }
+    let square: BigInt = (&x * &x) >> work;
+    let (mut power, mut sum, mut k) = (x, BigInt::zero(), 1u32);
+    // Truncates towards zero, so that the loop ends for negative x too.
+    while !power.is_zero() {
+        let term = &power / k;
+        sum += if k % 4 == 1 { term } else { -term };
+        power = -(-(&power * &square) / &one);
+        k += 2;
+    }
+    let twice: BigInt = sum << (HALVINGS + 1);
+    let angle = match is_steep {
+        true if tangent.is_negative() => -pi(work) - twice,
+        true => pi(work) - twice,
+        false => twice,
+    };
+    angle >> (work - w)
 }
 
 fn series(x: &BigInt, w: usize) -> (BigInt, BigInt) {

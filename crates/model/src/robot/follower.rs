@@ -72,11 +72,15 @@ impl Follower {
         if let Some(exact) = at.plus(&back) {
             return exact.scaled(&part);
         }
-        // π is not rational: the nearest double.
-        let value = (at.number() - self.offset.number()) * part;
-        let nearest = Rational::from_float(Angle::Radians(value.clone()).to_f64());
-        Position::Angle(Angle::Radians(nearest.unwrap_or(value)).canonical())
+        // π is not rational.
+        nearest((at.number() - self.offset.number()) * part)
     }
+}
+
+/// Returns a number of radians, rounded to a double.
+fn nearest(radians: Rational) -> Position {
+    let nearest = Rational::from_float(Angle::Radians(radians.clone()).to_f64());
+    Position::Angle(Angle::Radians(nearest.unwrap_or(radians)).canonical())
 }
 
 impl Position {
@@ -94,6 +98,12 @@ impl Position {
         match self {
             Position::Angle(Angle::PiTimes(x)) => Position::Angle(Angle::PiTimes(x * by)),
             Position::Angle(Angle::Radians(x)) => Position::Angle(Angle::Radians(x * by)),
+            Position::Angle(angle) if by.abs().is_one() => Position::Angle(if by.is_negative() {
+                angle.negate()
+            } else {
+                angle.clone()
+            }),
+            Position::Angle(angle) => nearest(angle.radians() * by),
             Position::Length(x) => Position::Length(x * by),
         }
     }

@@ -268,8 +268,7 @@ impl Findings {
     }
 
     fn angle(&mut self, place: &str, value: &Angle) {
-        let (Angle::PiTimes(value) | Angle::Radians(value)) = value;
-        self.size(place, value);
+        self.size(place, value.number());
     }
 
     fn not_negative(&mut self, place: &str, value: &Rational) {

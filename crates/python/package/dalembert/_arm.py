@@ -313,7 +313,8 @@ def load(
     source: Path | Mapping[str, Any],
     *,
     base: str | None = None,
-    tip: str | None = None,
+    tip: str | Sequence[str] = (),
+    tree: bool = False,
     lock: Mapping[str | int, float | str] | Literal["*"] | None = None,
     without: str | Sequence[str] = (),
     exact: bool = False,
@@ -341,7 +342,10 @@ def load(
     source
         The path of a URDF or of a robot file, or a dictionary with what a robot file has.
     base, tip
-        Of a URDF: the link that stands still, and the one whose frame is the hand.
+        Of a URDF: the link that stands still, and the one whose frame is the hand; of several,
+        the joints on the ways to all of them.
+    tree
+        Of a URDF: take every joint that moves, as arms on a torso or fingers on a hand.
     lock
         Of a URDF: joints that stay where they are, each with its position, such as
         ``{"gripper": 0}`` or ``{"elbow": "90deg"}``; a number that is no joint's name counts,
@@ -355,7 +359,7 @@ def load(
         Of a URDF: take rounded numbers for exact ones even where that changes a torque by more
         than 1e-6 of its limit.
     ignore_ties
-        Of an MJCF: leave out tendons, loops and equalities, which no chain of joints can have.
+        Of an MJCF: leave out tendons, loops and equalities, which links that hang on each other cannot have.
     acceleration
         Of a URDF: the limit of acceleration of every joint, rad/s² or m/s²; without one, there
         is none.
@@ -394,7 +398,8 @@ def load(
         raise ValueError("exact, snap: expected one of the two: they exclude each other")
     options = {
         "base": base,
-        "tip": tip,
+        "tip": _words("tip", tip),
+        "tree": tree,
         "lock": _locked(lock),
         "without": _words("without", without),
         "exact": exact,

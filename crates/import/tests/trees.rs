@@ -1,0 +1,200 @@
+//! Robots whose links branch: everything that moves, the ways to several tips, grippers whose
+//! fingers follow one joint on other limbs. Values are Pinocchio's.
+
+use std::fs;
+
+use dalembert_import::{Import, Options, import};
+use dalembert_model::equations::Arm;
+use dalembert_model::equations::frames::{Axes, Rows, View};
+use dalembert_model::number::Rounded;
+use dalembert_model::reference::Reference;
+use dalembert_model::robot::Robot;
+use nalgebra::DVector;
+use serde_json::Value;
+
+use crate::support::{data, flat, path, relative, taken, to};
+
+fn tree() -> Options {
+    Options {
+        tree: true,
+        ..Options::default()
+    }
+}
+
+fn baxter() -> String {
+    fs::read_to_string(path("../../../../gallery/urdf/baxter.urdf")).unwrap()
+}
+
+/// An arm with a gripper on a link: five of its six joints follow the first.
+fn with_gripper(arm: &str, link: &str) -> String {
+    let gripper = data("gripper.urdf");
+    let inside = gripper.split_once("-->").unwrap().1;
+    let joint = format!(
+        r#"<joint name="mount" type="fixed"><parent link="{link}"/><child link="gripper_base"/></joint>"#
+    );
+    data(arm).replace("</robot>", &format!("{joint}{inside}"))
+}
+
+/// The joints that follow none.
+fn coordinates(robot: &Robot) -> Vec<&str> {
+    let joints = robot.joints.iter();
+    joints.map(|joint| joint.name.as_deref().unwrap()).collect()
+}
+
+/// Returns the largest difference from Pinocchio's values, which are of joints in another order.
+fn worst(robot: &Robot, frame: &'static str, golden: &Value) -> f64 {
+    let names = golden["joints"].as_array().unwrap();
+    let places: Vec<usize> = coordinates(robot)
+        .iter()
+        .map(|name| names.iter().position(|other| other == name).unwrap())
+        .collect();
+    assert_eq!(places.len(), names.len());
+    let view = View {
+        frame,
+        axes: Axes::Mixed,
+        rows: Rows::ALL,
+    };
+    let seen = Arm::from_robot(robot, &mut f64::nearest).seen(&view);
+    let (runtime, seen) = (Reference::from_robot(robot), Reference::new(seen.unwrap()));
+    let mut worst = 0.0f64;
+    for state in golden["states"].as_array().unwrap() {
+        let of = |key: &str| {
+            let values = flat(&state[key]);
+            DVector::from_iterator(places.len(), places.iter().map(|place| values[*place]))
+        };
+        let [q, qd, qdd] = ["q", "qd", "qdd"].map(of);
+        let inertia = flat(&state["inertia"]);
+        let entry = |i: usize, k: usize| inertia[places[i] * places.len() + places[k]];
+        let expected: Vec<f64> = (0..places.len())
+            .flat_map(|i| (0..places.len()).map(move |k| (i, k)))
+            .map(|(i, k)| entry(i, k))
+            .collect();
+        for (found, expected) in [
+            (
+                runtime.inverse_dynamics(&q, &qd, &qdd).unwrap().as_slice(),
+                of("tau").as_slice(),
+            ),
+            (
+                runtime.gravity(&q).unwrap().as_slice(),
+                of("gravity").as_slice(),
+            ),
+            (runtime.inertia(&q).unwrap().as_slice(), &expected),
+            (&seen.hand(&q).unwrap().rows(), &flat(&state["frame"])),
+        ] {
+            worst = worst.max(relative(found, expected));
+        }
+    }
+    worst
+}
+
+/// Both arms of Baxter with its grippers, a Panda with its hand, and a UR5 whose gripper has five
+/// followers on four limbs.
+#[test]
+fn all_that_moves_has_the_torques_of_the_model() {
+    let golden: Value = serde_json::from_str(&data("trees.golden.json")).unwrap();
+    for (name, frame, text, joints, followers) in [
+        ("baxter", "left_gripper", baxter(), 19, 2),
+        ("panda", "panda_leftfinger", data("panda.urdf"), 9, 1),
+        (
+            "ur5_gripper",
+            "right_finger_tip",
+            with_gripper("ur5.urdf", "tool0"),
+            12,
+            5,
+        ),
+    ] {
+        let exact = Options {
+            exact: true,
+            ..tree()
+        };
+        let as_written = taken(&text, &exact).robot;
+        assert!(as_written.branches());
+        assert_eq!(as_written.rows().len(), joints);
+        assert_eq!(coordinates(&as_written).len(), joints - followers);
+        let off = worst(&as_written, frame, &golden[name]);
+        assert!(off < 4e-15, "{name}: {off:e}");
+        // Angles are points of the circle with rational coordinates, and parts of π are exact.
+        let off = worst(&taken(&text, &tree()).robot, frame, &golden[name]);
+        assert!(off < 2e-11, "{name}: {off:e}");
+    }
+}
+
+fn lines(import: &Import) -> Vec<&str> {
+    let is_said = |line: &&str| !line.starts_with('#');
+    import.text.lines().filter(is_said).collect()
+}
+
+/// What has no branches is an arm, with the file that it has without `tree`.
+#[test]
+fn a_chain_gives_the_file_of_an_arm() {
+    for file in ["ur5.urdf", "xarm7.urdf", "twodofs.urdf"] {
+        let [arm, all] = [Options::default(), tree()].map(|options| taken(&data(file), &options));
+        assert_eq!(lines(&arm), lines(&all), "{file}");
+    }
+    let held = [("panda_finger_joint1", "0")];
+    let without_fingers = Options {
+        lock: to("", &held).lock,
+        ..tree()
+    };
+    let all = taken(&data("panda.urdf"), &without_fingers);
+    let arm = taken(&data("panda.urdf"), &to("panda_link8", &held));
+    assert_eq!(all.robot.joints, arm.robot.joints);
+}
+
+#[test]
+fn several_tips_take_the_ways_to_them() {
+    let options = Options {
+        tips: ["left_gripper", "right_gripper"].map(str::to_owned).into(),
+        lock: to("", &[("*", "0"), ("left_w2", "90deg")]).lock,
+        ..Options::default()
+    };
+    let arms = taken(&baxter(), &options);
+    let names = coordinates(&arms.robot);
+    assert_eq!((names.len(), arms.robot.tips().len()), (13, 2));
+    assert!(!names.contains(&"head_pan") && !names.contains(&"left_w2"));
+    assert!(
+        arms.text.contains("the links left_gripper, right_gripper"),
+        "{}",
+        arms.text
+    );
+    // Tips on one chain are that chain, and the hand is at the last.
+    let two = |tips: [&str; 2]| Options {
+        tips: tips.map(str::to_owned).into(),
+        ..Options::default()
+    };
+    let one = taken(&data("ur5.urdf"), &to("tool0", &[]));
+    let both = taken(&data("ur5.urdf"), &two(["forearm_link", "tool0"]));
+    assert_eq!(one.robot, both.robot);
+}
+
+#[test]
+fn what_cannot_be_a_tree_is_said() {
+    let says = |text: &str, options: &Options, words: &str| {
+        let errors = import(text, options)
+            .unwrap_err()
+            .render("robot.urdf", text);
+        assert!(errors.contains(words), "{errors}");
+    };
+    let both = Options {
+        tips: vec!["tool0".to_owned()],
+        ..tree()
+    };
+    says(
+        &data("ur5.urdf"),
+        &both,
+        "--tree takes all joints that move",
+    );
+    let two = data("ur5.urdf").replace("</robot>", "<link name=\"other\"/></robot>");
+    says(&two, &tree(), "2 root links");
+    let mjcf = |more: &str| {
+        format!(
+            r#"<mujoco><worldbody>
+            <body name="left"><joint name="turn"/><inertial pos="0 0 1" mass="1" diaginertia="1 1 1"/></body>
+            <body name="right"><joint name="lift"/><inertial pos="0 0 1" mass="1" diaginertia="1 1 1"/>{more}</body>
+            </worldbody><equality><connect body1="left" body2="right" anchor="0 0 1"/></equality></mujoco>"#
+        )
+    };
+    says(&mjcf(""), &tree(), "a loop over the joints `turn`, `lift`");
+    let ball = r#"<body name="wrist"><joint name="any" type="ball"/><inertial pos="0 0 1" mass="1" diaginertia="1 1 1"/></body>"#;
+    says(&mjcf(ball), &tree(), "joint `any` is a ball and hangs");
+}
