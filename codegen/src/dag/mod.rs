@@ -176,17 +176,51 @@ impl<C, I> Dag<C, I> {
     /// Adds to each node's derivative those that come through its users.
     pub(crate) fn pass_back<S: Divide>(&self, values: &[S], adjoints: &mut [S]) {
         for index in (0..adjoints.len()).rev() {
-            let Node::Apply(operation, operands) = &self.nodes[index] else {
-                continue;
-            };
-            if adjoints[index].is_zero() {
-                continue;
+            self.pass_back_from(index, values, adjoints);
+        }
+    }
+
+    fn pass_back_from<S: Divide>(&self, index: usize, values: &[S], adjoints: &mut [S]) {
+        let Node::Apply(operation, operands) = &self.nodes[index] else {
+            return;
+        };
+        if adjoints[index].is_zero() {
+            return;
+        }
+        let [a, b] = operands.map(|id| &values[id as usize]);
+        let parts = operation.parts(&adjoints[index], a, b);
+        for (id, part) in operands.iter().zip(&parts) {
+            adjoints[*id as usize] = adjoints[*id as usize].add(part);
+        }
+    }
+
+    /// Returns the nodes that a node needs, in order, itself the last.
+    pub(crate) fn needed(&self, top: Id) -> Vec<Id> {
+        let mut is_needed = vec![false; top as usize];
+        is_needed.push(true);
+        let mut needed = Vec::new();
+        for id in (0..=top).rev() {
+            if is_needed[id as usize] {
+                needed.push(id);
+                let operands = self.node(id).operands();
+                let operands = operands.iter().flat_map(|operands| operands.iter());
+                operands.for_each(|id| is_needed[*id as usize] = true);
             }
-            let [a, b] = operands.map(|id| &values[id as usize]);
-            let parts = operation.parts(&adjoints[index], a, b);
-            for (id, part) in operands.iter().zip(&parts) {
-                adjoints[*id as usize] = adjoints[*id as usize].add(part);
-            }
+        }
+        needed.reverse();
+        needed
+    }
+
+    /// Computes the derivative of the last of some nodes by each of them: all that it needs.
+    pub(crate) fn adjoints_of<S: Divide>(&self, needed: &[Id], values: &[S], adjoints: &mut [S]) {
+        for id in needed {
+            adjoints[*id as usize] = S::zero();
+        }
+        if let Some(top) = needed.last() {
+            adjoints[*top as usize] = S::one();
+        }
+        for id in needed.iter().rev() {
+            self.pass_back_from(*id as usize, values, adjoints);
         }
     }
 

@@ -7,6 +7,7 @@
 //! the last digits of its parameters happen to fall.
 
 use std::cell::Cell;
+use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
 use dalembert_model::number::{Exact, Rounded};
@@ -65,10 +66,18 @@ impl Rounding {
         };
         let ratio = |error: f64, size: f64| if size > 0.0 { error / size } else { 0.0 };
         runs.sort_by_key(|(index, _)| *index != first.get());
-        let mut adjoints = Vec::new();
+        // Several outputs are one node: zeros, both halves of a symmetric matrix.
+        let tops: BTreeSet<Id> = dag.outputs.iter().map(|output| output.node).collect();
+        let needed: Vec<(Id, Vec<Id>)> = tops.iter().map(|top| (*top, dag.needed(*top))).collect();
+        let mut adjoints = vec![Lanes::<Sticky>::zero(); dag.nodes.len()];
         for (index, values) in runs {
-            let error = |output: &Edge| error(dag, *output, &values, &is_exact, &mut adjoints);
-            let errors: Vec<[f64; LANES]> = dag.outputs.iter().map(error).collect();
+            let error = |(top, needed): &(Id, Vec<Id>)| {
+                let error = error(dag, needed, &values, &is_exact, &mut adjoints);
+                (*top, error)
+            };
+            let by_node: HashMap<Id, [f64; LANES]> = needed.iter().map(error).collect();
+            let of_output = |output: &Edge| by_node[&output.node];
+            let errors: Vec<[f64; LANES]> = dag.outputs.iter().map(of_output).collect();
             for (quantity, range) in ranges.iter().enumerate() {
                 let normwise = (0..LANES).map(|lane| {
                     let results = dag.outputs[range.clone()].iter();
@@ -173,19 +182,21 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, f64::max)
 }
 
-/// Returns the root of the sum of squares of all errors as they reach an output, in units of u.
+/// Returns the root of the sum of squares of all errors as they reach the last of the nodes that it
+/// needs, in units of u.
 fn error(
     dag: &Dag,
-    output: Edge,
+    needed: &[Id],
     values: &[Lanes<Sticky>],
     is_exact: &[bool],
-    adjoints: &mut Vec<Lanes<Sticky>>,
+    adjoints: &mut [Lanes<Sticky>],
 ) -> [f64; LANES] {
-    dag.adjoints(output.node, values, adjoints);
+    dag.adjoints_of(needed, values, adjoints);
     let mut squares = Lanes::<Sticky>::zero();
-    for ((adjoint, value), is_exact) in adjoints.iter().zip(values).zip(is_exact) {
-        if !is_exact && !adjoint.is_zero() {
-            let error = adjoint.mul(value);
+    for index in needed.iter().map(|id| *id as usize) {
+        let adjoint = &adjoints[index];
+        if !is_exact[index] && !adjoint.is_zero() {
+            let error = adjoint.mul(&values[index]);
             squares = squares.add(&error.mul(&error));
         }
     }
