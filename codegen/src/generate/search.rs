@@ -94,6 +94,10 @@ pub fn search(job: &Job<'_>, function: Function) -> Result<Found, GenerateError>
 /// Programs within 1/50 of the cheapest count as equally cheap.
 const NEAR: u64 = 50;
 
+/// A second search, within the limit, takes minutes for more operations than this; it mends single
+/// results where the largest error is no larger than the textbook's.
+const LARGE: usize = 4000;
+
 struct Search<'a> {
     job: Job<'a>,
     task: Task<'a>,
@@ -179,6 +183,11 @@ impl<'a> Search<'a> {
         if self.accepts(&free) {
             return Ok(free);
         }
+        let graph = &free.searched.graph;
+        let error = self.judge.error(graph);
+        if graph.counts().operations() > LARGE && error <= self.judge.textbook() {
+            return Ok(free);
+        }
         let same = Approach {
             tuned: free.tuned.clone(),
             seeds: free.seeds.clone(),
@@ -201,15 +210,11 @@ impl<'a> Search<'a> {
         if !self.accepts(&found) {
             // All that share parameters lose digits, as beside a heavy rotor: the textbook's does not.
             let textbook = Start::textbook(self.task).and_then(again);
-            if let Some(textbook) = textbook.filter(|own| self.accepts(own)) {
-                return Ok(textbook);
-            }
+            found = textbook.filter(|own| self.accepts(own)).unwrap_or(found);
         }
-        let graph = &free.searched.graph;
-        let error = self.judge.error(graph);
-        // The limit holds for every result: what breaks it for one may be cheaper and have a
-        // smaller largest error than what keeps it for all.
-        if free.cost() <= found.cost() && error < self.judge.error(&found.searched.graph) {
+        // The limit holds for every result: what breaks it for one may be cheaper and have no
+        // larger largest error than what keeps it for all.
+        if free.cost() <= found.cost() && error <= self.judge.error(&found.searched.graph) {
             return Ok(free);
         }
         found.refused = self.refused(graph.counts(), error, &found);

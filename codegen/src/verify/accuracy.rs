@@ -74,6 +74,13 @@ impl<'a> AccuracyFilter<'a> {
         excess(&Rounding::until(task.setup, &program, first, reaches))
     }
 
+    /// Returns the largest normwise error of the textbook form, in units of u.
+    pub(crate) fn textbook(&self) -> f64 {
+        self.reference
+            .as_ref()
+            .map_or(f64::INFINITY, Rounding::worst)
+    }
+
     /// Returns the program's largest normwise error, in units of u.
     pub(crate) fn error(&self, graph: &Dag) -> f64 {
         estimate(self.task, graph).worst()
