@@ -182,7 +182,7 @@ fn what_cannot_be_a_tree_is_said() {
     says(
         &data("ur5.urdf"),
         &both,
-        "--tree takes all joints that move",
+        "both are given: --tip, --tree",
     );
     let two = data("ur5.urdf").replace("</robot>", "<link name=\"other\"/></robot>");
     says(&two, &tree(), "2 root links");

@@ -2,6 +2,7 @@
 
 import copy
 import ctypes
+import json
 import multiprocessing
 import os
 import pickle
@@ -254,6 +255,28 @@ def test_a_payload_is_a_body_and_no_load():
             arm.load([payload, wrong])
     # A plate whose moments are rounded.
     arm.load([1, 0, 0, 0, 0.1, 0.2, 0.3000001, 0, 0, 0])
+
+
+def test_links_that_branch():
+    """A Panda with its hand: the second finger follows the first, on a limb of its own."""
+    path = urdf("panda")
+    values = json.loads((path.parent / "trees.golden.json").read_text())["panda"]
+    arm = dalembert.load(path, tree=True, outputs=["inverse_dynamics", "inertia"])
+    assert [name for name, _ in arm.joints] == values["joints"]
+    both = dalembert.load(
+        path, tip=["panda_leftfinger", "panda_rightfinger"], outputs=["inverse_dynamics"]
+    )
+    for state in values["states"]:
+        q, qd, qdd, tau = (np.array(state[key]) for key in ("q", "qd", "qdd", "tau"))
+        for loaded in (arm, both):
+            most = 1e-13 * abs(tau).max()
+            assert_allclose(loaded.inverse_dynamics(q, qd, qdd), tau, rtol=0, atol=most)
+        expected = np.reshape(state["inertia"], (8, 8))
+        assert_allclose(arm.inertia(q), expected, rtol=0, atol=1e-13 * abs(expected).max())
+    with pytest.raises(ValueError, match="jacobian@panda_leftfinger"):
+        dalembert.load(path, tree=True, outputs=["jacobian"])
+    with pytest.raises(ValueError, match="both are given: tip=, tree="):
+        dalembert.load(path, tree=True, tip="panda_hand")
 
 
 def test_parameters_are_those_of_the_urdf():
