@@ -179,11 +179,7 @@ fn what_cannot_be_a_tree_is_said() {
         tips: vec!["tool0".to_owned()],
         ..tree()
     };
-    says(
-        &data("ur5.urdf"),
-        &both,
-        "both are given: --tip, --tree",
-    );
+    says(&data("ur5.urdf"), &both, "both are given: --tip, --tree");
     let two = data("ur5.urdf").replace("</robot>", "<link name=\"other\"/></robot>");
     says(&two, &tree(), "2 root links");
     let mjcf = |more: &str| {

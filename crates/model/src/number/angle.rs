@@ -91,12 +91,14 @@ impl Angle {
         }
         let SinCosPair { sin, cos } = Wide::sincos(self);
         let [sin, cos] = [sin, cos].map(|part| part.to_rational());
-        let tangent = match cos.is_negative() {
-            // Of half a turn less than this, whose tangent is at most one.
-            true => short(&((Rational::one() + cos) / sin)).recip(),
-            false => short(&(sin / (Rational::one() + cos))),
+        let tangent = short(&(sin / (Rational::one() + cos.abs())));
+        let tangent_of_half = match cos.is_negative() {
+            // The tangent is that of what is missing to half a turn, at most one.
+            true if tangent.is_zero() => return Angle::right_angles(2),
+            true => tangent.recip(),
+            false => tangent,
         };
-        Angle::TwiceAtan(tangent).canonical()
+        Angle::TwiceAtan(tangent_of_half).canonical()
     }
 
     /// Returns the opposite angle.
@@ -375,5 +377,9 @@ mod tests {
             assert!(bits <= 60, "{point}");
             assert_eq!(point.on_the_circle(), point);
         }
+        // Three half turns, to thirty digits: nothing is missing.
+        let turned =
+            Angle::parse("9424777960769379715387930149839/1000000000000000000000000000000");
+        assert_eq!(turned.unwrap().on_the_circle(), Angle::right_angles(2));
     }
 }
