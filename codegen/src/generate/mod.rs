@@ -247,7 +247,7 @@ fn check(robot: &Robot, request: &Request) -> Outcome<()> {
 }
 
 fn check_frames(robot: &Robot, function: Function) -> Outcome<()> {
-    // What ends a limb is most often meant.
+    // Frames at the ends of limbs are most often meant.
     let tips = robot.tips();
     let (ends, others): (Vec<&Frame>, Vec<&Frame>) = robot
         .frames

@@ -70,7 +70,7 @@ pub struct Options {
     pub base: Option<String>,
     /// The link whose frame is the hand; without one, the palm that the fingers hang on
     /// or the end of the longest chain, if there is one; the first of several that one joint moves.
-    /// Of several, the joints on the ways to all of them.
+    /// Several take the joints on the ways to all of them.
     pub tips: Vec<String>,
     /// Take every joint that moves; no tips are given then.
     pub tree: bool,

@@ -124,7 +124,7 @@ fn lines(import: &Import) -> Vec<&str> {
     import.text.lines().filter(is_said).collect()
 }
 
-/// What has no branches is an arm, with the file that it has without `tree`.
+/// Without branches, `tree` gives the file of an arm.
 #[test]
 fn a_chain_gives_the_file_of_an_arm() {
     for file in ["ur5.urdf", "xarm7.urdf", "twodofs.urdf"] {

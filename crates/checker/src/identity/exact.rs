@@ -81,11 +81,7 @@ fn twice_atan(x: &Rational, bits: u32) -> BigInt {
         power = &power * &x / &one * &x / &one;
         k += 2;
     }
-    let half_turn = Angle::Pi(if x.is_negative() {
-        -Rational::one()
-    } else {
-        Rational::one()
-    });
+    let half_turn = Angle::Pi(x.signum().into());
     match is_steep {
         true => half_turn.scaled(bits) - sum * 32,
         false => sum * 32,

@@ -64,7 +64,7 @@ impl Angle {
         }
     }
 
-    /// Returns whether it is zero, in any form.
+    /// True for zero, in any form.
     pub fn is_zero(&self) -> bool {
         self.number().is_zero()
     }

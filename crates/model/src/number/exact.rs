@@ -15,6 +15,7 @@ use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
 use super::small::{compare, product, sum};
+use super::trig::circle;
 use super::{Angle, Rational, ratio};
 use crate::scalar::count::Count;
 use crate::scalar::{Scalar, SinCosPair};
@@ -365,12 +366,7 @@ fn reduce(angle: &Angle) -> (u8, [Exact; 2]) {
             (0, [sin.neg(), cos])
         }
         Angle::Radians(_) => (0, generators(angle.clone())),
-        Angle::TwiceAtan(tangent) => {
-            let (square, one) = (tangent * tangent, Rational::one());
-            let per = (&one + &square).recip();
-            let [sin, cos] = [tangent + tangent, one - square].map(|part| part * &per);
-            (0, [Exact::from(sin), Exact::from(cos)])
-        }
+        Angle::TwiceAtan(tangent) => (0, circle(tangent).map(Exact::from)),
     }
 }
 

@@ -52,13 +52,9 @@ pub(super) const SLACK: usize = 8;
 /// 2^`SLACK` units of the true value.
 pub(super) fn sin_cos(angle: &Angle, w: usize) -> (BigInt, BigInt) {
     if let Angle::TwiceAtan(tangent) = angle {
-        let square = tangent * tangent;
-        let one = Rational::one();
-        let scaled = |part: Rational| {
-            let part = part / (&one + &square);
-            (part.numer() << w).div_floor(part.denom())
-        };
-        return (scaled(tangent + tangent), scaled(&one - &square));
+        let scaled = |part: Rational| (part.numer() << w).div_floor(part.denom());
+        let [sin, cos] = circle(tangent);
+        return (scaled(sin), scaled(cos));
     }
     // Bits to spare: for the reduction by π, and for the series' roundings.
     let size = match angle {
@@ -91,6 +87,13 @@ pub(super) fn sin_cos(angle: &Angle, w: usize) -> (BigInt, BigInt) {
         2 => (-sin, -cos),
         _ => (-cos, sin),
     }
+}
+
+/// Returns sine and cosine of 2 atan t: (2t, 1 − t²)/(1 + t²).
+pub(super) fn circle(tangent: &Rational) -> [Rational; 2] {
+    let (square, one) = (tangent * tangent, Rational::one());
+    let per = (&one + &square).recip();
+    [(tangent + tangent) * &per, (one - square) * per]
 }
 
 /// Returns 2 atan t as an integer scaled by 2^w, within a few units.
