@@ -6,7 +6,7 @@
 
 use dalembert_model::equations::chain::body::entry;
 use dalembert_model::equations::chain::{
-    Body, Chain, ChainLink, LinkRegrouping, Regrouping, Skeleton,
+    Body, Chain, ChainLink, LinkRegrouping, MetricChain, Regrouping, Skeleton,
 };
 use dalembert_model::equations::matrix::{Vector, zero_vector};
 use dalembert_model::number::Exact;
@@ -94,6 +94,7 @@ pub(crate) fn tune(
     let mut descent = Descent {
         arm,
         price,
+        metric: MetricChain::new(arm, &from),
         best: Tuned {
             regrouping: from,
             form: forms[0],
@@ -121,11 +122,13 @@ struct Descent<'a, P> {
     arm: &'a Skeleton<Exact>,
     price: P,
     best: Tuned,
+    /// The chain in the best regrouping.
+    metric: MetricChain<Exact>,
 }
 
 impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
-    fn attempt(&mut self, regrouping: Regrouping<Exact>) {
-        let chain = Chain::new(self.arm, &regrouping);
+    fn attempt(&mut self, regrouping: Regrouping<Exact>, metric: MetricChain<Exact>) {
+        let chain = metric.in_unit(&regrouping);
         if is_large(&chain) {
             return;
         }
@@ -133,12 +136,13 @@ impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
         if price < self.best.price {
             self.best.price = price;
             self.best.regrouping = regrouping;
+            self.metric = metric;
         }
     }
 
     /// First the forms that see the hand as the best does, then those that differ in that alone.
     fn forms(&mut self, forms: &[Form]) {
-        let chain = Chain::new(self.arm, &self.best.regrouping);
+        let chain = self.metric.in_unit(&self.best.regrouping);
         let mut among = |is_tried: &dyn Fn(Form, Form) -> bool| {
             let best = self.best.form;
             for &form in forms.iter().filter(|form| is_tried(**form, best)) {
@@ -161,11 +165,9 @@ impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
 
     /// Metres, and every length of the chain.
     fn units(&mut self) {
-        let mut metres = self.best.regrouping.clone();
-        (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
-        let chain = Chain::new(self.arm, &metres);
+        let metric = self.metric.clone();
         let mut units = vec![Exact::one()];
-        for length in chain.links.iter().flat_map(|link| &link.offset) {
+        for length in metric.chain.links.iter().flat_map(|link| &link.offset) {
             let length = signed(length, length.leads_negative());
             if !length.is_zero() && !units.contains(&length) {
                 units.push(length);
@@ -175,31 +177,30 @@ impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
             if let Some(per_unit) = quotient(&Exact::one(), &unit) {
                 let mut regrouping = self.best.regrouping.clone();
                 (regrouping.unit, regrouping.per_unit) = (unit, per_unit);
-                self.attempt(regrouping);
+                self.attempt(regrouping, metric.clone());
             }
         }
     }
 
     fn link(&mut self, i: usize) {
-        for link in alternatives(self.arm, &self.best.regrouping, i) {
+        let now = &self.best.regrouping.links[i];
+        for link in alternatives(self.arm, &self.metric.chain, now, i) {
             let mut regrouping = self.best.regrouping.clone();
             // The best may have changed since.
             regrouping.links[i] = link;
-            self.attempt(regrouping);
+            let metric = self.metric.changed(self.arm, &regrouping, i);
+            self.attempt(regrouping, metric);
         }
     }
 }
 
 type Link = LinkRegrouping<Exact>;
 
-fn alternatives(arm: &Skeleton<Exact>, regrouping: &Regrouping<Exact>, i: usize) -> Vec<Link> {
-    let mut metres = regrouping.clone();
-    (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
-    let chain = Chain::new(arm, &metres);
-    let now = &metres.links[i];
+/// `chain` is in metres.
+fn alternatives(arm: &Skeleton<Exact>, chain: &Chain<Exact>, now: &Link, i: usize) -> Vec<Link> {
     let mut links = match arm.links[i].link.kind {
-        JointKind::Revolute => revolute(arm, &chain, now, i),
-        JointKind::Prismatic => prismatic(&chain, now, i),
+        JointKind::Revolute => revolute(arm, chain, now, i),
+        JointKind::Prismatic => prismatic(chain, now, i),
     };
     let [less, more] = chain.freedoms()[i];
     let axes = (less..=more).filter(|&axes| axes != now.axes);

@@ -8,8 +8,8 @@ use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::parse::{self, NumberError};
+use super::rationals::compare;
 use super::recover::short;
-use super::small::compare;
 use super::{Rational, Wide, ratio, trig};
 use crate::scalar::SinCosPair;
 

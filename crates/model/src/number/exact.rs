@@ -14,7 +14,7 @@ use core::hash::{Hash, Hasher};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
-use super::small::{compare, product, sum};
+use super::rationals::{compare, product, sum};
 use super::trig::circle;
 use super::{Angle, Rational, ratio};
 use crate::scalar::count::Count;

@@ -3,16 +3,18 @@
 //! - [`Angle`]: a rational multiple of π or a rational number of radians
 //! - [`parse`]: decimal literals, read and written exactly
 //! - [`Exact`]: polynomials over ℚ in the sin and cos of constant angles
+//! - `rationals`, `divisor`: sums and products of rationals, short and long
 //! - `trig`, `round`: their correctly rounded floating-point values
 //! - [`Wide`]: a float of 256 bits, which errors are measured against
 //! - [`recover`]: the number that was meant, from one computed in wide floats
 
 mod angle;
+mod divisor;
 mod exact;
 pub mod parse;
+mod rationals;
 pub mod recover;
 mod round;
-mod small;
 mod text;
 mod trig;
 mod wide;

@@ -5,7 +5,7 @@ use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::exact::{Form, Terms};
-use super::small::nearest_double;
+use super::rationals::nearest_double;
 use super::trig::{SLACK, sin_cos};
 use super::{Exact, Rational};
 use alloc::collections::BTreeMap;

@@ -27,7 +27,7 @@ pub use form::{Form, HandChoice, HandForm};
 pub use parallel::Unknowns;
 pub use pose::Displacement;
 pub use regressor::{Column, Probe, Probed};
-pub use regrouping::{LinkRegrouping, Regrouping};
+pub use regrouping::{LinkRegrouping, MetricChain, Regrouping};
 pub use skeleton::{Segment, Skeleton};
 pub use spin::EliminatedTip;
 
@@ -93,56 +93,7 @@ pub struct ChainLink<S> {
 impl<S: Scalar> Chain<S> {
     /// Returns the chain of a skeleton in a regrouping.
     pub fn new(skeleton: &Skeleton<S>, regrouping: &Regrouping<S>) -> Chain<S> {
-        let mut links: Vec<ChainLink<S>> = Vec::with_capacity(skeleton.links.len());
-        let choices = &regrouping.links;
-        for (Segment { link, .. }, regrouping) in skeleton.links.iter().zip(choices) {
-            // How far the regrouping moved the origin of the frame before.
-            let shift = (link.parent).map_or_else(zero_vector, |i| choices[i].origin.clone());
-            let step = match link.kind {
-                JointKind::Revolute => apply(&link.rotation, &regrouping.origin),
-                JointKind::Prismatic => regrouping.origin.clone(),
-            };
-            let back = opposite(&regrouping.origin);
-            links.push(ChainLink {
-                offset: sum(&difference(&link.offset, &shift), &step),
-                body: link.body.moved(&back),
-                probes: Probe::each(&link.probes, |body| body.moved(&back)),
-                axes: regrouping.axes,
-                ..link.clone()
-            });
-        }
-        let mut chain = Chain {
-            gravity: skeleton.gravity.clone(),
-            spin: [zero_vector(), zero_vector()],
-            base: skeleton.base.clone(),
-            links,
-            per_unit: S::one(),
-            columns: skeleton.columns,
-        };
-        chain.free_spin();
-        chain.regroup(regrouping);
-        chain.change_unit(&regrouping.unit, &regrouping.per_unit);
-        chain
-    }
-
-    /// A frame need not turn if its link looks the same after any turn and has no probe.
-    fn free_spin(&mut self) {
-        let carriers = self.carriers();
-        for (link, is_carrier) in self.links.iter_mut().zip(carriers) {
-            link.spins_freely = !is_carrier
-                && link.kind == JointKind::Revolute
-                && link.probes.is_empty()
-                && link.body.is_axisymmetric();
-        }
-    }
-
-    /// True of each link that carries another.
-    fn carriers(&self) -> Vec<bool> {
-        let mut carriers = alloc::vec![false; self.links.len()];
-        for parent in self.links.iter().filter_map(|link| link.parent) {
-            carriers[parent] = true;
-        }
-        carriers
+        MetricChain::new(skeleton, regrouping).in_unit(regrouping)
     }
 
     /// True if the base stands still and each link is carried by the one before.

@@ -3,8 +3,8 @@
 
 use alloc::vec::Vec;
 
-use super::{Body, Chain, ChainLink, Probe, Skeleton};
-use crate::equations::matrix::{Vector, scaled, zero_vector};
+use super::{Body, Chain, ChainLink, Probe, Skeleton, apply};
+use crate::equations::matrix::*;
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
@@ -70,46 +70,151 @@ impl<S: Scalar> Regrouping<S> {
     }
 }
 
-impl<S: Scalar> Chain<S> {
-    pub(super) fn regroup(&mut self, regrouping: &Regrouping<S>) {
-        for i in (0..self.links.len()).rev() {
-            let link = &self.links[i];
-            let moving = link.moving(&link.body, &regrouping.links[i]);
-            let arriving = link.arriving(&moving);
-            let link = &mut self.links[i];
-            let body = &link.body;
-            link.free = [
-                body.mass.clone(),
-                body.first[2].clone(),
-                body.second.zz.clone(),
-            ];
-            link.body = body.with(&moving.negated());
-            let carrier = match link.parent {
-                Some(parent) => Some(&mut self.links[parent].body),
-                None => self.base.as_mut(),
+/// A chain in metres, which another regrouping of one link changes in part.
+#[derive(Clone, Debug)]
+pub struct MetricChain<S> {
+    /// The chain, whatever the unit of its regrouping.
+    pub chain: Chain<S>,
+    /// What arrives from each link at the one that carries it.
+    arriving: Vec<Body<S>>,
+}
+
+impl<S: Scalar> MetricChain<S> {
+    /// Returns the chain of a skeleton in a regrouping.
+    pub fn new(skeleton: &Skeleton<S>, regrouping: &Regrouping<S>) -> Self {
+        MetricChain::from_known(skeleton, regrouping, None)
+    }
+
+    /// Returns the same where the regrouping of one link has changed: only that link, those that it
+    /// carries itself and those that carry it are made anew.
+    #[must_use]
+    pub fn changed(&self, skeleton: &Skeleton<S>, regrouping: &Regrouping<S>, at: usize) -> Self {
+        MetricChain::from_known(skeleton, regrouping, Some((self, at)))
+    }
+
+    fn from_known(
+        skeleton: &Skeleton<S>,
+        regrouping: &Regrouping<S>,
+        known: Option<(&Self, usize)>,
+    ) -> Self {
+        let n = skeleton.links.len();
+        let parents: Vec<Option<usize>> = skeleton
+            .links
+            .iter()
+            .map(|segment| segment.link.parent)
+            .collect();
+        let mut kept: Vec<Option<(&ChainLink<S>, &Body<S>)>> = match known {
+            Some((known, _)) => known
+                .chain
+                .links
+                .iter()
+                .zip(&known.arriving)
+                .map(Some)
+                .collect(),
+            None => alloc::vec![None; n],
+        };
+        if let Some((_, at)) = known {
+            for i in (at..n).filter(|&i| i == at || parents[i] == Some(at)) {
+                kept[i] = None;
+            }
+            for i in core::iter::successors(parents[at], |&i| parents[i]) {
+                kept[i] = None;
+            }
+        }
+        let links = (0..n).map(|i| match kept[i] {
+            Some((link, _)) => link.clone(),
+            None => placed(skeleton, regrouping, i, !parents.contains(&Some(i))),
+        });
+        let mut chain = Chain {
+            gravity: skeleton.gravity.clone(),
+            spin: [zero_vector(), zero_vector()],
+            base: skeleton.base.clone(),
+            links: links.collect(),
+            per_unit: S::one(),
+            columns: skeleton.columns,
+        };
+        let arriving = from_hand(0..n, |i| {
+            let arriving = match kept[i] {
+                Some((_, arriving)) => arriving.clone(),
+                None => chain.links[i].regroup(&regrouping.links[i]),
+            };
+            let carrier = match parents[i] {
+                Some(parent) if kept[parent].is_some() => None,
+                Some(parent) => Some(&mut chain.links[parent].body),
+                None => chain.base.as_mut(),
             };
             if let Some(body) = carrier {
                 *body = body.with(&arriving);
             }
-        }
+            arriving
+        });
+        MetricChain { chain, arriving }
     }
 
-    pub(super) fn change_unit(&mut self, unit: &S, per_unit: &S) {
+    /// Returns the chain in the unit of a regrouping.
+    pub fn in_unit(&self, regrouping: &Regrouping<S>) -> Chain<S> {
+        let (unit, per_unit) = (&regrouping.unit, &regrouping.per_unit);
+        let mut chain = self.chain.clone();
         if unit.is_one() {
-            return;
+            return chain;
         }
-        self.gravity = scaled(per_unit, &self.gravity);
-        self.base = self.base.as_ref().map(|body| body.in_unit(unit));
-        for link in &mut self.links {
+        chain.gravity = scaled(per_unit, &chain.gravity);
+        chain.base = chain.base.as_ref().map(|body| body.in_unit(unit));
+        for link in &mut chain.links {
             link.offset = scaled(per_unit, &link.offset);
             link.body = link.body.in_unit(unit);
             link.probes = Probe::each(&link.probes, |body| body.in_unit(unit));
         }
-        self.per_unit = per_unit.clone();
+        chain.per_unit = per_unit.clone();
+        chain
+    }
+}
+
+/// Returns a link about the origin that its regrouping chooses, before any moment moves.
+fn placed<S: Scalar>(
+    skeleton: &Skeleton<S>,
+    regrouping: &Regrouping<S>,
+    i: usize,
+    is_tip: bool,
+) -> ChainLink<S> {
+    let choices = &regrouping.links;
+    let (link, origin) = (&skeleton.links[i].link, &choices[i].origin);
+    // How far the regrouping moved the origin of the frame before.
+    let shift = (link.parent).map_or_else(zero_vector, |parent| choices[parent].origin.clone());
+    let step = match link.kind {
+        JointKind::Revolute => apply(&link.rotation, origin),
+        JointKind::Prismatic => origin.clone(),
+    };
+    let back = opposite(origin);
+    let body = link.body.moved(&back);
+    ChainLink {
+        offset: sum(&difference(&link.offset, &shift), &step),
+        probes: Probe::each(&link.probes, |body| body.moved(&back)),
+        axes: choices[i].axes,
+        // A frame need not turn if its link looks the same after any turn and has no probe.
+        spins_freely: is_tip
+            && link.kind == JointKind::Revolute
+            && link.probes.is_empty()
+            && body.is_axisymmetric(),
+        body,
+        ..link.clone()
     }
 }
 
 impl<S: Scalar> ChainLink<S> {
+    /// Gives away the moments that it need not keep: returns what arrives at the link before.
+    fn regroup(&mut self, keep: &LinkRegrouping<S>) -> Body<S> {
+        let moving = self.moving(&self.body, keep);
+        let body = &self.body;
+        self.free = [
+            body.mass.clone(),
+            body.first[2].clone(),
+            body.second.zz.clone(),
+        ];
+        self.body = body.with(&moving.negated());
+        self.arriving(&moving)
+    }
+
     fn moving(&self, body: &Body<S>, keep: &LinkRegrouping<S>) -> Body<S> {
         let mut moving = Body::zero();
         match self.kind {

@@ -153,6 +153,23 @@ impl Draw {
         columns.collect()
     }
 
+    /// A chain in some regrouping, got from another in which one link was regrouped otherwise.
+    pub(super) fn chain(&mut self, skeleton: &Skeleton<S>) -> Chain<S> {
+        let regrouping = self.regrouping(skeleton);
+        let mut before = regrouping.clone();
+        let at = self.below(skeleton.links.len().max(1) as u64) as usize;
+        let other = self.regrouping(skeleton).links;
+        if let (Some(link), Some(other)) = (before.links.get_mut(at), other.into_iter().nth(at)) {
+            *link = other;
+        } else {
+            return Chain::new(skeleton, &regrouping);
+        }
+        let before = MetricChain::new(skeleton, &before);
+        before
+            .changed(skeleton, &regrouping, at)
+            .in_unit(&regrouping)
+    }
+
     pub(super) fn regrouping(&mut self, skeleton: &Skeleton<S>) -> Regrouping<S> {
         let links = skeleton.links.iter().map(|segment| LinkRegrouping {
             origin: match segment.link.kind {

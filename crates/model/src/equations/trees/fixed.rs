@@ -20,7 +20,7 @@ fn fixed(arm: &Arm<S>, draw: &mut Draw, round: usize) {
     let (d, c, h) = (written.inertia(), written.gravity(), written.christoffel());
     let torques = written.inverse_dynamics(&qd, &qdd);
     let skeleton = &Skeleton::with_columns(arm, &vec![None; n], &draw.columns(n));
-    let chain = Chain::new(skeleton, &draw.regrouping(skeleton));
+    let chain = draw.chain(skeleton);
     let (posed, at) = chain.posed(&position);
     let composite = Composite::new(&posed, &at);
     for spin in SPINS {
@@ -87,7 +87,7 @@ fn locked(arm: &Arm<S>, draw: &mut Draw, position: &Position, d: &[Vec<S>], roun
     let mut locks: Vec<Option<JointPosition<S>>> = vec![None; n];
     locks[joint] = Some(position[joint].clone());
     let skeleton = Skeleton::new(arm, &locks);
-    let chain = Chain::new(&skeleton, &draw.regrouping(&skeleton));
+    let chain = draw.chain(&skeleton);
     let mut moving = position.clone();
     moving.remove(joint);
     let (posed, at) = chain.posed(&moving);

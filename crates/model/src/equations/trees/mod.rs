@@ -14,8 +14,8 @@ use super::chain::composite::{Composite, CompositeOrder};
 use super::chain::floating::Solving;
 use super::chain::recursion::{AccelerationForm, MomentForm};
 use super::chain::{
-    Body, Chain, Column, Displacement, EliminatedTip, Form, HandChoice, LinkRegrouping, Probed,
-    Regrouping, Skeleton, Unknowns,
+    Body, Chain, Column, Displacement, EliminatedTip, Form, HandChoice, LinkRegrouping,
+    MetricChain, Probed, Regrouping, Skeleton, Unknowns,
 };
 use super::frames::{Frames, NamedFrame};
 use super::friction::Friction;
