@@ -1,4 +1,4 @@
-"""A robot file as a chain of joints that turn or slide along their own z.
+"""A robot file as a tree of joints that turn or slide along their own z.
 
 `placement` and rows of the DH table alike become: the constant place (rotation,
 translation) of each joint's frame in the frame of the link before it, and the
@@ -9,14 +9,17 @@ peers see to, for their generators count what is not.
 
 import math
 import tomllib
+from fractions import Fraction
 
 import numpy as np
 
 
 def number(value):
-    """A number of a robot file: TOML's own, "pi/2", "-2*pi" or "90deg"."""
+    """A number of a robot file: TOML's own, "pi/2", "-2*pi", "90deg" or "2*atan(1/3)"."""
     if not isinstance(value, str):
         return float(value)
+    if value.startswith("2*atan("):
+        return 2 * math.atan(Fraction(value[7:-1]))
     if value.endswith("deg"):
         return math.radians(float(value[:-3]))
     result = 1.0
@@ -82,7 +85,11 @@ NOWHERE = (np.eye(3), np.zeros(3))
 
 
 class Arm:
-    """Joints from base to tip, gravity in base axes."""
+    """Joints, each after the one that carries it; gravity in base axes.
+
+    `parent` is the place of the joint before, −1 at the base; the position of joint i is
+    `factor[i] * q[coordinate[i]] + shift[i]`, where q has an entry for each joint that follows none.
+    """
 
     def __init__(self, path):
         with open(path, "rb") as file:
@@ -92,12 +99,26 @@ class Arm:
         self.prismatic, self.place = [], []
         self.mass, self.com, self.inertia = [], [], []
         self.viscous, self.armature = [], []
+        self.parent, self.coordinate, self.factor, self.shift = [], [], [], []
         standard = robot.get("convention") == "standard"
-        before = placed(robot.get("base", {}))
-        for joint in robot["joint"]:
+        names = [joint.get("name") for joint in robot["joint"]]
+        # From each joint's own frame to the one that the file's numbers are in; the base's last.
+        frames = [None] * len(names) + [placed(robot.get("base", {}))]
+        follows = [joint.get("mimic") for joint in robot["joint"]]
+        free = [i for i, mimic in enumerate(follows) if mimic is None]
+        for i, joint in enumerate(robot["joint"]):
+            parent = joint.get("parent", i)
+            if isinstance(parent, str):
+                parent = 0 if parent == "base" else names.index(parent) + 1
+            self.parent.append(parent - 1)
+            mimic = follows[i] or {}
+            leader = mimic.get("joint", i + 1)
+            leader = names.index(leader) if isinstance(leader, str) else leader - 1
+            self.coordinate.append(free.index(leader))
+            self.factor.append(number(mimic.get("multiplier", 1)))
+            self.shift.append(number(mimic.get("offset", 0)))
             kind = joint["kind"] == "prismatic"
             get = lambda key: number(joint.get(key, 0))
-            # From the joint's own frame to the one that the file's numbers are in.
             link = NOWHERE
             if "placement" in joint:
                 align = (along_z(joint.get("axis", [0, 0, 1])), np.zeros(3))
@@ -112,8 +133,8 @@ class Arm:
                     place, link = z, x
                 else:
                     place = after(x, z)
-            self.place.append(after(before, place))
-            before = link
+            self.place.append(after(frames[self.parent[i]], place))
+            frames[i] = link
             self.prismatic.append(kind)
             com = np.array([number(x) for x in joint.get("com", [0, 0, 0])])
             xx, yy, zz, xy, yz, xz = (number(x) for x in joint.get("inertia", [0] * 6))
@@ -123,7 +144,8 @@ class Arm:
             self.inertia.append(link[0] @ about @ link[0].T)
             self.viscous.append(get("viscous"))
             self.armature.append(get("armature"))
-        self.n = len(self.mass)
+        self.n = len(free)
+        self.is_serial = self.parent == list(range(-1, self.n - 1))
 
     def about_origins(self):
         """Of each link: mass, first moments, inertia about the joint's origin."""
@@ -140,21 +162,21 @@ class Arm:
         round about it; along one that slides, the whole inertia.
         """
         links = self.about_origins()
-        for k in reversed(range(self.n)):
+        for k in reversed(range(len(links))):
             m, mc, i = links[k]
             if self.prismatic[k]:
                 moved = [0.0, np.zeros(3), i]
             else:
                 moved = [m, np.array([0, 0, mc[2]]), np.diag([i[1, 1], i[1, 1], 0])]
             links[k] = [m - moved[0], mc - moved[1], i - moved[2]]
-            if k:
+            if self.parent[k] >= 0:
                 (r, p), (m, mc, i) = self.place[k], moved
                 turned = r @ mc
                 other = np.outer(turned, p) + np.outer(p, turned)
                 about = r @ i @ r.T + 2 * (turned @ p) * np.eye(3) - other
                 about = about + m * (p @ p * np.eye(3) - np.outer(p, p))
-                before = links[k - 1]
-                links[k - 1] = [before[0] + m, before[1] + turned + m * p, before[2] + about]
+                before = links[self.parent[k]]
+                links[self.parent[k]] = [before[0] + m, before[1] + turned + m * p, before[2] + about]
         return links
 
     def pinocchio(self):
@@ -163,18 +185,18 @@ class Arm:
 
         model = pin.Model()
         model.gravity = pin.Motion(np.concatenate([self.gravity, np.zeros(3)]))
-        parent = 0
-        for i in range(self.n):
+        for i in range(len(self.mass)):
             kind = pin.JointModelPZ() if self.prismatic[i] else pin.JointModelRZ()
-            parent = model.addJoint(parent, kind, pin.SE3(*self.place[i]), f"j{i + 1}")
+            parent = self.parent[i] + 1
+            own = model.addJoint(parent, kind, pin.SE3(*self.place[i]), f"j{i + 1}")
             body = pin.Inertia(self.mass[i], self.com[i], self.inertia[i])
-            model.appendBodyToJoint(parent, body, pin.SE3.Identity())
+            model.appendBodyToJoint(own, body, pin.SE3.Identity())
         return model
 
     def urdf(self):
         """The same arm as a URDF, for libraries that take no other."""
         rows = [f'<robot name="{self.name}">', '<link name="l0"/>']
-        for i in range(self.n):
+        for i in range(len(self.mass)):
             r, p = self.place[i]
             text = lambda v: " ".join(repr(float(x)) for x in v)
             names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
@@ -188,7 +210,8 @@ class Arm:
             rows += [
                 f'<link name="l{i + 1}"><inertial><origin xyz="{text(self.com[i])}"/>'
                 f'<mass value="{text([self.mass[i]])}"/><inertia {inertia}/></inertial></link>',
-                f'<joint name="j{i + 1}" type="{kind}"><parent link="l{i}"/><child link="l{i + 1}"/>'
+                f'<joint name="j{i + 1}" type="{kind}"><parent link="l{self.parent[i] + 1}"/>'
+                f'<child link="l{i + 1}"/>'
                 f'<origin xyz="{text(p)}" rpy="{text([roll, pitch, yaw])}"/><axis xyz="0 0 1"/>'
                 '<limit lower="-7" upper="7" velocity="100" effort="1000"/></joint>',
             ]

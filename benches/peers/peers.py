@@ -214,7 +214,9 @@ def main():
         for path in rest:
             arm = Arm(path)
             chain = Chain(arm)
-            functions = chain.functions() | chain.operational() | chain.second_derivatives()
+            functions = chain.functions() | chain.second_derivatives()
+            if arm.is_serial:
+                functions |= chain.operational()
             print(json.dumps({"robot": arm.name, **{k: counts(f) for k, f in functions.items()}}))
     else:
         run(*rest)

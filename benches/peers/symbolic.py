@@ -67,30 +67,44 @@ class Chain:
             ca.SX.sym(name, arm.n) for name in ("q", "qd", "qdd", "tau")
         )
         self.rotation, self.offset = [], []
-        for i in range(self.n):
+        self.links = len(arm.mass)
+        for i in range(self.links):
             r, p = (const(x) for x in arm.place[i])
+            q = self.rate(self.q, i) + arm.shift[i]
             if arm.prismatic[i]:
-                p = p + r @ ca.vertcat(0, 0, self.q[i])
+                p = p + r @ ca.vertcat(0, 0, q)
             else:
-                s, c = ca.sin(self.q[i]), ca.cos(self.q[i])
+                s, c = ca.sin(q), ca.cos(q)
                 turned = ca.vertcat(ca.horzcat(c, -s, 0), ca.horzcat(s, c, 0), ca.horzcat(0, 0, 1))
                 r = r @ ca.sparsify(turned)
             self.rotation.append(r)
             self.offset.append(p)
 
+    def rate(self, rates, i):
+        """What joint i has of a vector over the joints that follow none."""
+        return self.arm.factor[i] * rates[self.arm.coordinate[i]]
+
+    def gathered(self, torques):
+        """What the joints that follow none feel, from the torque of every joint."""
+        felt = [0] * self.n
+        for i, torque in enumerate(torques):
+            felt[self.arm.coordinate[i]] += self.arm.factor[i] * torque
+        return ca.vertcat(*felt)
+
     def friction(self, i):
-        return self.arm.viscous[i] * self.qd[i]
+        return self.arm.viscous[i] * self.rate(self.qd, i)
 
     def newton_euler(self, qd, qdd, gravity, links):
         """Inverse dynamics; moments about joints' origins, of these links, or about the
         centres of mass."""
-        w, dw, a = ca.SX.zeros(3), ca.SX.zeros(3), const(-gravity)
+        motion = [None] * self.links + [(ca.SX.zeros(3), ca.SX.zeros(3), const(-gravity))]
         forces = []
-        for i in range(self.n):
+        for i in range(self.links):
+            w, dw, a = motion[self.arm.parent[i]]
             r, p = self.rotation[i], self.offset[i]
             a = r.T @ (a + cross(dw, p) + cross(w, cross(w, p)))
             w, dw = r.T @ w, r.T @ dw
-            z, zd = ca.vertcat(0, 0, qd[i]), ca.vertcat(0, 0, qdd[i])
+            z, zd = (ca.vertcat(0, 0, self.rate(x, i)) for x in (qd, qdd))
             if self.arm.prismatic[i]:
                 a = a + zd + 2 * cross(w, z)
             else:
@@ -105,61 +119,74 @@ class Chain:
                 m, mc, about = (const(x) for x in links[i])
                 f = m * a + cross(dw, mc) + cross(w, cross(w, mc))
                 k = about @ dw + cross(w, about @ w) + cross(mc, a)
+            motion[i] = w, dw, a
             forces.append((f, k))
-        tau = [None] * self.n
-        f, k = ca.SX.zeros(3), ca.SX.zeros(3)
-        for i in reversed(range(self.n)):
-            f, k = f + forces[i][0], k + forces[i][1]
+        tau = [None] * self.links
+        for i in reversed(range(self.links)):
+            f, k = forces[i]
             tau[i] = (f if self.arm.prismatic[i] else k)[2]
             if self.arm.armature[i]:
-                tau[i] = tau[i] + self.arm.armature[i] * qdd[i]
-            p = self.offset[i]
-            f = self.rotation[i] @ f
-            k = self.rotation[i] @ k + cross(p, f)
-        return ca.vertcat(*tau)
+                tau[i] = tau[i] + self.arm.armature[i] * self.rate(qdd, i)
+            if self.arm.parent[i] >= 0:
+                before = forces[self.arm.parent[i]]
+                f = self.rotation[i] @ f
+                k = self.rotation[i] @ k + cross(self.offset[i], f)
+                forces[self.arm.parent[i]] = before[0] + f, before[1] + k
+        return self.gathered(tau)
 
     def damped(self, tau):
-        return tau + ca.vertcat(*(self.friction(i) for i in range(self.n)))
+        return tau + self.gathered([self.friction(i) for i in range(self.links)])
 
     def potential_energy(self, links):
-        """−gᵀ Σ m p, from the last link to the base."""
-        m, mc = 0, ca.SX(3, 1)
-        for i in reversed(range(self.n)):
-            m, mc = m + links[i][0], mc + const(links[i][1])
+        """−gᵀ Σ m p, from the tips to the base."""
+        whole = [(m, const(mc)) for m, mc, _ in links] + [(0, ca.SX(3, 1))]
+        for i in reversed(range(self.links)):
+            m, mc = whole[i]
+            before = whole[self.arm.parent[i]]
             mc = self.rotation[i] @ mc + m * self.offset[i]
-        return -ca.dot(const(self.arm.gravity), mc)
+            whole[self.arm.parent[i]] = before[0] + m, before[1] + mc
+        return -ca.dot(const(self.arm.gravity), whole[-1][1])
 
     def composite(self, links):
         """The inertia matrix, by composite bodies."""
         d = ca.SX.zeros(self.n, self.n)
-        m, mc, about = 0, ca.SX.zeros(3), ca.SX.zeros(3, 3)
-        for i in reversed(range(self.n)):
-            m, mc, about = m + links[i][0], mc + const(links[i][1]), about + const(links[i][2])
+        whole = [(m, const(mc), const(about)) for m, mc, about in links]
+        whole.append((0, ca.SX.zeros(3), ca.SX.zeros(3, 3)))
+        for i in reversed(range(self.links)):
+            m, mc, about = whole[i]
             if self.arm.prismatic[i]:
                 f, k = ca.vertcat(0, 0, m), ca.vertcat(mc[1], -mc[0], 0)
             else:
                 f, k = ca.vertcat(-mc[1], mc[0], 0), about[:, 2]
-            for j in reversed(range(i + 1)):
-                d[i, j] = d[j, i] = (f if self.arm.prismatic[j] else k)[2]
+            j = i
+            while j >= 0:
+                own, other = self.arm.coordinate[i], self.arm.coordinate[j]
+                entry = (f if self.arm.prismatic[j] else k)[2]
                 if i == j:
-                    d[i, i] += self.arm.armature[i]
+                    entry += self.arm.armature[i]
+                entry = self.arm.factor[i] * self.arm.factor[j] * entry
+                d[own, other] += entry
+                if i != j:
+                    d[other, own] += entry
                 p, r = self.offset[j], self.rotation[j]
                 f = r @ f
                 k = r @ k + cross(p, f)
+                j = self.arm.parent[j]
             # The body as the link before it sees it.
             r, p = self.rotation[i], self.offset[i]
             turned = r @ mc
             mp = m * p
             cp = skew(turned) @ skew(p)
             about = r @ about @ r.T - cp - cp.T - skew(mp) @ skew(p)
-            mc = turned + mp
+            before = whole[self.arm.parent[i]]
+            whole[self.arm.parent[i]] = before[0] + m, before[1] + turned + mp, before[2] + about
         return d
 
     def articulated(self):
-        """Forward dynamics, by articulated bodies over 6-vectors."""
+        """Forward dynamics, by articulated bodies over 6-vectors, where no joint follows another."""
         n, x, bias = self.n, [], []
         inertia, force = [], []
-        v = ca.SX.zeros(6)
+        speed = [None] * n + [ca.SX.zeros(6)]
         for i in range(n):
             r, p = self.rotation[i], self.offset[i]
             motion = ca.SX(6, 6)
@@ -167,12 +194,12 @@ class Chain:
             motion[3:, 3:] = r.T
             motion[3:, :3] = -r.T @ ca.sparsify(skew(p))
             x.append(motion)
-            v = motion @ v
+            v = motion @ speed[self.arm.parent[i]]
             k = 5 if self.arm.prismatic[i] else 2
             s = ca.SX(6, 1)
             s[k] = self.qd[i]
             bias.append(ca.vertcat(cross(v[:3], s[:3]), cross(v[3:], s[:3]) + cross(v[:3], s[3:])))
-            v = v + s
+            v = speed[i] = v + s
             m, c = self.arm.mass[i], self.arm.com[i]
             about = self.arm.inertia[i] + m * (c @ c * np.eye(3) - np.outer(c, c))
             hat = m * np.array([[0, -c[2], c[1]], [c[2], 0, -c[0]], [-c[1], c[0], 0]])
@@ -186,19 +213,21 @@ class Chain:
             column[i] = inertia[i][:, k]
             d[i] = column[i][k] + self.arm.armature[i]
             u[i] = self.tau[i] - self.friction(i) - force[i][k]
-            if i:
+            before = self.arm.parent[i]
+            if before >= 0:
                 gain = column[i] / d[i]
                 reduced = inertia[i] - gain @ column[i].T
                 rest = force[i] + reduced @ bias[i] + gain * u[i]
-                inertia[i - 1] = inertia[i - 1] + x[i].T @ reduced @ x[i]
-                force[i - 1] = force[i - 1] + x[i].T @ rest
-        a = ca.vertcat(ca.SX(3, 1), const(-self.arm.gravity))
+                inertia[before] = inertia[before] + x[i].T @ reduced @ x[i]
+                force[before] = force[before] + x[i].T @ rest
+        moved = [None] * n + [ca.vertcat(ca.SX(3, 1), const(-self.arm.gravity))]
         result = []
         for i in range(n):
             k = 5 if self.arm.prismatic[i] else 2
-            a = x[i] @ a + bias[i]
+            a = x[i] @ moved[self.arm.parent[i]] + bias[i]
             result.append((u[i] - ca.dot(column[i], a)) / d[i])
             a[k] += result[-1]
+            moved[i] = a
         return ca.vertcat(*result)
 
     def factored(self, d, rhs):
@@ -238,7 +267,9 @@ class Chain:
         matrices = [self.composite(way) for way in ways[1:]] + [ca.jacobian(t, qdd) for t in torque]
         result["inertia"] = best(*(made("inertia", [q], d) for d in matrices))
         load = [self.damped(self.newton_euler(qd, zero, g, way)) for way in ways]
-        solved = [self.factored(d, tau - b) for d in matrices for b in load] + [self.articulated()]
+        solved = [self.factored(d, tau - b) for d in matrices for b in load]
+        if self.links == self.n:
+            solved.append(self.articulated())
         given = [q, qd, tau]
         forward = [made("forward_dynamics", given, x) for x in solved]
         result["forward_dynamics"] = best(*forward)
@@ -265,7 +296,7 @@ class Chain:
         return result
 
     def hand(self):
-        """The last frame: its Jacobian in base axes, linear over angular, by axes and levers."""
+        """The last frame of a serial arm: its Jacobian in base axes, linear over angular, by axes and levers."""
         r, origin, axes = ca.SX.eye(3), ca.SX(3, 1), []
         for i in range(self.n):
             origin = origin + r @ self.offset[i]
@@ -350,7 +381,9 @@ class Chain:
         name, given = "forward_dynamics_second_derivatives", [q, qd, tau, multiplier]
         d = self.composite(ways[2])
         solved = self.factored(d, tau - self.damped(self.newton_euler(qd, zero, g, ways[2])))
-        accelerations = [ca.dot(multiplier, x) for x in (solved, self.articulated())]
+        accelerations = [ca.dot(multiplier, solved)]
+        if self.links == self.n:
+            accelerations.append(ca.dot(multiplier, self.articulated()))
         tries = [made(name, given, *parts(value, tau)) for value in accelerations]
         for torque in torques:
             matrices = [*parts(ca.dot(raised, torque), qdd), ca.jacobian(torque, q), ca.jacobian(torque, qd)]

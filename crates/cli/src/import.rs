@@ -173,8 +173,10 @@ fn one(made: &Import, path: &Path, source: &Text) -> Report {
     let hand = change.hand(limits);
     if hand.position > 0.0 || hand.angle > 0.0 {
         let [moves, turns] = [hand.position, hand.angle].map(Change::in_digits);
-        let hand = format!("moves by ≤ {moves} m and turns by ≤ {turns} rad");
-        report.line(format!("  the hand {hand}"));
+        report.line(match made.robot.branches() {
+            true => format!("  the ends of limbs move by ≤ {moves} m and turn by ≤ {turns} rad"),
+            false => format!("  the hand moves by ≤ {moves} m and turns by ≤ {turns} rad"),
+        });
     }
     report.line("  --exact keeps all numbers as the model has them");
     report
