@@ -8,7 +8,7 @@ use dalembert_checker::program::{Operand as Checked, Program as Straight};
 use dalembert_checker::work::Work;
 
 use crate::certified::Certified;
-use crate::support::{all_but_one_in, daily_and_campaign, every_output, one_in};
+use crate::support::{all_but_one_in, daily_and_campaign, every_output, one_in, source};
 
 struct Shown {
     source: String,
@@ -32,26 +32,39 @@ impl Shown {
     }
 }
 
-fn all() -> Vec<Shown> {
-    let file = Certified::planar2r(&format!("{}; scalar: f64", every_output()));
+fn shown(file: &Certified) -> Vec<Shown> {
     let claim = Claim::read(&file.claim).unwrap();
     let constants = claim.constants(&Work::default()).unwrap();
     let shown = claim.functions.iter().map(|own| Shown {
         source: file.robot.clone(),
         function: Function::named(&own.function, &own.arguments, &own.results).unwrap(),
         program: own.program(&constants).unwrap(),
-        base: own.base(&constants, 2).unwrap(),
+        base: own.base(&constants, 64).unwrap(),
     });
     shown.collect()
 }
 
+fn of_trees(robots: &[&str], functions: &str) -> Vec<Shown> {
+    let asked = format!("outputs: {functions}; scalar: f64; prefer: operations");
+    let files = robots
+        .iter()
+        .map(|name| Certified::of(&source(name, ""), None, &asked));
+    files
+        .flat_map(|mut files| shown(&files.remove(0)))
+        .collect()
+}
+
 daily_and_campaign! {
     every_mutant_of_a_program_is_refused: (one_in::<4>), (all_but_one_in::<4>);
+    every_changed_sign_of_a_tree_is_refused:
+        (&of_trees(&["g1_hand"], TORQUES), 40, 60),
+        (&of_trees(&["panda_gripper", "baxter_both_arms", "g1_hand"], DYNAMICS), 100, 900);
 }
 
 fn every_mutant_of_a_program_is_refused(is_tried: fn(usize) -> bool) {
     let mut count = 0;
-    for own in all() {
+    let file = Certified::planar2r(&format!("{}; scalar: f64", every_output()));
+    for own in shown(&file) {
         let steps = own.program.steps.len();
         let places = (0..steps).step_by(steps / 40 + 1).enumerate();
         for (_, index) in places.filter(|(number, _)| is_tried(*number)) {
@@ -65,6 +78,25 @@ fn every_mutant_of_a_program_is_refused(is_tried: fn(usize) -> bool) {
         }
     }
     assert!(count > 250, "{count}");
+}
+
+const TORQUES: &str = "inverse_dynamics, inertia";
+const DYNAMICS: &str = "inverse_dynamics, gravity, coriolis, inertia, forward_dynamics";
+
+fn every_changed_sign_of_a_tree_is_refused(shown: &[Shown], each: usize, least: usize) {
+    let mut count = 0;
+    for own in shown {
+        assert_eq!(own.check(&own.program), Ok(()), "{}", own.function.name);
+        let steps = own.program.steps.len();
+        for index in (0..steps).step_by(steps / each + 1) {
+            if let Some(mutant) = mutant(&own.program, index, 0) {
+                count += 1;
+                let name = &own.function.name;
+                assert!(own.check(&mutant).is_err(), "{name}: step {index}");
+            }
+        }
+    }
+    assert!(count >= least, "{count}");
 }
 
 fn mutant(program: &Straight<Exact>, index: usize, kind: usize) -> Option<Straight<Exact>> {
