@@ -49,6 +49,20 @@ const SHORTER: [(&str, &str); 12] = [
     ("angular", "ang"),
 ];
 
+/// With a word and a scalar of at most these letters, there is room for the name of a module.
+const LONGEST_WORD: usize = 24;
+
+/// Names of frames may be of any length: the longest part of a word loses its last letter until it
+/// is short enough.
+fn cut(word: &str, most: usize) -> String {
+    let mut parts: Vec<String> = word.split('_').map(str::to_owned).collect();
+    for _ in most..word.len() {
+        let longest = parts.iter_mut().max_by_key(|part| part.len());
+        longest.and_then(String::pop);
+    }
+    parts.join("_")
+}
+
 #[derive(Clone, Debug)]
 pub struct Names {
     base: String,
@@ -87,9 +101,11 @@ impl Names {
         let short = words.collect::<Vec<&str>>().join("_");
         let replaced = |text: String, (long, short): &(&str, &str)| text.replace(long, short);
         let shorter = SHORTER.iter().fold(short.clone(), replaced);
-        let mut names = [word, &short].into_iter().map(name);
+        let mut names = [word, &short, &shorter].into_iter().map(name);
         let fits = names.find(|name| name.len() <= LONGEST);
-        fits.unwrap_or_else(|| name(&shorter))
+        let room = LONGEST.saturating_sub(name("").len());
+        let most = room.max(LONGEST_WORD - infix.len());
+        fits.unwrap_or_else(|| name(&cut(&shorter, most)))
     }
 
     pub(crate) fn symbols(&self, function: Function) -> Symbols {
