@@ -6,6 +6,7 @@ use rustc_hash::FxHashMap;
 
 use super::{Dag, Edge, Fingerprint, Id, Node, Points, signed};
 use crate::dag::{Counts, Input, Operation};
+use crate::function::Argument;
 
 /// Products of constants with more monomials stay two operations: they would grow without end.
 const MAX_TERMS: usize = 1_000;
@@ -26,7 +27,8 @@ pub(crate) struct Builder {
     folding: Folding,
     known: FxHashMap<Node, Id>,
     by_print: FxHashMap<Fingerprint, Edge>,
-    /// Values where every angle, position and rate is zero, as far as they were asked for.
+    /// Values where every angle, position and rate is zero and the damping one, as far as they were
+    /// asked for.
     at_rest: FxHashMap<Id, Option<Exact>>,
     asked: Counts,
 }
@@ -229,7 +231,7 @@ impl Builder {
     }
 
     /// An operation that does not depend on the state has its value where every angle, position and
-    /// rate is zero. `None` if a divisor is zero there, or not a rational number.
+    /// rate is zero, and the damping, which divides, is one. `None` if a divisor is zero there, or not a rational number.
     fn value_at_rest(&mut self, operation: Operation, a: Id, b: Id) -> Option<Exact> {
         // Of what is asked for alone: at rest, long constants of odd angles multiply.
         let mut pending = vec![a, b];
@@ -237,7 +239,9 @@ impl Builder {
             let value = match self.dag.node(id) {
                 _ if self.at_rest.contains_key(&id) => None,
                 Node::Constant(constant) => Some(Some(constant.clone())),
-                Node::Input(Input::Cos(_)) => Some(Some(Exact::one())),
+                Node::Input(Input::Cos(_) | Input::Entry(Argument::Damping, _)) => {
+                    Some(Some(Exact::one()))
+                }
                 Node::Input(_) => Some(Some(Exact::zero())),
                 Node::Apply(own, operands) => {
                     let missing = operands.iter().filter(|id| !self.at_rest.contains_key(id));
