@@ -35,7 +35,7 @@ fn pages_have_the_counts_of_the_plans() {
         let read = RobotFile::read(&file).unwrap();
         let request = Request {
             plan: read.plan,
-            ..Request::default().for_file(&read.outputs)
+            ..Request::default().for_file(&read.robot, &read.outputs)
         };
         let mut functions = generate(&read.robot, &request).unwrap().functions;
         functions.extend(others(&read.robot, &request));

@@ -34,7 +34,7 @@ pub fn ask(
     shown: &str,
 ) -> Result<Made, Vec<Problem>> {
     let scalars = language.scalars();
-    let mut request = Request::parse(asked, scalars, &file.outputs, &file.scenes)?;
+    let mut request = Request::parse(asked, scalars, &file.robot, &file.outputs, &file.scenes)?;
     request.language = language;
     request.work = Request::work_while_compiling(request.effort);
     if !request.has_no_plan {

@@ -6,6 +6,7 @@ use std::fmt;
 
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::read::for_bundle;
+use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 use dalembert_stamp::Asked;
 
@@ -274,6 +275,7 @@ impl Request {
     pub fn parse(
         asked: &Asked,
         scalars: &[ScalarType],
+        robot: &Robot,
         outputs: &[Function],
         scenes: &[Scene],
     ) -> Result<Request, Vec<Problem>> {
@@ -312,7 +314,7 @@ impl Request {
         if !problems.is_empty() {
             return Err(problems);
         }
-        let request = draft.request.for_file(outputs);
+        let request = draft.request.for_file(robot, outputs);
         Ok(request.choose(draft.outputs, draft.scalars, scene))
     }
 
@@ -350,8 +352,14 @@ impl Request {
 mod tests {
     use super::*;
 
+    fn parse(asked: &Asked, scalars: &[ScalarType]) -> Result<Request, Vec<Problem>> {
+        let source = include_str!("../../../generated/robots/planar2r.toml");
+        let robot = dalembert_model::read::parse(source).unwrap().robot;
+        Request::parse(asked, scalars, &robot, &[], &[])
+    }
+
     fn read(text: &str) -> Result<Request, Vec<Problem>> {
-        Request::parse(&text.parse().unwrap(), &ScalarType::ALL, &[], &[])
+        parse(&text.parse().unwrap(), &ScalarType::ALL)
     }
 
     #[test]
@@ -366,7 +374,7 @@ mod tests {
             let mut requests = Vec::new();
             for word in &words {
                 let request = read(&format!("{}: {word}", row.name)).unwrap();
-                let mut again = Request::parse(&request.asked(), &[], &[], &[]).unwrap();
+                let mut again = parse(&request.asked(), &[]).unwrap();
                 again.is_scalar_open = request.is_scalar_open;
                 assert_eq!(format!("{again:?}"), format!("{request:?}"), "{word}");
                 requests.push(format!("{request:?}"));

@@ -207,12 +207,14 @@ impl Request {
         self
     }
 
-    /// Takes the outputs that a robot file names, where it names any; a scene's and those
-    /// that somebody chose come after them.
+    /// Takes the outputs that a robot file names; where it names none and its links branch, those by
+    /// default that need no hand. A scene's and those that somebody chose come after them.
     #[must_use]
-    pub fn for_file(mut self, outputs: &[Function]) -> Request {
+    pub fn for_file(mut self, robot: &Robot, outputs: &[Function]) -> Request {
         if !outputs.is_empty() {
             self.functions = outputs.to_vec();
+        } else if robot.branches() {
+            self.functions.retain(|function| !function.is_of_hand());
         }
         self
     }

@@ -260,7 +260,13 @@ impl Case {
         let (asked, language) = asked.split_once("; language: ").unwrap_or((asked, "rust"));
         let words = asked.parse();
         let words = words.unwrap_or_else(|error| panic!("{asked}: {error:?}"));
-        let request = Request::parse(&words, &ScalarType::ALL, &[], &reading.scenes);
+        let request = Request::parse(
+            &words,
+            &ScalarType::ALL,
+            &reading.robot,
+            &[],
+            &reading.scenes,
+        );
         let mut request = request.map_err(|problems| {
             let said = problems.iter().map(|problem| format!("{problem}\n"));
             said.collect::<String>()

@@ -61,7 +61,7 @@ impl Source {
     /// Parses options to a request. Without a scalar option it asks for `scalars`; it has the plan
     /// beside the robot file unless the options turn plans off; a model has none.
     pub fn request(&self, asked: &Asked, scalars: &[ScalarType]) -> Result<Request, Failure> {
-        let request = Request::parse(asked, scalars, &self.outputs, &self.scenes);
+        let request = Request::parse(asked, scalars, &self.robot, &self.outputs, &self.scenes);
         let mut request = request.map_err(|problems| Failure::Input(problems_of(&problems)))?;
         request.chain = self.chain.pairs();
         if !request.has_no_plan && !self.is_model {

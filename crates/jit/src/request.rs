@@ -38,7 +38,13 @@ pub struct Load {
 impl Load {
     pub(crate) fn request(&self, reading: &Reading) -> Result<Request, LoadError> {
         let scalars = [ScalarType::F64];
-        let request = Request::parse(&self.asked, &scalars, &reading.outputs, &reading.scenes);
+        let Reading {
+            robot,
+            outputs,
+            scenes,
+            ..
+        } = reading;
+        let request = Request::parse(&self.asked, &scalars, robot, outputs, scenes);
         let mut request = request.map_err(|problems| {
             let each: Vec<String> = problems.iter().map(Problem::to_string).collect();
             LoadError::Request(each.join("\n"))
