@@ -119,7 +119,7 @@ fn run_pages(pages: &[PathBuf], inside: &Path) {
         for (info, range) in blocks(&lines) {
             let body = &lines[range.clone()];
             match info.split_once(' ').unwrap_or((&info, "")) {
-                ("toml" | "sh", file) if !file.is_empty() => {
+                ("toml" | "sh" | "c", file) if !file.is_empty() => {
                     let (how, name) = file.split_once('=').unwrap();
                     let path = inside.join(name);
                     let before = match how {
@@ -168,6 +168,7 @@ fn the_guide_shows_what_commands_print() {
             "generated/robots/puma560.plan",
             "crates/import/tests/data/mjcf/xarm7.xml",
             "crates/import/tests/data/so101.urdf",
+            "gallery/urdf/baxter.urdf",
         ],
     );
     run_pages(&guide(), &inside);
