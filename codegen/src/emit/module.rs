@@ -313,8 +313,15 @@ fn describe(scene: &Scene, robot: &Robot) -> Vec<String> {
     if let Some(payload) = &scene.payload {
         let mass = decimal(&payload.mass);
         let com = list(payload.com.iter().map(decimal));
+        let link = scene
+            .payload_link
+            .and_then(|row| robot.rows().get(row).copied());
+        let link = match link.map(|joint| joint.name.as_deref().unwrap_or("unnamed")) {
+            None => "the last link".to_owned(),
+            Some(name) => format!("the link of joint {}", escaped(name)),
+        };
         lines.push(format!(
-            "- a payload of {mass} kg at ({com}) m in the frame of the last link;"
+            "- a payload of {mass} kg at ({com}) m in the frame of {link};"
         ));
     }
     let rows = scene.rows(robot.joints.len());

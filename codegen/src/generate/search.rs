@@ -15,6 +15,7 @@ use crate::setup::{ParametersKey, SceneKey, Task, input_hash};
 use crate::task::Prefer;
 use crate::verify::accuracy::{AccuracyFilter, Refused};
 use crate::verify::exact::prove;
+use crate::verify::growth::Growth;
 use crate::watch::{FunctionWatch, Part};
 
 /// Returns a plan's program, the first requested scalar's that it has.
@@ -263,7 +264,8 @@ impl<'a> Search<'a> {
     ) -> Option<Found> {
         let seeds = approach.seeds.iter();
         let graphs: Vec<Dag> = seeds.map(|seed| seed.graph.clone()).collect();
-        let accept = |graph: &Dag| !limited || self.judge.accepts(graph);
+        let growth = Growth::of(&graphs);
+        let accept = |graph: &Dag| growth.admits(graph) && (!limited || self.judge.accepts(graph));
         let goes_on = |rounds: [usize; 2], best: &Dag| {
             watch.step(Part::Search, rounds, Some(best.counts()));
             !watch.is_over()

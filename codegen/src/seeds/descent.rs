@@ -109,9 +109,7 @@ pub(crate) fn tunings(problem: &Problem<'_>, forms: &[Form]) -> (Tuned, Option<T
     };
     let descend = |from: Regrouping<Exact>| {
         let mut found = tune::tune(&arm, from, forms, effort.regrouping_rounds(), watched);
-        if arm.links.len() <= MAX_QUICK_LINKS {
-            found.price = quick(&Chain::new(&arm, &found.regrouping), found.form, u64::MAX);
-        }
+        found.price = quick(&Chain::new(&arm, &found.regrouping), found.form, u64::MAX);
         found
     };
     let mut tuned: Option<Tuned> = None;
@@ -154,7 +152,7 @@ fn starts(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
     }
     let mut starts = vec![vec![0; n]];
     for axes in [last, before] {
-        if n <= MAX_QUICK_LINKS && !starts.contains(&axes) {
+        if !starts.contains(&axes) {
             starts.push(axes);
         }
     }

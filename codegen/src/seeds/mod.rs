@@ -26,7 +26,7 @@ pub(crate) use tune::Tuned;
 
 pub(crate) use dalembert_model::equations::chain::Form;
 
-/// Longer chains are tuned by the price before the search alone.
+/// Longer chains are tuned by the price before the search alone, even if that is thorough.
 const MAX_QUICK_LINKS: usize = 10;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

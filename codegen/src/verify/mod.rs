@@ -3,6 +3,7 @@
 pub(crate) mod accuracy;
 pub(crate) mod condition;
 pub(crate) mod exact;
+pub(crate) mod growth;
 pub(crate) mod measure;
 pub(crate) mod parameters;
 mod points;

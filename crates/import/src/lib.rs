@@ -24,6 +24,7 @@ mod args;
 mod arms;
 mod bounds;
 mod change;
+mod follow;
 mod include;
 mod keywords;
 mod meant;

@@ -7,12 +7,11 @@ use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::values::{
     lines, list, number, numbers, one_line, placement, position, quoted, table, texts, unless_zero,
 };
-use dalembert_model::robot::{
-    HAND, Placement, Position, Robot, is_frame_name, suggested_name, write_frame,
-};
+use dalembert_model::robot::{HAND, Placement, Robot, is_frame_name, suggested_name, write_frame};
 use num_traits::{Signed, Zero};
 
 use crate::Options;
+use crate::follow;
 use crate::merge::{Branch, Tree};
 use crate::model::{Format, Joint, Kind, Model, Number, positive};
 use crate::problems::Problems;
@@ -67,18 +66,19 @@ pub(crate) fn file(
         Some(gravity) => list(gravity.iter().map(|x| number(&x.value))),
     };
     let gravity = ("gravity", Some(gravity));
+    let joint_of = |branch: &Branch| &model.joints[branch.joint];
+    let joints: Vec<&Joint> = tree.bodies.iter().map(joint_of).collect();
     let writer = Writer {
         model,
         tree,
         on_the_circle: tree.branches() && !options.exact,
+        without_room: follow::without_room(&joints, problems),
     };
     let hand = tree.hand().filter(|hand| !hand.is_identity());
     let tool = hand.map(|hand| writer.placement(hand));
     let allow = stays.then(|| "[\"near_right_angle\"]".to_owned());
     let (tool, allow) = (("tool", tool), ("allow", allow));
     let name = ("name", Some(quoted(&name)));
-    let joint_of = |branch: &Branch| &model.joints[branch.joint];
-    let joints: Vec<&Joint> = tree.bodies.iter().map(joint_of).collect();
     say_left_out(&joints, problems);
     let messages = problems.differences();
     let differences: Vec<String> = messages.iter().map(|message| one_line(message)).collect();
@@ -96,7 +96,7 @@ pub(crate) fn file(
         let name = Some(quoted(&joint_names[index]));
         lines(&mut text, [("name", name), ("parent", parent)]);
         writer.joint(&mut text, model_joint, link, options);
-        lines(&mut text, [("mimic", mimic(model_joint, &joints))]);
+        lines(&mut text, [("mimic", follow::mimic(model_joint, &joints))]);
     }
     writer.frames(&mut text);
     text
@@ -107,22 +107,8 @@ struct Writer<'m> {
     tree: &'m Tree,
     /// Write angles that are no parts of π as points of the circle with rational coordinates.
     on_the_circle: bool,
-}
-
-fn mimic(follower: &Joint, joints: &[&Joint]) -> Option<String> {
-    let mimic = follower.mimic.as_ref()?;
-    let [multiplier, offset] = mimic.line.as_ref()?;
-    let mut leaders = joints.iter();
-    let leader = leaders.position(|joint| joint.name == mimic.leader)?;
-    let offset = match follower.kind {
-        Kind::Prismatic => Position::Length(offset.clone()),
-        _ => Position::Angle(right(Angle::Radians(offset.clone()).canonical())),
-    };
-    table([
-        ("joint", Some((leader + 1).to_string())),
-        ("multiplier", Some(number(multiplier))),
-        ("offset", Some(position(&offset))),
-    ])
+    /// Joints whose range is left out.
+    without_room: BTreeSet<&'m str>,
 }
 
 impl Writer<'_> {
@@ -150,12 +136,8 @@ impl Writer<'_> {
             Kind::Prismatic => "prismatic",
             _ => "revolute",
         };
-        let range = joint.position.as_ref().map(|range| {
-            list(range.each_ref().map(|end| match &end.value {
-                Position::Angle(angle) => position(&Position::Angle(right(angle.clone()))),
-                length => position(length),
-            }))
-        });
+        let range = follow::range(joint).filter(|_| !self.without_room.contains(&*joint.name));
+        let range = range.map(|range| list(range.each_ref().map(position)));
         let limit = |limit: &Option<Number>| positive(limit).map(|limit| number(&limit.value));
         let acceleration = limit(&joint.acceleration).or(options.acceleration.as_ref().map(number));
         let limits = table([

@@ -141,6 +141,23 @@ fn a_chain_gives_the_file_of_an_arm() {
     assert_eq!(all.robot.joints, arm.robot.joints);
 }
 
+/// The limits of both fingers of PR2's grippers have zero alone in common, by the sign of one of them.
+#[test]
+fn a_follower_that_would_hold_its_leader_has_no_limits() {
+    let right = r#"lower="-0.8" upper="0" effort="50" velocity="0.5"/><dynamics damping="0.01"/><mimic joint="knuckle" multiplier="-1"/></joint>
+</robot>"#;
+    let text = with_gripper("ur5.urdf", "tool0");
+    assert!(text.contains(right));
+    let wrong = text.replace(
+        right,
+        &right.replacen("-0.8\" upper=\"0", "0\" upper=\"0.8", 1),
+    );
+    let [plain, import] = [&text, &wrong].map(|text| taken(text, &tree()));
+    let said = "the limits of joint `right_inner` would hold `knuckle`, which it follows: they are left out";
+    assert!(import.robot.notes.iter().any(|note| note == said));
+    assert_eq!(import.robot.joints, plain.robot.joints);
+}
+
 #[test]
 fn several_tips_take_the_ways_to_them() {
     let options = Options {

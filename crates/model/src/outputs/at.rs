@@ -17,7 +17,7 @@ use super::function::{Definition, Made};
 use super::quantity::{Facts, FrameChoice};
 use super::{Axis, Function, Quantity, Regrouped, Shape, Written};
 use crate::equations::frames::{Axes, Rows, View};
-use crate::robot::HAND;
+use crate::robot::{HAND, suggested_name};
 use crate::scalar::Divide;
 
 const AT: char = '@';
@@ -131,7 +131,10 @@ impl Function {
         let name = format!("{function}_{frame}{}", suffix('_'));
         check_name(&name).map_err(|_| {
             let frame: String = frame.chars().take(64).collect();
-            let help = "small letters, digits and single `_` between them, such as `camera_2`";
+            let suggested = suggested_name(&frame).filter(|name| *name != frame);
+            let suggested = suggested.unwrap_or_else(|| String::from("camera_2"));
+            let help =
+                format!("small letters, digits and single `_` between them, such as `{suggested}`");
             BundleError::new(format!("`{frame}` cannot name a frame"), help)
         })?;
         let text = format!("{function}{AT}{frame}{}", suffix(OF));

@@ -367,7 +367,7 @@ gravity@camera
 forward_kinematics@camera:local
 `forward_kinematics` has no choice of `:local`: it takes a frame alone
 jacobian@Camera
-`Camera` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`
+`Camera` cannot name a frame: small letters, digits and single `_` between them, such as `camera`
 jacobian@
 `` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`
 jacobian@camera_batch

@@ -170,8 +170,11 @@ impl Context {
 
     pub(super) fn angle(&mut self, value: &Value) -> Option<Angle> {
         let snapped = self.snapped(value)?;
+        // Who writes a point of the circle means it.
         if let Snapped::Near {
-            multiple, distance, ..
+            angle: Angle::PiTimes(_) | Angle::Radians(_),
+            multiple,
+            distance,
         } = &snapped
         {
             let text = self.literal(value);

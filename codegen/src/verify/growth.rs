@@ -1,0 +1,80 @@
+//! How large results may be for all that intervals know of sines: the checker bounds rounding by such
+//! sizes. An axis as the product of two others, whose axes are such products themselves, is exact and
+//! accurate, but its size in intervals is squared again and again.
+
+use dalembert_model::number::{Exact, Rounded};
+
+use crate::dag::{Dag, Node, Operation};
+
+/// A program may have so many times the size of what it was found from.
+const MOST: f64 = 32768.0;
+
+/// The smallest sizes of each result that one of several graphs of a function has.
+pub(crate) struct Growth(Vec<f64>);
+
+impl Growth {
+    pub(crate) fn of(graphs: &[Dag]) -> Growth {
+        let mut least: Vec<f64> = Vec::new();
+        for graph in graphs {
+            let own = sizes(graph);
+            least.resize(own.len(), f64::INFINITY);
+            let both = least.iter_mut().zip(own);
+            both.for_each(|(least, own)| *least = least.min(own));
+        }
+        Growth(least)
+    }
+
+    pub(crate) fn admits(&self, graph: &Dag) -> bool {
+        let mut both = sizes(graph).into_iter().zip(&self.0);
+        both.all(|(own, least)| own <= MOST * least)
+    }
+}
+
+/// Sines, rates and loads are at most one; a quotient is as large as what it divides.
+fn sizes(graph: &Dag) -> Vec<f64> {
+    let size = |constant: &Exact| f64::nearest(constant).abs();
+    let mut all: Vec<f64> = Vec::with_capacity(graph.nodes.len());
+    for node in &graph.nodes {
+        let own = match node {
+            Node::Constant(constant) => size(constant),
+            Node::Input(_) => 1.0,
+            Node::Apply(operation, operands) => {
+                let [a, b] = operands.map(|id| all[id as usize]);
+                match operation {
+                    Operation::Add | Operation::Sub => a + b,
+                    Operation::Mul | Operation::Fused => a * b,
+                    Operation::Div => a,
+                }
+            }
+        };
+        all.push(own);
+    }
+    graph.outputs.iter().map(|edge| all[edge.index()]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dag::{Builder, Folding};
+    use crate::program::Input;
+
+    #[test]
+    fn a_cosine_by_squares_of_large_sums_is_refused() {
+        let mut builder = Builder::new(Folding::Syntactic);
+        let [sin, cos] = [Input::Sin(0), Input::Cos(0)].map(|input| builder.input(input));
+        let mut axis = builder.add(sin, cos);
+        let plain = builder.mul(axis, cos);
+        for _ in 0..5 {
+            axis = builder.add(axis, cos);
+            axis = builder.mul(axis, axis);
+        }
+        let graph = builder.finish(vec![plain, axis]);
+        let with = |edge| Dag {
+            nodes: graph.nodes.clone(),
+            outputs: vec![edge],
+        };
+        let growth = Growth::of(&[with(plain)]);
+        assert!(growth.admits(&with(plain)));
+        assert!(!growth.admits(&with(axis)));
+    }
+}
