@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use dalembert_jit::Output;
 use dalembert_model::number::Rounded;
-use dalembert_model::robot::{Joint, JointKind, Position};
+use dalembert_model::robot::{HAND, Joint, JointKind, Position};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -49,6 +49,15 @@ impl Arm {
             (name.unwrap_or_else(|| format!("joint{number}")), kind)
         };
         (1..).zip(&self.0.robot().joints).map(of).collect()
+    }
+
+    /// Returns the frames that outputs may be at.
+    #[getter]
+    fn frames(&self) -> Vec<String> {
+        let robot = self.0.robot();
+        let hand = (!robot.branches()).then(|| HAND.to_owned());
+        let named = robot.frames.iter().map(|frame| frame.name.clone());
+        hand.into_iter().chain(named).collect()
     }
 
     /// Returns each joint's limits: lowest and highest position, velocity, acceleration, torque;

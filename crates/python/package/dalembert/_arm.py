@@ -100,8 +100,8 @@ class Arm:
 
     @property
     def frames(self) -> tuple[str, ...]:
-        """The frames: the base, that of each joint's link, and the hand."""
-        return ("base", *(joint.name for joint in self.joints), "hand")
+        """The frames that outputs may be at, as in ``jacobian@camera``; the hand is where no links branch."""
+        return tuple(self._native.frames)
 
     @property
     def limits(self) -> Limits:
