@@ -81,11 +81,11 @@ class Chain:
             self.offset.append(p)
 
     def rate(self, rates, i):
-        """What joint i has of a vector over the joints that follow none."""
+        """The entry of joint i, from a vector over the joints that follow none."""
         return self.arm.factor[i] * rates[self.arm.coordinate[i]]
 
     def gathered(self, torques):
-        """What the joints that follow none feel, from the torque of every joint."""
+        """The torques of the joints that follow none, from the torque of every joint."""
         felt = [0] * self.n
         for i, torque in enumerate(torques):
             felt[self.arm.coordinate[i]] += self.arm.factor[i] * torque

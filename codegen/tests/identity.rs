@@ -1,11 +1,14 @@
 //! Exact programs that are not the robot's, against the equations of the checker.
 
+use std::ops::Range;
+
 use dalembert_checker::claim::Claim;
 use dalembert_checker::identity::exact::Exact;
 use dalembert_checker::identity::table::Function;
 use dalembert_checker::identity::{Base, Points, Statement, check, robot};
 use dalembert_checker::program::{Operand as Checked, Program as Straight};
 use dalembert_checker::work::Work;
+use dalembert_model::robot::Robot;
 
 use crate::certified::Certified;
 use crate::support::{all_but_one_in, daily_and_campaign, every_output, one_in, source};
@@ -39,7 +42,7 @@ fn shown(file: &Certified) -> Vec<Shown> {
         source: file.robot.clone(),
         function: Function::named(&own.function, &own.arguments, &own.results).unwrap(),
         program: own.program(&constants).unwrap(),
-        base: own.base(&constants, 64).unwrap(),
+        base: own.base(&constants, Robot::MAX_JOINTS).unwrap(),
     });
     shown.collect()
 }
@@ -62,13 +65,34 @@ daily_and_campaign! {
 }
 
 fn every_mutant_of_a_program_is_refused(is_tried: fn(usize) -> bool) {
-    let mut count = 0;
     let file = Certified::planar2r(&format!("{}; scalar: f64", every_output()));
-    for own in shown(&file) {
+    let count = refused_mutants(&shown(&file), 40, 0..4, is_tried);
+    assert!(count > 250, "{count}");
+}
+
+const TORQUES: &str = "inverse_dynamics, inertia";
+const DYNAMICS: &str = "inverse_dynamics, gravity, coriolis, inertia, forward_dynamics";
+
+fn every_changed_sign_of_a_tree_is_refused(shown: &[Shown], each: usize, least: usize) {
+    for own in shown {
+        assert_eq!(own.check(&own.program), Ok(()), "{}", own.function.name);
+    }
+    let count = refused_mutants(shown, each, 0..1, |_| true);
+    assert!(count >= least, "{count}");
+}
+
+fn refused_mutants(
+    shown: &[Shown],
+    each: usize,
+    kinds: Range<usize>,
+    is_tried: fn(usize) -> bool,
+) -> usize {
+    let mut count = 0;
+    for own in shown {
         let steps = own.program.steps.len();
-        let places = (0..steps).step_by(steps / 40 + 1).enumerate();
+        let places = (0..steps).step_by(steps / each + 1).enumerate();
         for (_, index) in places.filter(|(number, _)| is_tried(*number)) {
-            for kind in 0..4 {
+            for kind in kinds.clone() {
                 if let Some(mutant) = mutant(&own.program, index, kind) {
                     count += 1;
                     let name = &own.function.name;
@@ -77,26 +101,7 @@ fn every_mutant_of_a_program_is_refused(is_tried: fn(usize) -> bool) {
             }
         }
     }
-    assert!(count > 250, "{count}");
-}
-
-const TORQUES: &str = "inverse_dynamics, inertia";
-const DYNAMICS: &str = "inverse_dynamics, gravity, coriolis, inertia, forward_dynamics";
-
-fn every_changed_sign_of_a_tree_is_refused(shown: &[Shown], each: usize, least: usize) {
-    let mut count = 0;
-    for own in shown {
-        assert_eq!(own.check(&own.program), Ok(()), "{}", own.function.name);
-        let steps = own.program.steps.len();
-        for index in (0..steps).step_by(steps / each + 1) {
-            if let Some(mutant) = mutant(&own.program, index, 0) {
-                count += 1;
-                let name = &own.function.name;
-                assert!(own.check(&mutant).is_err(), "{name}: step {index}");
-            }
-        }
-    }
-    assert!(count >= least, "{count}");
+    count
 }
 
 fn mutant(program: &Straight<Exact>, index: usize, kind: usize) -> Option<Straight<Exact>> {

@@ -231,7 +231,8 @@ impl Builder {
     }
 
     /// An operation that does not depend on the state has its value where every angle, position and
-    /// rate is zero, and the damping, which divides, is one. `None` if a divisor is zero there, or not a rational number.
+    /// rate is zero, and the damping, which divides, is one. `None` if a divisor is zero there, or
+    /// not a rational number.
     fn value_at_rest(&mut self, operation: Operation, a: Id, b: Id) -> Option<Exact> {
         // Of what is asked for alone: at rest, long constants of odd angles multiply.
         let mut pending = vec![a, b];

@@ -148,10 +148,7 @@ pub(super) fn header(
         if let Some(place) = &joint.place {
             let carrier = match robot.carrier(row) {
                 None => "the base".to_owned(),
-                Some(carrier) => match &robot.rows()[carrier].name {
-                    Some(name) => escaped(name),
-                    None => format!("link {}", carrier + 1),
-                },
+                Some(carrier) => link_name(robot, carrier),
             };
             let list = |list: &[Rational; 3]| list.each_ref().map(decimal).join(", ");
             let rpy = place
@@ -286,6 +283,13 @@ pub(super) fn function_doc(
     lines
 }
 
+fn link_name(robot: &Robot, row: usize) -> String {
+    match &robot.rows()[row].name {
+        Some(name) => escaped(name),
+        None => format!("link {}", row + 1),
+    }
+}
+
 fn describe(scene: &Scene, robot: &Robot) -> Vec<String> {
     let mut lines = vec![format!(
         "Scene `{}` {}. Its functions are the full model's at:",
@@ -313,13 +317,8 @@ fn describe(scene: &Scene, robot: &Robot) -> Vec<String> {
     if let Some(payload) = &scene.payload {
         let mass = decimal(&payload.mass);
         let com = list(payload.com.iter().map(decimal));
-        let link = scene
-            .payload_link
-            .and_then(|row| robot.rows().get(row).copied());
-        let link = match link.map(|joint| joint.name.as_deref().unwrap_or("unnamed")) {
-            None => "the last link".to_owned(),
-            Some(name) => format!("the link of joint {}", escaped(name)),
-        };
+        let named = |row| link_name(robot, row);
+        let link = (scene.payload_link).map_or_else(|| "the last link".to_owned(), named);
         lines.push(format!(
             "- a payload of {mass} kg at ({com}) m in the frame of {link};"
         ));

@@ -1,15 +1,14 @@
-//! How large results may be for all that intervals know of sines: the checker bounds rounding by such
-//! sizes. An axis as the product of two others, whose axes are such products themselves, is exact and
+//! The sizes of results for all that intervals know of sines: the checker bounds rounding by them. An axis as the product of two others, whose axes are such products themselves, is exact and
 //! accurate, but its size in intervals is squared again and again.
 
 use dalembert_model::number::{Exact, Rounded};
 
 use crate::dag::{Dag, Node, Operation};
 
-/// A program may have so many times the size of what it was found from.
+/// A result may be so many times as large as in the graphs that the program was found from.
 const MOST: f64 = 32768.0;
 
-/// The smallest sizes of each result that one of several graphs of a function has.
+/// The least size of each result among several graphs of a function.
 pub(crate) struct Growth(Vec<f64>);
 
 impl Growth {

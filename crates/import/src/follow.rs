@@ -1,5 +1,5 @@
-//! Joints that follow others (`mimic`): their tables in the robot file, and limits that leave those
-//! which they follow no room.
+//! Joints that follow others (`mimic`): their tables in the robot file, and limits that would hold
+//! the joints that they follow.
 
 use std::collections::{BTreeMap, BTreeSet};
 

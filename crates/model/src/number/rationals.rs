@@ -57,7 +57,7 @@ fn common_divisor(a: &BigInt, b: &BigInt) -> BigInt {
     greatest_common_divisor(a.magnitude(), b.magnitude()).into()
 }
 
-/// As of words, what numerators and denominators have in common goes first.
+/// Common divisors of numerators and denominators go first, as with words.
 fn long_product(a: &Rational, b: &Rational) -> Rational {
     let [first, second] = [(a, b), (b, a)].map(|(x, y)| common_divisor(x.numer(), y.denom()));
     let numerator = (a.numer() / &first) * (b.numer() / &second);

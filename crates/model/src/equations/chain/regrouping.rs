@@ -75,7 +75,7 @@ impl<S: Scalar> Regrouping<S> {
 pub struct MetricChain<S> {
     /// The chain, whatever the unit of its regrouping.
     pub chain: Chain<S>,
-    /// What arrives from each link at the one that carries it.
+    /// The moments that arrive from each link at the one that carries it.
     arriving: Vec<Body<S>>,
 }
 
@@ -85,7 +85,7 @@ impl<S: Scalar> MetricChain<S> {
         MetricChain::from_known(skeleton, regrouping, None)
     }
 
-    /// Returns the same where the regrouping of one link has changed: only that link, those that it
+    /// Returns the chain after the regrouping of one link has changed: only that link, those that it
     /// carries itself and those that carry it are made anew.
     #[must_use]
     pub fn changed(&self, skeleton: &Skeleton<S>, regrouping: &Regrouping<S>, at: usize) -> Self {

@@ -153,7 +153,7 @@ impl Draw {
         columns.collect()
     }
 
-    /// A chain in some regrouping, got from another in which one link was regrouped otherwise.
+    /// A chain in a random regrouping, changed from one that differs in one link.
     pub(super) fn chain(&mut self, skeleton: &Skeleton<S>) -> Chain<S> {
         let regrouping = self.regrouping(skeleton);
         let mut before = regrouping.clone();
