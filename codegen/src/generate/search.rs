@@ -265,13 +265,20 @@ impl<'a> Search<'a> {
         let seeds = approach.seeds.iter();
         let graphs: Vec<Dag> = seeds.map(|seed| seed.graph.clone()).collect();
         let growth = Growth::of(&graphs);
-        let accept = |graph: &Dag| growth.admits(graph) && (!limited || self.judge.accepts(graph));
+        let accept = |graph: &Dag| !limited || self.judge.accepts(graph);
         let goes_on = |rounds: [usize; 2], best: &Dag| {
             watch.step(Part::Search, rounds, Some(best.counts()));
             !watch.is_over()
         };
         let limits = |operations| effort.limits(operations);
-        let searched = search::search(&graphs, &approach.helpers, &limits, &accept, &goes_on)?;
+        let run = |accept: &dyn Fn(&Dag) -> bool| {
+            search::search(&graphs, &approach.helpers, &limits, &accept, &goes_on)
+        };
+        let mut searched = run(&accept)?;
+        // Few programs grow, and a walk that refuses all that do ends earlier.
+        if !growth.admits(&searched.graph) {
+            searched = run(&|graph| growth.admits(graph) && accept(graph))?;
+        }
         Some(Found {
             tuned: approach.tuned,
             seeds: approach.seeds,

@@ -1,4 +1,5 @@
-//! The sizes of results for all that intervals know of sines: the checker bounds rounding by them. An axis as the product of two others, whose axes are such products themselves, is exact and
+//! The sizes of results for all that intervals know of sines: the checker bounds rounding by them.
+//! An axis as the product of two others, whose axes are such products themselves, is exact and
 //! accurate, but its size in intervals is squared again and again.
 
 use dalembert_model::number::{Exact, Rounded};
