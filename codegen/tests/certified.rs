@@ -335,6 +335,25 @@ name = \"joint2\" | name = \"joint3\" | other joints
     );
 }
 
+/// As programs for drawing write them: angles between such axes are within an ulp of a right angle,
+/// but are not right. The second axis passes near the base's origin.
+#[test]
+fn axes_that_are_almost_coordinate_axes() {
+    let joint = |placement: &str, axis: &str| {
+        format!(
+            "[[joint]]\nkind = \"revolute\"\nplacement = {{ {placement} }}\naxis = {axis}\nmass = 1\ncom = [0.1, 0.2, 0.3]\ninertia = [0.1, 0.1, 0.1, 0, 0, 0]\n"
+        )
+    };
+    let robot = [
+        String::from("name = \"almost\"\ngravity = [0, 0, -9.81]\n"),
+        joint("xyz = [0, -0.0681, -0.1199]", "[1, 0, 6.12323e-17]"),
+        joint("rpy = [-1.5708, -6.2e-33, -6.1e-17]", "[0, 1, 6.12323e-17]"),
+        joint("xyz = [0, 0.2, 0]", "[0, 0, -1]"),
+    ];
+    let asked = "outputs: inverse_dynamics; scalar: f64";
+    Certified::of(&robot.concat(), None, asked)[0].is_shown(1, "almost");
+}
+
 /// A payload that is a point at the origin of its frame, or nothing, or one that the scene gives in a
 /// tilted frame.
 #[test]

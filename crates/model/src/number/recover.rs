@@ -11,7 +11,7 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
-use super::{Angle, Rational, Rounded, Wide, ratio};
+use super::{Angle, Rational, Rounded, Snapped, Wide, ratio};
 use crate::scalar::Scalar;
 
 /// The most bits of the denominator of a fraction that was meant.
@@ -61,11 +61,15 @@ impl Angle {
     pub fn recovered(sin: &Wide, cos: &Wide) -> Angle {
         let radians = arc(sin, cos);
         let pi = Angle::PiTimes(Rational::one()).radians();
-        match simple(&(&radians / pi), &near()) {
+        match simple(&(&radians / &pi), &near()) {
             Some(multiple) => Angle::PiTimes(multiple),
             None => {
-                let radians = simple(&radians, &near()).unwrap_or_else(|| rounded(&radians));
-                Angle::Radians(radians).canonical()
+                let meant = simple(&radians, &near()).unwrap_or_else(|| rounded(&radians));
+                match Snapped::of_radians(meant.clone()) {
+                    // Radians so near a right angle are read as that; multiples of π as written.
+                    Snapped::Taken(_) => Angle::PiTimes(rounded(&(radians / pi))),
+                    _ => Angle::Radians(meant).canonical(),
+                }
             }
         }
     }
@@ -128,6 +132,10 @@ fn arc(sin: &Wide, cos: &Wide) -> Rational {
 
 #[cfg(test)]
 mod tests {
+    use alloc::string::ToString;
+
+    use num_traits::ToPrimitive;
+
     use super::*;
 
     fn comes_back(angle: Angle) {
@@ -142,6 +150,19 @@ mod tests {
         let unit = Rational::new(1.into(), BigInt::from(10).pow(20));
         let off = found - Rational::from_integer(digits.into()) * &unit;
         assert!(off.abs() <= unit, "{found}");
+    }
+
+    #[test]
+    fn angles_beside_right_angles_read_as_they_are() {
+        let less = Angle::Radians(Rational::new(61.into(), BigInt::from(10).pow(18)));
+        let pair = Wide::sincos(&less);
+        let angle = Angle::recovered(&pair.cos, &pair.sin);
+        let read = Angle::parse(&angle.to_string()).unwrap();
+        assert_eq!(read, angle);
+        assert_eq!(angle.quarter_turns(), None);
+        let sum = angle.radians() + less.radians();
+        let off = (sum - Angle::right_angles(1).radians()).to_f64().unwrap();
+        assert!(off.abs() < 1e-19, "{angle}: {off:e}");
     }
 
     #[test]
