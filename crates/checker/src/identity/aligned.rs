@@ -73,25 +73,51 @@ fn unit(axis: [Fixed; 3]) -> [Fixed; 3] {
     axis.map(|x| Fixed((x.0 << BITS) / &length))
 }
 
-type Parts = Vec<(String, Vec<Fixed>)>;
+struct Part {
+    name: String,
+    values: Vec<Fixed>,
+    /// The size that digits are counted from, if that is not the largest value's.
+    scale: BigInt,
+}
 
-fn weighed(name: &str, (body, centre): (Body<Fixed>, Pose<Fixed>), frame: &Pose<Fixed>) -> Parts {
+impl Part {
+    fn new(name: impl Into<String>, values: impl Into<Vec<Fixed>>) -> Part {
+        let (name, values) = (name.into(), values.into());
+        let scale = largest(&values);
+        Part {
+            name,
+            values,
+            scale,
+        }
+    }
+}
+
+fn largest(values: &[Fixed]) -> BigInt {
+    let sizes = values.iter().map(|value| value.0.abs());
+    sizes.max().unwrap_or_default()
+}
+
+fn weighed(
+    name: &str,
+    (body, centre): (Body<Fixed>, Pose<Fixed>),
+    frame: &Pose<Fixed>,
+) -> [Part; 3] {
     let mut at = frame.then(&centre);
     let first = scaled(body.mass.clone(), at.origin);
     at.origin = [0i64; 3].map(Fixed::from);
     let named = |what: &str| format!("{what} of {name}");
-    vec![
-        (named("mass"), vec![body.mass.clone()]),
-        (named("first moments"), first.to_vec()),
+    [
+        Part::new(named("mass"), [body.mass.clone()]),
+        Part::new(named("first moments"), first),
         // About the centre of mass: about the base's origin, an arm far away would hide it.
-        (named("inertia"), body.moved(&at).tensor.concat()),
+        Part::new(named("inertia"), body.moved(&at).tensor.concat()),
     ]
 }
 
 /// The frame of a payload is that of the file, unless it is in the last link's.
-fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Parts, String> {
+fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Vec<Part>, String> {
     let gravity = Digits.list(entries(Some(&file.gravity)))?;
-    let mut all = vec![("gravity".to_owned(), gravity.to_vec())];
+    let mut all = vec![Part::new("gravity", gravity)];
     let base = Digits.placement(file.base.as_ref())?;
     let (mut frame, mut links) = (base.clone(), Vec::new());
     for (index, row) in file.joint.iter().enumerate() {
@@ -103,10 +129,13 @@ fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Part
         let at = carrier.then(&before);
         frame = at.then(&behind);
         let along = at.rotate(unit(Digits.axis(row)?));
-        all.push((name("axis"), along.to_vec()));
         if row.turns() {
-            all.push((name("place"), cross(at.origin, along).to_vec()));
+            // Of a direction that agrees, the product with a point may differ by twice as much.
+            let scale = largest(&at.origin) * 2;
+            let place = Part::new(name("place"), cross(at.origin, along.clone()));
+            all.push(Part { scale, ..place });
         }
+        all.push(Part::new(name("axis"), along));
         let drive = [
             &row.viscous,
             &row.coulomb,
@@ -114,18 +143,18 @@ fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Part
             &row.armature,
         ];
         for own in Digits.list(drive.map(Option::as_ref))? {
-            all.push((name("drive"), vec![own]));
+            all.push(Part::new(name("drive"), [own]));
         }
         let body = Digits.body(Some(&row.mass), row.com.as_ref(), row.inertia.as_ref())?;
         all.extend(weighed(&format!("joint {}", index + 1), body, &frame));
         let shown = frame.then(&Digits.placement(row.frame.as_ref())?);
-        all.push((name("frame"), shown.rows()));
+        all.push(Part::new(name("frame"), shown.rows()));
         links.push(frame.clone());
     }
     let hand = frame.then(&Digits.placement(file.tool.as_ref())?);
-    all.push(("tool".to_owned(), hand.rows()));
+    all.push(Part::new("tool", hand.rows()));
     let held = frame.then(&Digits.placement(file.payload_frame.as_ref())?);
-    all.push(("payload_frame".to_owned(), held.rows()));
+    all.push(Part::new("payload_frame", held.rows()));
     if let Some(own) = payload {
         let body = Digits.body(Some(&own.mass), Some(&own.com), own.inertia.as_ref())?;
         let holder = &links[file.holder(own.link.as_ref())?];
@@ -138,7 +167,7 @@ fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Part
     for own in &file.frame {
         let link = &links[file.row(&own.link)?];
         let at = link.then(&Digits.placement(Some(&own.placement()))?);
-        all.push((format!("frame `{}`", own.name), at.rows()));
+        all.push(Part::new(format!("frame `{}`", own.name), at.rows()));
     }
     Ok(all)
 }
@@ -204,13 +233,17 @@ pub fn check(file: &File, aligned: &File, scene: Option<&str>) -> Result<(), Str
     }
     let (own, other) = (parts(file, given, true)?, parts(aligned, moved, false)?);
     let double = |own: &Fixed| (&own.0 >> (BITS - 64)).to_f64().unwrap_or(0.0) / 2f64.powi(64);
-    for ((name, own), (same, other)) in own.iter().zip(&other) {
-        let sizes = own.iter().chain(other).map(|own| own.0.abs());
-        let most = sizes.max().unwrap_or_default();
-        let slack = most / BigInt::from(10).pow(DIGITS) + 1;
-        let mut pairs = own.iter().zip(other);
-        if name != same || pairs.any(|(own, other)| (&own.0 - &other.0).abs() > slack) {
-            let [own, other] = [own, other].map(|list| list.iter().map(double).collect::<Vec<_>>());
+    for (own, other) in own.iter().zip(&other) {
+        let scale = (&own.scale).max(&other.scale);
+        let slack: BigInt = scale / BigInt::from(10).pow(DIGITS) + 1;
+        let mut pairs = own.values.iter().zip(&other.values);
+        let is_near = pairs.all(|(own, other)| (&own.0 - &other.0).abs() <= slack);
+        if own.name != other.name || !is_near {
+            let name = &own.name;
+            let [own, other] = [own, other].map(|part| {
+                let values = part.values.iter().map(double);
+                values.collect::<Vec<_>>()
+            });
             return Err(format!("{name}: {own:?} in the file, {other:?} claimed"));
         }
     }
