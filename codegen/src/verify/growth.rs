@@ -16,27 +16,27 @@ impl Growth {
     pub(crate) fn of(graphs: &[Dag]) -> Growth {
         let mut least: Vec<f64> = Vec::new();
         for graph in graphs {
-            let own = sizes(graph);
-            least.resize(own.len(), f64::INFINITY);
-            let both = least.iter_mut().zip(own);
-            both.for_each(|(least, own)| *least = least.min(own));
+            let sizes = sizes(graph);
+            least.resize(sizes.len(), f64::INFINITY);
+            let both = least.iter_mut().zip(sizes);
+            both.for_each(|(least, size)| *least = least.min(size));
         }
         Growth(least)
     }
 
     pub(crate) fn admits(&self, graph: &Dag) -> bool {
         let mut both = sizes(graph).into_iter().zip(&self.0);
-        both.all(|(own, least)| own <= MOST * least)
+        both.all(|(size, least)| size <= MOST * least)
     }
 }
 
 /// Sines, rates and loads are at most one; a quotient is as large as what it divides.
 fn sizes(graph: &Dag) -> Vec<f64> {
-    let size = |constant: &Exact| f64::nearest(constant).abs();
+    let magnitude = |constant: &Exact| f64::nearest(constant).abs();
     let mut all: Vec<f64> = Vec::with_capacity(graph.nodes.len());
     for node in &graph.nodes {
-        let own = match node {
-            Node::Constant(constant) => size(constant),
+        let size = match node {
+            Node::Constant(constant) => magnitude(constant),
             Node::Input(_) => 1.0,
             Node::Apply(operation, operands) => {
                 let [a, b] = operands.map(|id| all[id as usize]);
@@ -47,7 +47,7 @@ fn sizes(graph: &Dag) -> Vec<f64> {
                 }
             }
         };
-        all.push(own);
+        all.push(size);
     }
     graph.outputs.iter().map(|edge| all[edge.index()]).collect()
 }

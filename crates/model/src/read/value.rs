@@ -170,7 +170,7 @@ impl Context {
 
     pub(super) fn angle(&mut self, value: &Value) -> Option<Angle> {
         let snapped = self.snapped(value)?;
-        // Who writes a point of the circle means it.
+        // A point of the circle is meant as it is written.
         if let Snapped::Near {
             angle: Angle::PiTimes(_) | Angle::Radians(_),
             multiple,
