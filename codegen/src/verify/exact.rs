@@ -1,14 +1,15 @@
 //! The exact proof: the final program equals Lagrange–Euler as written.
 //!
-//! Both are evaluated with their exact constants modulo p = 2⁶¹ − 45 at four points that follow
-//! from the SHA-256 of robot, scene and program. Above [`WRITTEN_LIMIT`] joints the reference is
+//! Both are evaluated with their exact constants modulo p = 2⁶¹ − 45 at four to six points that
+//! follow from the SHA-256 of robot, scene and program. Above [`WRITTEN_LIMIT`] joints the reference is
 //! the link-frame recursion, itself proved against Lagrange–Euler for every joint kind and
 //! convention at up to that many joints by tests.
 //!
 //! **The chance of a miss.** A difference that does not vanish modulo p is a polynomial of degree
 //! k in the points' parameters ([`points`](super::points)). It vanishes at a random point with
 //! probability at most k/2⁶⁰ (Schwartz–Zippel; a residue is drawn with at most 2⁻⁶⁰), so at four
-//! with at most (2³⁰/2⁶⁰)⁴ < 1e-36: larger degrees are refused. A difference all of whose
+//! with at most (2³⁰/2⁶⁰)⁴ < 1e-36. A larger degree takes a fifth or a sixth point, and one beyond
+//! 2⁴⁰ is refused. A difference all of whose
 //! coefficients p divides is not seen here, and has to get past the check of what was generated in
 //! 256 bits; constants that p divides are refused. The search finds equal values modulo another
 //! prime, 2⁶¹ − 1: no mistake that it makes there is hidden here.
@@ -23,7 +24,7 @@ use std::fmt;
 use dalembert_model::equations::Formulation;
 use dalembert_model::scalar::Divide;
 
-use super::points::{Degrees, POINTS, Point, Residue, integers, points, written};
+use super::points::{Degrees, Point, Residue, integers, points, written};
 use crate::dag::Leaves;
 use crate::function::{Argument, Function};
 use crate::program::{Input, Program};
@@ -45,6 +46,8 @@ pub(super) fn reference_formulation(setup: &Setup) -> Formulation {
 pub struct Proof {
     /// The formulation that the program equals; none of a load, which has its definition.
     pub reference_formulation: Option<Formulation>,
+    /// The number of points at which the two were compared.
+    pub points: usize,
 }
 
 impl Proof {
@@ -77,8 +80,9 @@ impl fmt::Display for Proof {
         };
         write!(
             f,
-            "equals {formula} at {POINTS} random points modulo 2⁶¹ − 45 (a wrong program passes \
-             with probability below 1e{})",
+            "equals {formula} at {} random points modulo 2⁶¹ − 45 (a wrong program passes with \
+             probability below 1e{})",
+            self.points,
             Proof::FAILURE_EXPONENT
         )
     }
@@ -117,7 +121,12 @@ pub fn prove(setup: &Setup, program: &Program) -> Result<Proof, Disproof> {
     let function = program.function;
     let formulation = reference_formulation(setup);
     let task = setup.task(function);
+    let degrees = Degrees::default();
+    let own = run(Some(setup), program, &degrees).ok_or(Disproof::Shape)?;
+    let others = task.textbook(formulation, &Erased(&degrees));
+    let points = degrees.points(&own, &restored(others), program.joints)?;
     compare(
+        points,
         &["program", &written(setup), &format!("{program:?}")],
         |point| {
             let posed = task.posed(&Erased(point));
@@ -134,11 +143,8 @@ pub fn prove(setup: &Setup, program: &Program) -> Result<Proof, Disproof> {
         |point| run(Some(setup), program, point),
         |index| Disproof::Output(program.entry(index)),
     )?;
-    let degrees = Degrees::default();
-    let own = run(Some(setup), program, &degrees).ok_or(Disproof::Shape)?;
-    let others = task.textbook(formulation, &Erased(&degrees));
-    degrees.bound(&own, &restored(others), program.joints)?;
     Ok(Proof {
+        points,
         reference_formulation: (function != Function::Load).then_some(formulation),
     })
 }
@@ -148,27 +154,29 @@ pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
     if a.speeds != b.speeds {
         return Err(Disproof::Shape);
     }
+    let degrees = Degrees::default();
+    let both = run(None, a, &degrees).zip(run(None, b, &degrees));
+    let (own, others) = both.ok_or(Disproof::Shape)?;
+    let points = degrees.points(&own, &others, a.joints.max(b.joints))?;
     compare(
+        points,
         &["two programs", &format!("{a:?}"), &format!("{b:?}")],
         |point| Ok(run(None, a, point)),
         |point| run(None, b, point),
         |index| Disproof::Output(b.entry(index)),
-    )?;
-    let degrees = Degrees::default();
-    let both = run(None, a, &degrees).zip(run(None, b, &degrees));
-    let (own, others) = both.ok_or(Disproof::Shape)?;
-    degrees.bound(&own, &others, a.joints.max(b.joints))
+    )
 }
 
 /// `differs` names a value by its place.
 pub(super) fn compare(
+    count: usize,
     statement: &[&str],
     expected: impl Fn(&Point) -> Result<Option<Vec<Residue>>, Disproof>,
     actual: impl Fn(&Point) -> Option<Vec<Residue>>,
     differs: impl Fn(usize) -> Disproof,
 ) -> Result<(), Disproof> {
     let mut good = 0;
-    for point in points(statement) {
+    for point in points(statement, count) {
         let Some((actual, expected)) = actual(&point).zip(expected(&point)?) else {
             continue;
         };
@@ -184,7 +192,7 @@ pub(super) fn compare(
             return Err(differs(index));
         }
         good += 1;
-        if good == POINTS {
+        if good == count {
             return Ok(());
         }
     }

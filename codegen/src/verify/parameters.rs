@@ -47,16 +47,17 @@ pub fn prove_base(task: Task<'_>, base: &BaseParameters) -> Result<(), Disproof>
     };
     let length = setup.rows().len() * parameters.len();
     let base = format!("{function} {:?} {:?}", base.columns, base.combinations);
+    let degrees = Degrees::default();
+    let differences = statement.differences(&degrees);
+    let zeros = vec![Scalar::zero(); length];
+    let points = degrees.points(&differences, &zeros, setup.joints())?;
     compare(
+        points,
         &["base parameters", &written(setup), &base],
         |_| Ok(Some(vec![Residue::zero(); length])),
         |point| Some(statement.differences(point)),
         |wrong| Disproof::Dependence(parameters[wrong % parameters.len()].to_string()),
-    )?;
-    let degrees = Degrees::default();
-    let differences = statement.differences(&degrees);
-    let zeros = vec![Scalar::zero(); length];
-    degrees.bound(&differences, &zeros, setup.joints())
+    )
 }
 
 fn parameters(robot: &Robot) -> Vec<Parameter> {

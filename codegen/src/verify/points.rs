@@ -28,8 +28,16 @@ use crate::setup::Setup;
 
 pub(super) const POINTS: usize = 4;
 
-/// The number of points drawn before a statement is given up because values are missing.
-const MAX_DRAWS: usize = 16;
+/// A wrong program passes with a probability below 2 to the power of minus this, 1e-36.
+const CERTAINTY: u32 = 120;
+
+/// A difference of degree k vanishes at a point with a probability of at most k times 2 to the
+/// power of minus this.
+const POINT: u32 = 60;
+
+/// For each point that has to have values this many are drawn, before a statement is given up
+/// because values are missing.
+const DRAWS: usize = 4;
 
 /// A residue modulo 2⁶¹ − 45. The search has another prime: what it takes for equal by chance, or
 /// because its prime divides a difference, is not equal here.
@@ -41,7 +49,7 @@ pub(super) struct Point {
     index: usize,
 }
 
-pub(super) fn points(statement: &[&str]) -> impl Iterator<Item = Point> {
+pub(super) fn points(statement: &[&str], count: usize) -> impl Iterator<Item = Point> {
     let mut hash = Hash::new();
     for text in statement {
         hash.update((text.len() as u64).to_le_bytes());
@@ -51,7 +59,7 @@ pub(super) fn points(statement: &[&str]) -> impl Iterator<Item = Point> {
     let bytes = hash.iter().take(8);
     let seed = bytes.fold(0, |seed, &byte| (seed << 8) | u64::from(byte));
     let points = Points::new(seed);
-    (0..MAX_DRAWS).map(move |index| Point { points, index })
+    (0..DRAWS * count).map(move |index| Point { points, index })
 }
 
 pub(super) fn written(setup: &Setup) -> String {
@@ -86,26 +94,34 @@ pub(super) fn integers(values: &[Residue]) -> Option<Vec<ProofField>> {
     values.iter().map(Sparse::value).collect()
 }
 
-/// The largest degree for which a miss is as unlikely as is said.
-const MAX_DEGREE: f64 = (1u64 << 30) as f64;
+/// A larger degree would take more than six points.
+const MAX_DEGREE: f64 = (1u64 << 40) as f64;
 
 #[derive(Debug, Default)]
 pub(super) struct Degrees(RefCell<Vec<Angle>>);
 
 impl Degrees {
-    /// A large degree of a difference in the drawn parameters makes a miss too likely.
-    pub(super) fn bound(
+    /// Returns the number of points that decide whether values differ: four up to a degree of 2³⁰
+    /// in the drawn parameters.
+    pub(super) fn points(
         &self,
         own: &[Sparse<Degree>],
         others: &[Sparse<Degree>],
         joints: usize,
-    ) -> Result<(), Disproof> {
+    ) -> Result<usize, Disproof> {
         let pairs = joints + self.0.borrow().len();
-        // Infinities of both signs make no number, which is not small.
-        let is_small = |degree: Degree| (2 * pairs + 1) as f64 * degree.top <= MAX_DEGREE;
-        let mut differences = own.iter().zip(others).map(|(a, b)| a.add(b).value());
-        let is_low = differences.all(|degree| degree.is_some_and(is_small));
-        is_low.then_some(()).ok_or(Disproof::Large)
+        let mut largest = 1.0f64;
+        for (a, b) in own.iter().zip(others) {
+            let degree = a.add(b).value().ok_or(Disproof::Large)?;
+            let degree = (2 * pairs + 1) as f64 * degree.top;
+            // Infinities of both signs make no number, which is not small.
+            if !(degree <= MAX_DEGREE) {
+                return Err(Disproof::Large);
+            }
+            largest = largest.max(degree);
+        }
+        let bits = (largest.ceil() as u64).next_power_of_two().trailing_zeros();
+        Ok(POINTS.max(CERTAINTY.div_ceil(POINT - bits) as usize))
     }
 }
 
@@ -129,5 +145,26 @@ impl Leaves for Degrees {
         };
         let degree = constant.map(&mut |_| Some(Degree::new(0.0)), pair);
         Sparse::constant(constant, degree.unwrap_or_default())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_high_degree_takes_more_points_until_it_is_refused() {
+        let points = |exponent: i32| {
+            // One joint: three times as many in the drawn parameters.
+            let degree = Degree::new(2f64.powi(exponent) / 3.0);
+            Degrees::default().points(&[Sparse::Value(degree)], &[Scalar::zero()], 1)
+        };
+        let expected = [(1, 4), (30, 4), (31, 5), (36, 5), (37, 6), (40, 6)];
+        for (exponent, count) in expected {
+            assert_eq!(points(exponent), Ok(count), "2^{exponent}");
+        }
+        for exponent in [41, 2000] {
+            assert_eq!(points(exponent), Err(Disproof::Large), "2^{exponent}");
+        }
     }
 }

@@ -18,7 +18,7 @@ pub(crate) fn without_inertia(task: Task<'_>) -> Option<usize> {
     let Task { setup, function: _ } = task;
     let statement = ["inertia", &written(setup)];
     // A point without values tells nothing; without any that has them the proof will say so.
-    let pivots = points(&statement).filter_map(|point| zero_pivot(task, &point));
+    let pivots = points(&statement, POINTS).filter_map(|point| zero_pivot(task, &point));
     let joints: Option<Vec<usize>> = pivots.take(POINTS).collect();
     joints?.pop()
 }

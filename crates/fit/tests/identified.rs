@@ -8,7 +8,7 @@ use dalembert_fit::{Error, consistent, cross_validation, disagreeing, fit, ident
 use dalembert_model::read::parse;
 use dalembert_model::robot::write;
 
-use crate::support::{ARMS, accumulated, arm, near, noise, states};
+use crate::support::{ARMS, TREES, accumulated, arm, near, noise, states};
 
 #[test]
 fn a_file_that_was_edited_stays() {
@@ -36,7 +36,7 @@ fn a_file_that_was_edited_stays() {
 
 #[test]
 fn the_new_robot_file_has_the_parameters() {
-    for name in ARMS.into_iter().chain(["puma560_placed"]) {
+    for name in ARMS.into_iter().chain(["puma560_placed"]).chain(TREES) {
         let (model, right) = arm(name);
         let data = accumulated(&model, &states(&model, 400, 42), &right, Some(41));
         let free = fit(&model, &data).unwrap();

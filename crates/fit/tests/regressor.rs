@@ -5,11 +5,15 @@ use dalembert_model::reference::Reference;
 use dalembert_model::robot::JointKind;
 use nalgebra::DVector;
 
-use crate::support::{ARMS, file, model, near, states, torques, truth};
+use crate::support::{ARMS, TREES, file, model, near, states, torques, truth};
 
 #[test]
 fn parameters_of_the_file_give_its_torques() {
-    for name in ARMS.into_iter().chain(["stanford", "planar3r"]) {
+    for name in ARMS
+        .into_iter()
+        .chain(["stanford", "planar3r"])
+        .chain(TREES)
+    {
         let truth = truth(name);
         let model = model(&truth);
         let reference = Reference::<f64>::from_robot(&truth);

@@ -144,13 +144,14 @@ impl Pose {
     }
 }
 
+/// Returns nine digits of an angle that is not a simple multiple of π.
 fn short(angle: &Angle) -> String {
     match angle {
-        Angle::Radians(value) => {
+        Angle::PiTimes(multiple) if multiple.denom().bits() <= 20 => angle.to_string(),
+        _ => {
             let digits = Rational::from_integer(1_000_000_000.into());
-            Angle::Radians((value * &digits).round() / digits).to_string()
+            Angle::Radians((angle.radians() * &digits).round() / digits).to_string()
         }
-        exact => exact.to_string(),
     }
 }
 
@@ -236,4 +237,20 @@ fn by_digits(axes: [Vector<Wide>; 3], numbers: &[Number]) -> Both {
         ..Placement::default()
     });
     [exact, meant]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 2.7e-17 beside a right angle, as a robot file has it, is 21 digits long.
+    #[test]
+    fn messages_show_a_simple_multiple_of_pi_or_nine_digits() {
+        let multiple = |numer: i128, denom: i128| {
+            short(&Angle::PiTimes(Rational::new(numer.into(), denom.into())))
+        };
+        assert_eq!(multiple(-3, 4), "-3*pi/4");
+        let long = multiple(250_000_000_000_000_006_247, 500_000_000_000_000_000_000);
+        assert_eq!(long, "1.570796327");
+    }
 }

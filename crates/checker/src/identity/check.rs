@@ -17,7 +17,7 @@ const CERTAINTY: u32 = 144;
 /// of minus this: `mod.rs`.
 const POINT: u32 = 42;
 /// The largest degree of a difference.
-const MOST_DEGREE: f64 = (1u64 << 30) as f64;
+const MOST_DEGREE: f64 = (1u64 << 36) as f64;
 
 /// A base parameter: the columns of the parameters that it adds up, each times a constant.
 pub type Combination = Vec<(usize, Exact)>;

@@ -4,10 +4,11 @@
 //! A difference is N/M with polynomials N and M in the inputs. N does not vanish at a random point
 //! of a field of more than 2⁶¹ residues but with probability at most its degree over 2⁶¹, unless
 //! the prime divides all its coefficients, and few primes divide a number. Each point has a prime
-//! of its own. Constants count in the degree d, which is at most 2³⁰: so coefficients have at most
+//! of its own. Constants count in the degree d, which is at most 2³⁶: so coefficients have at most
 //! d·2¹⁸ bits, and of the 2⁵⁵ primes of 62 bits at most d·2¹³ divide all of them. A wrong program
 //! passes one point with a probability of at most d·2⁻⁴², and there are so many points that it
-//! passes all of them with at most 2⁻¹⁴⁴: six for a degree of 2¹⁷, twelve for 2³⁰.
+//! passes all of them with at most 2⁻¹⁴⁴: six for a degree of 2¹⁷, twelve for 2³⁰, 24 for
+//! 2³⁶.
 //!
 //! - `check`: the comparison, [`check`]; `residues`: the values of a program, and its degree
 //! - [`number`]: residues with slopes, and draws from a hash; [`exact`]: constants and angles

@@ -9,11 +9,13 @@ use dalembert_model::read::parse;
 use dalembert_model::robot::{Inertia, Robot};
 
 pub const ARMS: [&str; 3] = ["puma560", "ur10", "panda"];
+pub const TREES: [&str; 2] = ["two_arms", "g1_hand"];
 
 pub fn file(name: &str) -> Robot {
-    let folder = match name.ends_with("_placed") {
-        true => "../model/tests/data",
-        false => "../../generated/robots",
+    let folder = match name {
+        "g1_hand" => "../../gallery/robots",
+        "puma560_placed" | "two_arms" => "../model/tests/data",
+        _ => "../../generated/robots",
     };
     let path = format!("{}/{folder}/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).unwrap();
