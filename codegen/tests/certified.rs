@@ -339,19 +339,46 @@ name = \"joint2\" | name = \"joint3\" | other joints
 /// but are not right. The second axis passes near the base's origin.
 #[test]
 fn axes_that_are_almost_coordinate_axes() {
-    let joint = |placement: &str, axis: &str| {
-        format!(
-            "[[joint]]\nkind = \"revolute\"\nplacement = {{ {placement} }}\naxis = {axis}\nmass = 1\ncom = [0.1, 0.2, 0.3]\ninertia = [0.1, 0.1, 0.1, 0, 0, 0]\n"
-        )
-    };
     let robot = [
         String::from("name = \"almost\"\ngravity = [0, 0, -9.81]\n"),
-        joint("xyz = [0, -0.0681, -0.1199]", "[1, 0, 6.12323e-17]"),
-        joint("rpy = [-1.5708, -6.2e-33, -6.1e-17]", "[0, 1, 6.12323e-17]"),
-        joint("xyz = [0, 0.2, 0]", "[0, 0, -1]"),
+        turning("xyz = [0, -0.0681, -0.1199]", "[1, 0, 6.12323e-17]"),
+        turning("rpy = [-1.5708, -6.2e-33, -6.1e-17]", "[0, 1, 6.12323e-17]"),
+        turning("xyz = [0, 0.2, 0]", "[0, 0, -1]"),
     ];
     let asked = "outputs: inverse_dynamics; scalar: f64";
     Certified::of(&robot.concat(), None, asked)[0].is_shown(1, "almost");
+}
+
+/// The point of the sphere that stands for an axis is nearer to it than what is compared, 1e-16.
+#[test]
+fn odd_axes_where_links_branch() {
+    for [first, second] in [
+        ["[-0.0524, 0, 0.2514]", "[0, -0.0481, -0.0001]"],
+        [
+            "[8.19e-6, -0.02057308, -0.0536156]",
+            "[7.361e-5, 0.48250371, -0.68120012]",
+        ],
+        [
+            "[-1.6945792e-5, -6.8765076e-5, 0.079480258953]",
+            "[1, 1, 0]",
+        ],
+        ["[0.5376, -0.9116, -0.0024]", "[0.001, 0.0108, -0.3807]"],
+    ] {
+        let robot = [
+            String::from("name = \"odd\"\ngravity = [0, 0, -9.81]\n"),
+            turning("xyz = [0, 0, 0.3], rpy = [0.1, 0, 0]", first),
+            turning("xyz = [0.1, 0, 0.3], rpy = [0, 0.3, 0]", second),
+            turning("xyz = [0.1, 0, -0.3], rpy = [0, 0.3, 0]", first) + "parent = 1\n",
+        ];
+        let asked = "outputs: gravity, inertia; scalar: f64";
+        Certified::of(&robot.concat(), None, asked)[0].is_shown(2, second);
+    }
+}
+
+fn turning(placement: &str, axis: &str) -> String {
+    format!(
+        "[[joint]]\nkind = \"revolute\"\nplacement = {{ {placement} }}\naxis = {axis}\nmass = 1\ncom = [0.1, 0.2, 0.3]\ninertia = [0.1, 0.1, 0.1, 0, 0, 0]\n"
+    )
 }
 
 /// A payload that is a point at the origin of its frame, or nothing, or one that the scene gives in a

@@ -91,7 +91,7 @@ impl Angle {
         }
         let SinCosPair { sin, cos } = Wide::sincos(self);
         let [sin, cos] = [sin, cos].map(|part| part.to_rational());
-        let tangent = short(&(sin / (Rational::one() + cos.abs())));
+        let tangent = short(&(sin / (Rational::one() + cos.abs())), 53);
         let tangent_of_half = match cos.is_negative() {
             // The tangent is that of what is missing to half a turn, at most one.
             true if tangent.is_zero() => return Angle::right_angles(2),

@@ -32,9 +32,10 @@ pub fn recovered(value: &Wide, size: &Rational) -> Rational {
     simple(&value, &(size * near())).unwrap_or_else(|| rounded(&value))
 }
 
-/// Returns the fraction of the least numerator and denominator that is within 2⁻⁵³: mostly of 27 bits.
-pub fn short(value: &Rational) -> Rational {
-    let near = Rational::new(BigInt::one(), BigInt::one() << 53u32);
+/// Returns the fraction of the least numerator and denominator that is within 2 to the power of
+/// minus so many bits: mostly of half as many bits.
+pub fn short(value: &Rational, bits: u32) -> Rational {
+    let near = Rational::new(BigInt::one(), BigInt::one() << bits);
     let size = value.abs();
     if size <= near {
         return Rational::zero();

@@ -103,7 +103,7 @@ pub fn direction(axis: &[Rational; 3]) -> Option<Vector<Wide>> {
 }
 
 /// Returns fractions along a direction whose squares add up to one, exactly: those of the direction
-/// where its length is a fraction, else those of a point of the sphere beside it, within 1e-16.
+/// where its length is a fraction, else those of a point of the sphere beside it, within 3e-18.
 pub fn unit_fraction(axis: &[Rational; 3]) -> Option<[Rational; 3]> {
     let square: Rational = axis.iter().map(|x| x * x).sum();
     let [numer, denom] = [square.numer().sqrt(), square.denom().sqrt()];
@@ -126,7 +126,8 @@ pub fn unit_fraction(axis: &[Rational; 3]) -> Option<[Rational; 3]> {
     let height = Rational::one() + pole.abs();
     let [u, v] = [order[0], order[1]].map(|i| match axis[i].is_zero() {
         true => Rational::zero(),
-        false => short(&(&direction[i] / &height)),
+        // A checker compares with the axis of the file to 1e-16.
+        false => short(&(&direction[i] / &height), 60),
     });
     let flat = &u * &u + &v * &v;
     let per = (Rational::one() + &flat).recip();

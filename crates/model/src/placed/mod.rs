@@ -52,7 +52,7 @@ pub use row::NEARLY_PARALLEL;
 pub struct NoDirection(pub usize);
 
 /// Gives the joints of a robot whose links branch their places, each with an axis of length one: as
-/// it is where that is a fraction, else to sixteen digits. An axis without a direction, which is
+/// it is where that is a fraction, else within 3e-18. An axis without a direction, which is
 /// an error of its own, is left alone.
 pub fn place(robot: &mut Robot, placed: &[Placed]) {
     for (joint, placed) in robot.joints.iter_mut().zip(placed) {
