@@ -20,7 +20,7 @@ use crate::fault::Fault;
 #[cfg(feature = "certify")]
 use crate::identity::Base;
 #[cfg(feature = "certify")]
-use crate::identity::exact::{Exact, Sines};
+use crate::identity::exact::{Exact, LONGEST, Sines};
 use crate::program::{Operand, Program, Step, argument};
 #[cfg(feature = "certify")]
 use crate::work::Work;
@@ -199,7 +199,7 @@ impl Claim {
     pub fn constants(&self, work: &Work) -> Result<Vec<Exact>, Fault> {
         /// The most angles that constants have sines of.
         const MOST_ANGLES: usize = 1 << 10;
-        /// Nanoseconds for a digit and a factor of a constant, and for the sine of an angle.
+        /// Nanoseconds for a digit of a short constant, a factor, and the sine of an angle.
         const DIGIT: u64 = 100;
         const FACTOR: u64 = 500;
         const ANGLE: u64 = 100_000;
@@ -207,10 +207,13 @@ impl Claim {
         if self.constants.iter().map(terms).sum::<usize>() > MOST {
             return Err(Fault::Claim(format!("constants of more than {MOST} terms")));
         }
-        let bytes = self.constants.iter().map(String::len).sum();
-        work.spend(bytes, DIGIT)?;
+        for text in &self.constants {
+            // Nothing is read of a longer text.
+            let read = text.len().min(LONGEST);
+            work.spend(read, DIGIT + read as u64 / 16)?;
+        }
         let read = self.constants.iter().map(|text| {
-            let why = || format!("`{text:.40}` is not a constant of at most 400 digits");
+            let why = || format!("`{text:.40}` is not a constant of at most 4000 digits");
             Exact::read(text).ok_or_else(|| Fault::Claim(why()))
         });
         let all = read.collect::<Result<Vec<Exact>, Fault>>()?;

@@ -71,7 +71,7 @@ a13_f32.rs puma560 rounding of `c` has a bound of 8
 # sin/sin, which is not a number at rest.
 a1_home_nan.rs planar2r operation 28 has one value at all states
 # 400 literals of 4090 digits.
-a5_lit.rs planar2r is not a constant of at most 400 digits
+a5_lit.rs planar2r is not a constant of at most 4000 digits
 # A box without states.
 f_box_reversed_far.rs planar2r it does not follow from the functions and the robot: `pub const BOX
 # A guard that takes the place of <math.h>; a header for processors that compute in 80 bits.

@@ -13,9 +13,13 @@ use num_traits::{Euclid, One, Pow, Signed, ToPrimitive, Zero};
 
 use super::number::{Draws, Number, Prime};
 
-/// The most digits of a number.
-const MOST_DIGITS: usize = 400;
-const MOST_BYTES: usize = 1 << 15;
+/// The most digits of a number: one that went through a rotation by odd angles gains some thirty
+/// for each.
+const MOST_DIGITS: usize = 4000;
+/// The largest power of ten.
+const MOST_POWER: u64 = 400;
+/// A constant of as many bytes is refused.
+pub(crate) const LONGEST: usize = 1 << 15;
 const MOST_FACTORS: u32 = 1 << 6;
 /// Bits behind the point where sines are rounded, and where products with them are.
 const BITS: u32 = 320;
@@ -48,7 +52,7 @@ fn decimal(text: &str) -> Option<Rational> {
     let bare = plain.strip_prefix(['-', '+']).unwrap_or(&plain);
     (!bare.is_empty() && bare.chars().all(is_digit)).then_some(())?;
     let places = exponent.parse::<i64>().ok()? - behind.len() as i64;
-    (places.unsigned_abs() < MOST_DIGITS as u64).then_some(())?;
+    (places.unsigned_abs() < MOST_POWER).then_some(())?;
     let ten = Rational::from_integer(10.into());
     Some(Rational::from_integer(plain.parse().ok()?) * Pow::pow(ten, places as i32))
 }
@@ -264,7 +268,7 @@ impl Exact {
             }
             (rest.is_empty() && total <= MOST_FACTORS).then_some((number(factor)?, powers))
         };
-        (text.len() < MOST_BYTES).then_some(())?;
+        (text.len() < LONGEST).then_some(())?;
         let terms = text.split('+').map(term).collect::<Option<_>>();
         terms.map(Exact::new)
     }
