@@ -3,6 +3,7 @@
 pub(crate) mod chain;
 pub(crate) mod descent;
 pub(crate) mod load;
+mod size;
 pub(crate) mod start;
 pub(crate) mod tune;
 

@@ -14,6 +14,7 @@ use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
 use super::Form;
+use super::size::Sizes;
 use crate::dag::signed;
 
 /// Regrouping through many different odd angles would multiply the monomials of constants.
@@ -93,6 +94,7 @@ pub(crate) fn tune(
 ) -> Tuned {
     let mut descent = Descent {
         arm,
+        sizes: Sizes::of(arm),
         price,
         metric: MetricChain::new(arm, &from),
         best: Tuned {
@@ -120,6 +122,7 @@ pub(crate) fn tune(
 
 struct Descent<'a, P> {
     arm: &'a Skeleton<Exact>,
+    sizes: Sizes,
     price: P,
     best: Tuned,
     /// The chain in the best regrouping.
@@ -129,7 +132,7 @@ struct Descent<'a, P> {
 impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
     fn attempt(&mut self, regrouping: Regrouping<Exact>, metric: MetricChain<Exact>) {
         let chain = metric.in_unit(&regrouping);
-        if is_large(&chain) {
+        if is_large(&chain) || !self.sizes.admit(&metric.chain) {
             return;
         }
         let price = (self.price)(&chain, self.best.form, self.best.price);
