@@ -115,9 +115,8 @@ impl Degrees {
             let degree = a.add(b).value().ok_or(Disproof::Large)?;
             let degree = (2 * pairs + 1) as f64 * degree.top;
             // Infinities of both signs make no number, which is not small.
-            if !(degree <= MAX_DEGREE) {
-                return Err(Disproof::Large);
-            }
+            let is_small = degree <= MAX_DEGREE;
+            is_small.then_some(()).ok_or(Disproof::Large)?;
             largest = largest.max(degree);
         }
         let bits = (largest.ceil() as u64).next_power_of_two().trailing_zeros();
