@@ -12,6 +12,7 @@ use dalembert_codegen::{Function, GenerateError, Request, ScalarType, Start, gen
 use dalembert_model::read::parse;
 use dalembert_model::robot::write;
 
+use crate::certified::Certified;
 use crate::support::draw::{Draw, robots};
 use crate::support::{self, Case, daily_and_campaign};
 use crate::values::is_whole_robots;
@@ -31,6 +32,7 @@ daily_and_campaign! {
     accepted_files_give_proved_code: (0..30), (30..60);
     exact_programs_are_not_contradicted: (0..12), (12..40);
     certificates_are_not_contradicted: (0..6), (6..20);
+    odd_trees_are_accurate_and_shown: (0..1), (1..10);
 }
 
 fn proved_and_accurate(places: Range<usize>) {
@@ -249,6 +251,54 @@ fn certificates_are_not_contradicted(seeds: Range<usize>) {
     let outputs = "inverse_dynamics gravity inertia coriolis";
     let done = never_contradicted(seeds.clone(), scene, outputs, "scene: t");
     assert!(done > seeds.len() / 4, "{done}");
+}
+
+/// Returns a tree as `import` writes it: angles that are no parts of π are points of the circle,
+/// some beside a right angle or beside zero, and axes have any direction and length.
+fn tree(seed: usize) -> String {
+    let mut random = Random::new(0x7ee5 + seed as u64);
+    let vector = |random: &mut Random, size: f64| {
+        let numbers = [(); 3].map(|()| format!("{:.4}", size * (2.0 * random.unit() - 1.0)));
+        format!("[{}]", numbers.join(", "))
+    };
+    let mut text = "name = \"tree\"\ngravity = [0, 0, -9.81]\n".to_owned();
+    for joint in 0..4 + random.below(3) {
+        let angles = [(); 3].map(|()| match random.below(6) {
+            0 | 1 => "0".to_owned(),
+            2 => "\"pi/2\"".to_owned(),
+            3 => "\"2*atan(29129927/29129820)\"".to_owned(),
+            4 => "\"2*atan(205/154507679)\"".to_owned(),
+            _ => format!("\"2*atan({}/134217689)\"", 1 + random.below(1 << 27)),
+        });
+        let axis = match random.below(3) {
+            0 => "[0, 0, 1]".to_owned(),
+            1 => "[0, -1, 0]".to_owned(),
+            _ => vector(&mut random, 1.0),
+        };
+        let carrier = match joint - random.below(3).min(joint) {
+            0 => "\"base\"".to_owned(),
+            carrier => carrier.to_string(),
+        };
+        let [xyz, com] = [0.3, 0.1].map(|size| vector(&mut random, size));
+        let mass = 0.1 + 3.0 * random.unit();
+        text += &format!(
+            "[[joint]]\nkind = \"revolute\"\nparent = {carrier}\nplacement = {{ xyz = {xyz}, \
+             rpy = [{}] }}\naxis = {axis}\nmass = {mass:.3}\ncom = {com}\n\
+             inertia = [0.011, 0.012, 0.013, 0.001, 0, 0.002]\n",
+            angles.join(", ")
+        );
+    }
+    text
+}
+
+fn odd_trees_are_accurate_and_shown(seeds: Range<usize>) {
+    let asked = "outputs: gravity, coriolis, inertia; scalar: f64";
+    for seed in seeds {
+        let text = tree(seed);
+        let case = Case::read(&text, asked);
+        case.rounds_well(30, &text);
+        Certified::from(&case, &text, None)[0].is_shown(3, &text);
+    }
 }
 
 /// The state that is tried has the largest f32 in place of a rate beyond it.

@@ -38,7 +38,8 @@ pub struct ImportArgs {
     /// list the arms that move each other
     #[arg(long, requires = "output", conflicts_with = "tip")]
     all: bool,
-    /// Keep every number exactly as the model has it
+    /// Keep every number exactly as the model has it; if links branch and more than six angles are
+    /// odd, these within 2^-52 rad
     #[arg(long)]
     exact: bool,
     /// Replace rounded numbers by the exact ones that were probably meant, even where that

@@ -19,6 +19,10 @@ use crate::select::Selection;
 use crate::select::position::right;
 use crate::snap::Snap;
 
+/// Of a branching robot with more odd angles than these, constants would be polynomials of too many
+/// terms in their sines.
+const MOST_ODD: usize = 6;
+
 /// `stays`: digits stay as they stand, and the reader of the file does not warn of them.
 pub(crate) fn file(
     model: &Model,
@@ -57,6 +61,14 @@ pub(crate) fn file(
         head.push(format!("  {line}: {snap}"));
     }
     head.extend(Snap::counted(snaps).map(|counted| counted + "."));
+    let odd = odd_angles(tree);
+    let on_the_circle = tree.branches() && (!options.exact || odd > MOST_ODD);
+    if on_the_circle && options.exact {
+        head.push(format!(
+            "{odd} odd angles are within 2^-52 rad of the model's: points of the circle with \
+             rational coordinates."
+        ));
+    }
     let mut text: String = head.iter().map(|what| comment(what)).collect();
     text.push('\n');
     let name = options.name.as_ref().unwrap_or(&model.name);
@@ -71,7 +83,7 @@ pub(crate) fn file(
     let writer = Writer {
         model,
         tree,
-        on_the_circle: tree.branches() && !options.exact,
+        on_the_circle,
         without_room: follow::without_room(&joints, problems),
     };
     let hand = tree.hand().filter(|hand| !hand.is_identity());
@@ -100,6 +112,16 @@ pub(crate) fn file(
     }
     writer.frames(&mut text);
     text
+}
+
+/// Counts the angles between joints that are no parts of π, without their signs.
+fn odd_angles(tree: &Tree) -> usize {
+    let angles = tree.bodies.iter().flat_map(|body| &body.placement.rpy);
+    let odd = angles.filter_map(|angle| match right(angle.clone()) {
+        Angle::Radians(value) if !value.is_zero() => Some(value.abs()),
+        _ => None,
+    });
+    odd.collect::<BTreeSet<Rational>>().len()
 }
 
 struct Writer<'m> {

@@ -6,7 +6,7 @@ use std::fs;
 use dalembert_import::{Import, Options, import};
 use dalembert_model::equations::Arm;
 use dalembert_model::equations::frames::{Axes, Rows, View};
-use dalembert_model::number::Rounded;
+use dalembert_model::number::{Angle, Rounded};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::Robot;
 use nalgebra::DVector;
@@ -116,6 +116,34 @@ fn all_that_moves_has_the_torques_of_the_model() {
         // Angles are points of the circle with rational coordinates, and parts of π are exact.
         let off = worst(&taken(&text, &tree()).robot, frame, &golden[name]);
         assert!(off < 2e-11, "{name}: {off:e}");
+    }
+}
+
+/// Constants in the sines of more odd angles would be polynomials of too many terms.
+#[test]
+fn many_odd_angles_are_points_of_the_circle_even_if_exact() {
+    let exact = Options {
+        exact: true,
+        ..tree()
+    };
+    for (count, are_points) in [(6, false), (7, true)] {
+        let joint = |k: usize| {
+            format!(
+                r#"<link name="l{k}"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"
+                ixy="0" ixz="0" iyz="0"/></inertial></link><joint name="j{k}" type="continuous">
+                <parent link="base"/><child link="l{k}"/><origin rpy="0 0 0.{k}3"/>
+                <axis xyz="1 0 0"/></joint>"#
+            )
+        };
+        let joints: String = (1..=count).map(joint).collect();
+        let text = format!(r#"<robot name="star"><link name="base"/>{joints}</robot>"#);
+        let import = taken(&text, &exact);
+        assert_eq!(import.text.contains("odd angles are within"), are_points);
+        for joint in &import.robot.joints {
+            let place = joint.place.as_ref().unwrap();
+            let is_point = matches!(place.placement.rpy[2], Angle::TwiceAtan(_));
+            assert_eq!(is_point, are_points, "{count}");
+        }
     }
 }
 
