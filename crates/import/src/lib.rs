@@ -82,8 +82,8 @@ pub struct Options {
     pub lock: Vec<(String, String)>,
     /// Links to leave away, with everything that hangs on them.
     pub without: Vec<String>,
-    /// Take every digit as it stands. Of links that branch, more than six odd angles are taken
-    /// within 2⁻⁵² rad.
+    /// Take every digit as it stands. If links branch and more than six angles are odd, these
+    /// are within 2⁻⁵² rad.
     pub exact: bool,
     /// Take rounded numbers for the exact ones that they were probably meant to be, however much
     /// that changes the torques; without it, where it changes them by at most [`FELT`] of their

@@ -19,8 +19,8 @@ use crate::select::Selection;
 use crate::select::position::right;
 use crate::snap::Snap;
 
-/// Of a branching robot with more odd angles than these, constants would be polynomials of too many
-/// terms in their sines.
+/// If links branch and more angles are odd, constants would be polynomials of too many terms in
+/// their sines.
 const MOST_ODD: usize = 6;
 
 /// `stays`: digits stay as they stand, and the reader of the file does not warn of them.
