@@ -1,15 +1,15 @@
-//! How large the moments of links are. A regrouping that makes an entry vanish by a number that is
+//! The sizes of the moments of links. A regrouping that makes an entry vanish by a number that is
 //! almost zero, such as the sine between axes that are almost parallel, adds large moments to one
 //! link and takes them from another: exact, and lost to rounding.
 
 use dalembert_model::equations::chain::{Body, Chain, Skeleton};
 use dalembert_model::number::{Exact, Rounded};
-use dalembert_model::robot::Inertia;
 
 /// A moment may be so many times as large as those of what a link carries.
 const MOST: f64 = 1024.0;
 
-/// What a link carries, itself included, as far as a tolerance has left it there.
+/// The moments that a link carries, with those of the link itself, as far as a tolerance has left
+/// them there.
 #[derive(Clone, Copy, Debug, Default)]
 struct Carried {
     /// The sum of masses, kg.
@@ -18,7 +18,7 @@ struct Carried {
     first: f64,
     /// The sum of their second moments about them, kg·m².
     second: f64,
-    /// How far from the link's origin those of other links are at most, m.
+    /// The largest distance from the link's origin to that of another, m.
     reach: f64,
 }
 
@@ -54,38 +54,29 @@ impl Sizes {
             all[i].mass += mass.abs();
             all[i].first += length(&first);
             all[i].second += (second.xx + second.yy + second.zz).abs();
-            let own = all[i];
+            let carried = all[i];
             if let Some(carrier) = segment.link.parent {
                 let offset = segment.link.offset.each_ref().map(f64::nearest);
                 let away = length(&offset) + f64::nearest(&segment.d).abs();
                 let carrier = &mut all[carrier];
-                carrier.mass += own.mass;
-                carrier.first += own.first;
-                carrier.second += own.second;
-                carrier.reach = carrier.reach.max(away + own.reach);
+                carrier.mass += carried.mass;
+                carrier.first += carried.first;
+                carrier.second += carried.second;
+                carrier.reach = carrier.reach.max(away + carried.reach);
             }
         }
         Sizes(all.iter().map(Carried::sizes).collect())
     }
 
     /// Returns false if a link of a chain in metres has larger moments.
-    pub(super) fn admit(&self, chain: &Chain<Exact>) -> bool {
+    pub(super) fn admits(&self, chain: &Chain<Exact>) -> bool {
         let mut links = chain.links.iter().zip(&self.0);
         links.all(|(link, [mass, first, second])| {
             let body = link.body.map(|x| f64::nearest(x).abs());
-            let Inertia {
-                xx,
-                yy,
-                zz,
-                xy,
-                yz,
-                xz,
-            } = body.second;
-            let are_small =
-                |moments: &[f64], size: &f64| moments.iter().all(|moment| *moment <= MOST * size);
-            are_small(&[body.mass], mass)
-                && are_small(&body.first, first)
-                && are_small(&[xx, yy, zz, xy, yz, xz], second)
+            let is_small = |size: &f64, moment: &f64| *moment <= MOST * size;
+            is_small(mass, &body.mass)
+                && body.first.iter().all(|moment| is_small(first, moment))
+                && (body.second.entries().iter()).all(|moment| is_small(second, moment))
         })
     }
 }
@@ -120,7 +111,7 @@ mod tests {
         let mut regrouping = Regrouping::base(&arm);
         let mut is_admitted = |mass: i64| {
             regrouping.links[1].mass = Rational::from_integer(mass.into()).into();
-            sizes.admit(&MetricChain::new(&arm, &regrouping).chain)
+            sizes.admits(&MetricChain::new(&arm, &regrouping).chain)
         };
         assert!([-2000, 0, 2, 2000].into_iter().all(&mut is_admitted));
         assert!(![-2100, 2100, 1_000_000].into_iter().any(is_admitted));
@@ -141,6 +132,6 @@ mod tests {
         let from = Regrouping::base(&arm);
         let found = tune::tune(&arm, from, &forms, 3, price);
         let chain = MetricChain::new(&arm, &found.regrouping).chain;
-        assert!(Sizes::of(&arm).admit(&chain));
+        assert!(Sizes::of(&arm).admits(&chain));
     }
 }

@@ -132,7 +132,7 @@ struct Descent<'a, P> {
 impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
     fn attempt(&mut self, regrouping: Regrouping<Exact>, metric: MetricChain<Exact>) {
         let chain = metric.in_unit(&regrouping);
-        if is_large(&chain) || !self.sizes.admit(&metric.chain) {
+        if is_large(&chain) || !self.sizes.admits(&metric.chain) {
             return;
         }
         let price = (self.price)(&chain, self.best.form, self.best.price);
