@@ -122,8 +122,10 @@ const OTHERS: u64 = 0x6172_6773;
 /// per second squared, ±100 N·m or N. The same on every machine.
 pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
     // Once, not state by state: a multiple of π is rounded from 120 digits.
-    let range = |joint: &Joint| Argument::JOINTS.map(|argument| range(joint, argument));
-    let ranges: Vec<_> = robot.joints.iter().map(range).collect();
+    let of_joint = |joint: &Joint| Argument::JOINTS.map(|argument| Some(range(joint, argument)));
+    let base = (0..robot.base_coordinates())
+        .map(|coordinate| Argument::JOINTS.map(|argument| base_range(robot, argument, coordinate)));
+    let ranges: Vec<_> = base.chain(robot.joints.iter().map(of_joint)).collect();
     let mut states = vec![JointState::default(); count];
     let (state, others) = Argument::JOINTS.split_at(Argument::STATE.len());
     // Other arguments have draws of their own: theirs do not move the states.
@@ -133,8 +135,9 @@ pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
         for state in &mut states {
             for ranges in &ranges {
                 for &argument in arguments {
-                    let entry = draw(ranges[argument.index()]);
-                    state.entries_mut(argument).push(entry);
+                    if let Some(range) = ranges[argument.index()] {
+                        state.entries_mut(argument).push(draw(range));
+                    }
                 }
             }
         }
@@ -143,7 +146,7 @@ pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
         let mut random = Random::new(seed ^ OTHERS ^ argument.index() as u64);
         let (low, high) = (argument.least(), argument.reach());
         for state in &mut states {
-            let length = argument.length(Sizes::whole(ranges.len()));
+            let length = argument.length(Sizes::of(robot));
             let entries = (0..length).map(|_| low + (high - low) * random.unit());
             *state.entries_mut(argument) = entries.collect();
         }
@@ -187,6 +190,17 @@ fn range(joint: &Joint, argument: Argument) -> [f64; 2] {
     };
     let most = most.map_or(argument.reach(), f64::nearest_rational);
     [-most, most]
+}
+
+/// Returns the range of a coordinate of a base that floats; none of positions.
+fn base_range(robot: &Robot, argument: Argument, coordinate: usize) -> Option<[f64; 2]> {
+    let limit = argument.limit().filter(|limit| *limit != Limit::Position)?;
+    let limits = robot.floating.as_ref().map(|base| &base.limits);
+    let most = limits.and_then(|limits| limits.rate(limit));
+    let most = most.map_or(argument.reach(), |most| {
+        f64::nearest_rational(&most[coordinate])
+    });
+    Some([-most, most])
 }
 
 fn position(joint: &Joint) -> [f64; 2] {

@@ -10,6 +10,7 @@ mod certify_mutations;
 mod certify_plans;
 mod counts;
 mod disproved;
+mod floating;
 mod fused;
 mod golden;
 mod identity;

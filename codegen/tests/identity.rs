@@ -39,10 +39,11 @@ fn shown(file: &Certified) -> Vec<Shown> {
     let claim = Claim::read(&file.claim).unwrap();
     let constants = claim.constants(&Work::default()).unwrap();
     let shown = claim.functions.iter().map(|own| Shown {
-        source: file.robot.clone(),
+        // Axes of length one, where those of the file are not.
+        source: claim.aligned.clone().unwrap_or_else(|| file.robot.clone()),
         function: Function::named(&own.function, &own.arguments, &own.results).unwrap(),
         program: own.program(&constants).unwrap(),
-        base: own.base(&constants, Robot::MAX_JOINTS).unwrap(),
+        base: own.base(&constants, Robot::MAX_JOINTS, false).unwrap(),
     });
     shown.collect()
 }
@@ -60,14 +61,50 @@ fn of_trees(robots: &[&str], functions: &str) -> Vec<Shown> {
 daily_and_campaign! {
     every_mutant_of_a_program_is_refused: (one_in::<4>), (all_but_one_in::<4>);
     every_changed_sign_of_a_tree_is_refused:
-        (&of_trees(&["g1_hand"], TORQUES), 40, 60),
-        (&of_trees(&["panda_gripper", "baxter_both_arms", "g1_hand"], DYNAMICS), 100, 900);
+        (&of_trees(&["g1_hand", "two_legs"], TORQUES), 40, 120),
+        (&of_trees(&["panda_gripper", "baxter_both_arms", "g1_hand", "two_legs"], DYNAMICS), 100, 1300);
 }
 
 fn every_mutant_of_a_program_is_refused(is_tried: fn(usize) -> bool) {
     let file = Certified::planar2r(&format!("{}; scalar: f64", every_output()));
     let count = refused_mutants(&shown(&file), 40, 0..4, is_tried);
     assert!(count > 250, "{count}");
+}
+
+/// The base's force and moment, or linear and angular velocity, in each other's place, or two legs.
+#[test]
+fn another_order_of_coordinates_is_refused() {
+    let places = |from: usize, to: usize, count: usize| {
+        move |k: usize| match k {
+            k if (from..from + count).contains(&k) => to + (k - from),
+            k if (to..to + count).contains(&k) => from + (k - to),
+            k => k,
+        }
+    };
+    for own in of_trees(&["two_legs"], "inverse_dynamics, gravity, forward_dynamics") {
+        assert_eq!(own.check(&own.program), Ok(()), "{}", own.function.name);
+        for (from, to, count) in [(0, 3, 3), (6, 8, 2)] {
+            let other = places(from, to, count);
+            let mut results = own.program.clone();
+            let outputs = own.program.outputs.len();
+            results.outputs = (0..outputs)
+                .map(|k| own.program.outputs[other(k)].clone())
+                .collect();
+            assert!(own.check(&results).is_err(), "{} {from}", own.function.name);
+            let mut read = own.program.clone();
+            let mut is_read = false;
+            for operand in read.steps.iter_mut().flat_map(|step| &mut step.1) {
+                if let Checked::Entry(1..=3, index) = operand {
+                    (*index, is_read) = (other(*index), true);
+                }
+            }
+            assert!(
+                !is_read || own.check(&read).is_err(),
+                "{} {from}",
+                own.function.name
+            );
+        }
+    }
 }
 
 const TORQUES: &str = "inverse_dynamics, inertia";

@@ -10,6 +10,7 @@ use dalembert_codegen::workspace::{
     write_function,
 };
 use dalembert_codegen::{Function, Program, ScalarType};
+use dalembert_model::outputs::Sizes;
 
 use crate::certified::Certified;
 use crate::support::{Case, daily_and_campaign, in_scene, rounds_well};
@@ -55,7 +56,7 @@ fn of(wanted: &[Input]) -> Program {
             nodes: wanted.iter().map(|own| Node::Input(*own)).collect(),
             outputs: vec![Edge::from(0), Edge::from(last)],
         },
-        ..Program::empty(Function::Gravity, 2)
+        ..Program::empty(Function::Gravity, Sizes::whole(2))
     }
 }
 

@@ -132,7 +132,7 @@ pub fn is_whole_robots(case: &Case) {
                 let mut wanted = vec![0];
                 for axis in quantity.shape().0 {
                     let (length, places) = match axis {
-                        Axis::Joints => (n, own.clone()),
+                        Axis::Coordinates | Axis::Links => (n, own.clone()),
                         axis => {
                             let length = axis.length(emitted.sizes);
                             (length, (0..length).collect())
@@ -142,7 +142,7 @@ pub fn is_whole_robots(case: &Case) {
                     wanted = wanted.into_iter().flat_map(along).collect();
                 }
                 expected.extend(wanted.into_iter().map(|index| full[start + index]));
-                start += quantity.len(emitted.sizes.over(n));
+                start += quantity.len(emitted.sizes.over_all(n));
             }
             let most = 1e-13 * largest(&full).max(1.0);
             let is_close = is_close(&found, &expected, most);

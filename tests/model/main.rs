@@ -9,6 +9,7 @@ mod equations_identities;
 mod equations_shoulder;
 mod equations_slips;
 mod equations_support;
+mod floating;
 mod friction;
 mod outputs;
 mod placed;

@@ -94,7 +94,10 @@ fn frames_are_read_and_written_back() {
                 xyz = [0.1, 0, 0]\nrpy = [0, \"pi/2\", 0]\n[[frame]]\nname = \"base_1\"\nlink = \"1\"\n";
     let robot = reading(&(file("") + more)).robot;
     assert_eq!(robot.frames.len(), 2);
-    assert_eq!((robot.frames[0].joint, robot.frames[1].joint), (1, 0));
+    assert_eq!(
+        (robot.frames[0].row, robot.frames[1].row),
+        (Some(1), Some(0))
+    );
     assert_eq!(robot.frames[0].placement.rpy[1], Angle::right_angles(1));
     let own = robot.joints[1].frame.as_ref().unwrap();
     assert_eq!(own.xyz[2], ratio(1, 10));

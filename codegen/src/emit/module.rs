@@ -35,9 +35,13 @@ pub(crate) fn write(
     text += &format!("/// The number of joints.\npub const N: usize = {n};\n");
     let rows = setup.rows();
     if setup.scene().is_some() {
+        let (over, what) = match robot.floating {
+            None => ("JOINTS", "joints"),
+            Some(_) => ("COORDINATES", "coordinates of the velocity"),
+        };
         text += &format!(
-            "/// The joints that results are over, in their order, from zero.\n\
-             pub const JOINTS: [usize; {}] = {rows:?};\n",
+            "/// The {what} that results are over, in their order, from zero.\n\
+             pub const {over}: [usize; {}] = {rows:?};\n",
             rows.len()
         );
     }
@@ -85,7 +89,7 @@ pub(super) fn header(
     scalar: ScalarType,
 ) -> Vec<String> {
     let convention = match robot.convention {
-        _ if robot.branches() => "a tree of links",
+        _ if robot.is_tree() => "a tree of links",
         Convention::Standard => "standard DH",
         Convention::Modified => "modified (Craig) DH",
     };
@@ -112,7 +116,7 @@ pub(super) fn header(
         let notes = robot.notes.iter();
         lines.extend(notes.map(|note| format!("- {}", sentence(note))));
     }
-    let branches = robot.branches();
+    let branches = robot.is_tree();
     let heads = match branches {
         true => [
             "| joint | kind | carried by | xyz | rpy | axis | mass |",

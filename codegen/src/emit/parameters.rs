@@ -28,7 +28,8 @@ pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
          Ixz2 the entries of its tensor, all about the origin and in the axes of {whose}"
     );
     let named = named.lines().map(str::to_owned);
-    let is_drive = |(own, _): &(Parameter, Exact)| !matches!(own, Parameter::Link(..));
+    let is_drive =
+        |(own, _): &(Parameter, Exact)| !matches!(own, Parameter::Base(_) | Parameter::Link(..));
     match over_base(function, setup) {
         Some(((sum, constant), base)) => {
             lines.push(format!(
@@ -57,12 +58,22 @@ pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
         None => {
             let columns =
                 "Columns are m1, mx1, my1, mz1, Ixx1, Iyy1, Izz1, Ixy1, Iyz1, Ixz1, then those of";
-            say(&mut lines, [columns]);
+            let columns = match setup.robot().floating {
+                None => columns.to_owned(),
+                // Of the base, then as of any other robot.
+                Some(_) => columns.replace('1', "0"),
+            };
+            lines.push(columns);
             let friction = match setup.has_coulomb() {
                 true => "friction, viscous and Coulomb,",
                 false => "viscous friction",
             };
-            lines.push(format!("link 2. Armature and {friction} have none."));
+            let next = if setup.robot().floating.is_some() {
+                1
+            } else {
+                2
+            };
+            lines.push(format!("link {next}. Armature and {friction} have none."));
             lines.extend(named);
         }
     }

@@ -58,9 +58,12 @@ pub(super) fn friction(generated: &GeneratedFunction, setup: &Setup) -> Vec<Stri
     ];
     let mut lines = head.map(String::from).to_vec();
     for speed in &program.speeds {
-        let joint = &setup.robot().joints[speed.joint];
+        let Some(index) = setup.robot().joint_of(speed.coordinate) else {
+            continue;
+        };
+        let joint = &setup.robot().joints[index];
         let (force, width) = (decimal(&joint.coulomb), decimal(&joint.coulomb_width));
-        lines.push(format!("| {} | {force} | {width} |", speed.joint + 1));
+        lines.push(format!("| {} | {force} | {width} |", index + 1));
     }
     lines
 }

@@ -6,7 +6,7 @@
 
 use super::GeneratedFunction;
 use super::variant::held;
-use crate::function::Argument;
+use crate::function::{Argument, Sizes};
 use crate::language::c99::{Names, float};
 use crate::language::list;
 use crate::program::{Literal, ScalarType};
@@ -25,9 +25,9 @@ impl StateBox {
         setup: &Setup,
         scalar: ScalarType,
     ) -> Option<StateBox> {
-        let joints = setup.robot().joints.len();
+        let sizes = Sizes::of(setup.robot());
         let columns = Argument::STATE.into_iter().map(|argument| {
-            let mut column = vec![None; joints];
+            let mut column = vec![None; argument.length(sizes)];
             for generated in functions {
                 bound(&mut column, argument, generated, setup, scalar);
             }

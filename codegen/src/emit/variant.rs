@@ -154,7 +154,7 @@ fn units(program: &Program, robot: &Robot) -> Vec<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::function::Function;
+    use crate::function::{Function, Sizes};
     use dalembert_model::read::parse;
 
     #[test]
@@ -167,7 +167,7 @@ mod tests {
         let head = "name = \"arm\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n";
         let source = [head, &joint("revolute"), &joint("prismatic")].concat();
         let robot = parse(&source).unwrap().robot;
-        let of = |function| units(&Program::empty(function, 2), &robot).join(" ");
+        let of = |function| units(&Program::empty(function, Sizes::whole(2)), &robot).join(" ");
         assert_eq!(of(Function::InverseDynamics), "N·m N");
         let equation = of(Function::ManipulatorEquation);
         assert_eq!(equation, "kg·m² kg·m kg·m kg N·m N N·m N");

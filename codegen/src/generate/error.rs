@@ -93,6 +93,22 @@ impl GenerateError {
         GenerateError::refused(function, message, help)
     }
 
+    pub(super) fn floats(function: Function) -> GenerateError {
+        let takes_slopes = function.arguments().contains(&Argument::Multiplier);
+        let (why, help) = match takes_slopes {
+            true => (
+                "second derivatives by the turns of a base do not commute",
+                "first derivatives are there",
+            ),
+            false => (
+                "its symbols are of joints' own rates, and the velocity of a base is none",
+                "`coriolis_matrix` is there: C q̇ = h, and Ḋ - 2C is skew",
+            ),
+        };
+        let message = format!("`{function}` is not there where the base floats: {why}");
+        GenerateError::refused(function, message, help)
+    }
+
     /// Returns the function that it is about, if it is about one.
     pub fn function(&self) -> Option<Function> {
         match self {

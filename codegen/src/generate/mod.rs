@@ -31,7 +31,7 @@ use crate::seeds::depends_on_coulomb;
 use crate::setup::{ParametersKey, input_hash};
 use crate::task::{Job, Prefer, Request};
 pub use crate::tolerance::refusals::ToleranceError;
-use crate::tolerance::refusals::{FOLLOWS, FRICTION, unbounded};
+use crate::tolerance::refusals::{FLOATS, FOLLOWS, FRICTION, unbounded};
 use crate::verify::exact::prove;
 use crate::verify::measure::Emitted;
 use crate::verify::parameters::prove_base;
@@ -225,6 +225,9 @@ fn check(robot: &Robot, request: &Request) -> Outcome<()> {
         if !robot.followers.is_empty() && !function.takes_followers() {
             return Err(GenerateError::follows(function));
         }
+        if robot.floating.is_some() && !function.takes_floating_base() {
+            return Err(GenerateError::floats(function));
+        }
     }
     language::check(robot, request, &functions)?;
     if let Some(plan) = &request.plan
@@ -234,9 +237,13 @@ fn check(robot: &Robot, request: &Request) -> Outcome<()> {
     }
     let scene = request.scene.as_ref();
     let has_tolerance = scene.is_some_and(|scene| scene.tolerance.is_some());
-    let refused = |&function: &Function| match robot.followers.is_empty() {
-        true => Some((function, unbounded(function)?)),
-        false => Some((function, complaint(FOLLOWS))),
+    let refused = |&function: &Function| {
+        let why = match (robot.followers.is_empty(), &robot.floating) {
+            (false, _) => complaint(FOLLOWS),
+            (true, Some(_)) => complaint(FLOATS),
+            (true, None) => unbounded(function)?,
+        };
+        Some((function, why))
     };
     let refused = request.functions.iter().find_map(refused);
     let Some((function, why)) = refused.filter(|_| has_tolerance) else {
@@ -252,16 +259,16 @@ fn check_frames(robot: &Robot, function: Function) -> Outcome<()> {
     let (ends, others): (Vec<&Frame>, Vec<&Frame>) = robot
         .frames
         .iter()
-        .partition(|frame| tips.contains(&frame.joint));
+        .partition(|frame| frame.row.is_some_and(|row| tips.contains(&row)));
     let names: Vec<&str> = [ends, others]
         .concat()
         .iter()
         .map(|frame| frame.name.as_str())
         .collect();
-    if robot.branches() && function.is_of_hand() {
+    if robot.is_tree() && function.is_of_hand() {
         return Err(no_hand(robot, function, &names));
     }
-    let has_hand = !robot.branches();
+    let has_hand = !robot.is_tree();
     let known = |frame: &&str| has_hand && *frame == HAND || names.contains(frame);
     let Some(frame) = function.frames().into_iter().find(|frame| !known(frame)) else {
         return Ok(());
@@ -282,7 +289,12 @@ fn check_frames(robot: &Robot, function: Function) -> Outcome<()> {
 fn no_hand(robot: &Robot, function: Function, names: &[&str]) -> GenerateError {
     let text = function.text();
     let tips = robot.tips().len();
-    let message = format!("`{text}` is of the hand, and the links of this robot have {tips} ends");
+    let message = match robot.floating {
+        Some(_) => format!("`{text}` is of the hand, and the base of this robot floats"),
+        None => {
+            format!("`{text}` is of the hand, and the links of this robot have {tips} ends")
+        }
+    };
     let name = text.split('@').next().unwrap_or_default();
     let fix = match names {
         [] => format!(

@@ -106,8 +106,8 @@ fn code(read: read::Function, scalar: ScalarType) -> Result<Code, TextError> {
             kernel,
         }
     });
-    let speeds = read.speeds.into_iter().map(|(joint, square)| Speed {
-        joint,
+    let speeds = read.speeds.into_iter().map(|(coordinate, square)| Speed {
+        coordinate,
         square: Literal(square),
     });
     Ok(Code {
@@ -124,7 +124,7 @@ pub(crate) fn input<C>(operand: &Read<C>) -> Input {
         Read::Entry(argument, index) => Input::Entry(Argument::ALL[*argument], *index),
         Read::Sine(joint, true) => Input::Sin(*joint),
         Read::Sine(joint, false) => Input::Cos(*joint),
-        Read::Speed(joint) => Input::PerSpeed(*joint),
+        Read::Speed(coordinate) => Input::PerSpeed(*coordinate),
         Read::Step(_) | Read::Constant(_) => unreachable!("no input"),
     }
 }

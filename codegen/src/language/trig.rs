@@ -90,9 +90,9 @@ pub(super) fn taken_names(code: &Code) -> [String; 2] {
 pub(super) fn write_speeds(text: &mut String, dialect: Dialect, code: &Code, path: &str) {
     let one = dialect.literal(Literal(1.0));
     for own in &code.speeds {
-        let (name, joint) = (Input::PerSpeed(own.joint).name(), own.joint);
+        let name = Input::PerSpeed(own.coordinate).name();
         let square = dialect.literal(own.square);
-        let speed = format!("qd[{joint}]");
+        let speed = format!("qd[{}]", own.coordinate);
         let product = dialect.operation(Operation::Mul, &speed, &speed);
         let sum = format!("{product} + {square}");
         let value = format!("{one} / {}", dialect.call(path, "sqrt", &sum));

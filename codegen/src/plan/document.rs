@@ -3,8 +3,9 @@
 use dalembert_checker::Fault;
 use dalembert_checker::claim::{Claim, Claimed, Planned, Tolerated};
 use dalembert_checker::program::Program as Straight;
+use dalembert_model::equations::BASE_COORDINATES;
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::RuntimeParameter;
+use dalembert_model::outputs::{RuntimeParameter, Sizes};
 use dalembert_model::robot::Robot;
 
 use super::{Entry, Plan};
@@ -91,6 +92,7 @@ impl Entry {
             source: self.source.name().to_owned(),
             passes: passes.collect(),
             joints: exact.joints,
+            floats: exact.floating > 0,
             rows: exact.rows.iter().map(|row| row + 1).collect(),
             scene: hash,
             load: (self.parameters.as_ref()).map(|own| (own.load, own.hash.clone())),
@@ -120,13 +122,18 @@ fn entry(own: &Claimed, constants: &[Exact]) -> Result<Entry, Complaint> {
         return Err(unknown("number of joints", &planned.joints.to_string()));
     }
     // Speeds are the robot's, which a plan does not have.
-    let mut empty = Program::empty(function, planned.joints);
+    let sizes = Sizes {
+        floating: if planned.floats { BASE_COORDINATES } else { 0 },
+        ..Sizes::whole(planned.joints)
+    };
+    let mut empty = Program::empty(function, sizes);
+    let most = sizes.coordinates();
     let rows = planned.rows.iter().map(|row| {
-        let row = row.checked_sub(1).filter(|row| *row < planned.joints);
+        let row = row.checked_sub(1).filter(|row| *row < most);
         row.ok_or_else(|| complaint("expected joints such as `[1, 2, 3]`"))
     });
-    empty.rows = rows.take(planned.joints + 1).collect::<Result<_, _>>()?;
-    if empty.rows.len() > planned.joints {
+    empty.rows = rows.take(most + 1).collect::<Result<_, _>>()?;
+    if empty.rows.len() > most {
         return Err(complaint("more rows than joints"));
     }
     let taken = taken(own, &mut empty)?;
@@ -189,7 +196,8 @@ fn program(empty: &Program, read: &Straight<Exact>) -> Result<Program, Complaint
     };
     let sizes = program.sizes();
     let is_own = |input: &Input| match *input {
-        Input::Sin(joint) | Input::Cos(joint) | Input::PerSpeed(joint) => joint < program.joints,
+        Input::Sin(joint) | Input::Cos(joint) => joint < program.joints,
+        Input::PerSpeed(coordinate) => coordinate < sizes.coordinates(),
         Input::Entry(argument, index) => index < argument.length(sizes),
     };
     if let Some(input) = program.dag.inputs().find(|input| !is_own(input)) {

@@ -34,11 +34,11 @@ pub struct Pair {
     pub kernel: Option<Kernel>,
 }
 
-/// A joint whose r = 1/√(q̇² + w²) is read: it smooths Coulomb friction over a width w. The code
+/// A coordinate of the velocity whose r = 1/√(q̇² + w²) is read: it smooths Coulomb friction over a width w. The code
 /// squares the velocity, adds w², takes the root and divides one by it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Speed<C = Exact> {
-    pub joint: usize,
+    pub coordinate: usize,
     /// w²: exact, or the literal that it was rounded to.
     pub square: C,
 }
@@ -46,7 +46,7 @@ pub struct Speed<C = Exact> {
 impl Speed<Literal> {
     /// Returns r as the code computes it; none if the velocities lack the joint.
     pub fn run<T: Machine>(&self, qd: &[T]) -> Option<T> {
-        let qd = qd.get(self.joint)?;
+        let qd = qd.get(self.coordinate)?;
         Some(per_speed(qd, &T::literal(self.square.0), |x| x.root()))
     }
 }
@@ -65,7 +65,7 @@ impl Code {
             ..pair
         });
         let speeds = program.speeds.iter().map(|own| Speed {
-            joint: own.joint,
+            coordinate: own.coordinate,
             square: literal(&own.square),
         });
         let code = Code {
@@ -183,7 +183,7 @@ impl Code {
         }
         for speed in &self.speeds {
             let value = lanes(Argument::Velocity, &|qd| speed.run(qd))?;
-            inputs.insert(Input::PerSpeed(speed.joint), value);
+            inputs.insert(Input::PerSpeed(speed.coordinate), value);
         }
         Some(inputs)
     }

@@ -27,15 +27,17 @@ pub use steps::{Operand, Output, Step, Steps};
 pub struct Program {
     /// The function that the program computes.
     pub function: Function,
-    /// n: the length of every argument that has an entry a joint.
+    /// n, the number of joints: the length of q.
     pub joints: usize,
-    /// The joints that the results are over, zero-based, in their order.
+    /// The coordinates of a base that floats: six, or none.
+    pub floating: usize,
+    /// The coordinates that the results are over, zero-based, in their order.
     pub rows: Vec<usize>,
     /// The arguments there are, in order.
     pub arguments: Vec<Argument>,
     /// The number of entries of the load; zero where the load is neither argument nor result.
     pub load: usize,
-    /// The joints of which r = 1/√(q̇² + w²) is read, ascending.
+    /// The coordinates of which r = 1/√(q̇² + w²) is read, ascending.
     pub speeds: Vec<Speed>,
     /// The arithmetic in the order of the code, each leaf before the first operation that reads it,
     /// and the results in the order of the function's quantities.
@@ -43,17 +45,13 @@ pub struct Program {
 }
 
 impl Program {
-    /// Creates the program of a graph of a function of a whole robot.
-    pub fn new(function: Function, joints: usize, graph: &Dag) -> Program {
-        Program::empty(function, joints).with_graph(graph)
-    }
-
     /// Creates what a function of a whole robot begins with: no operation, no result.
-    pub fn empty(function: Function, joints: usize) -> Program {
+    pub fn empty(function: Function, robot: Sizes) -> Program {
         Program {
             function,
-            joints,
-            rows: (0..joints).collect(),
+            joints: robot.joints,
+            floating: robot.floating,
+            rows: (0..robot.coordinates()).collect(),
             arguments: function.arguments(),
             load: 0,
             speeds: Vec::new(),
@@ -121,7 +119,7 @@ impl Program {
 
     pub(crate) fn read(&self, mut speeds: Vec<Speed>) -> Vec<Speed> {
         let is_read = |own: &Speed| {
-            let speed = Input::PerSpeed(own.joint);
+            let speed = Input::PerSpeed(own.coordinate);
             self.dag.inputs().any(|input| *input == speed)
         };
         speeds.retain(is_read);
@@ -159,12 +157,12 @@ impl Program {
     /// parameters is derived from the number of results.
     pub fn sizes(&self) -> Sizes {
         let rows = self.rows.len();
-        let mut sizes = Sizes {
-            rows,
-            joints: self.joints,
-            base: 0,
+        let whole = Sizes {
+            floating: self.floating,
             load: self.load,
+            ..Sizes::whole(self.joints)
         };
+        let mut sizes = whole.over(&self.rows);
         if let Columns::Base(_) = self.function.columns() {
             // What a bundle returns beside its regressor is of known lengths.
             let others = self.function.outputs(sizes);

@@ -46,7 +46,7 @@ pub fn trace_chain(
     let following = &setup.following(Symbol::constant);
     let motion = &whole.of_joints(rows);
     let chain = chain.at_speeds(&motion.per_speed);
-    let (chain, at) = &chain.posed(&motion.q);
+    let (chain, at) = &chain.posed(chain.of_joints(&motion.q));
     let composite = Composite::new(chain, at);
     let of_frame = |quantity: &Quantity| quantity.is_regrouped() && quantity.is_of_frame();
     let arm = (function.quantities().iter().any(of_frame)).then(|| moving(setup, None, &leaves).0);
@@ -125,7 +125,7 @@ pub fn skeleton_for(task: Task<'_>) -> Skeleton<Exact> {
     if !setup.takes(function, RuntimeParameter::Payload) {
         return with_columns(setup, &setup.columns(function, Exact::clone));
     }
-    let last = setup.robot().rows().len().saturating_sub(1);
+    let last = setup.robot().base_coordinates() + setup.robot().rows().len() - 1;
     let columns = LinkParameter::ALL.map(|parameter| Column {
         joint: last,
         of: Probed::Body(parameter.unit()),

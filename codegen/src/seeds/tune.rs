@@ -68,6 +68,7 @@ fn carried_by(arm: &Skeleton<Exact>, root: Option<usize>) -> (Skeleton<Exact>, V
         } else {
             None
         },
+        base_probes: Vec::new(),
         columns: arm.columns,
         links: Vec::new(),
     };

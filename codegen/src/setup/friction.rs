@@ -13,12 +13,13 @@ impl Setup {
         joint.has_coulomb().then_some(&joint.coulomb_width)
     }
 
-    /// Returns the joints with Coulomb friction, and the squares of their widths.
+    /// Returns the coordinates of joints with Coulomb friction, and the squares of their widths.
     pub fn speeds(&self) -> Vec<Speed> {
         let speed = |joint| {
             let width = self.width(joint)?;
             let square = Exact::from(width * width);
-            Some(Speed { joint, square })
+            let coordinate = self.robot().base_coordinates() + joint;
+            Some(Speed { coordinate, square })
         };
         (0..self.joints()).filter_map(speed).collect()
     }
@@ -32,15 +33,16 @@ impl Setup {
         self.width(joint).map(|width| Exact::from(width.recip()))
     }
 
-    /// Returns 1/√(q̇² + w²) of a joint in a scalar that has roots; zero without friction.
+    /// Returns 1/√(q̇² + w²) of a coordinate in a scalar that has roots; zero without friction.
     pub fn per_speed<S: Divide>(
         &self,
-        joint: usize,
+        coordinate: usize,
         qd: &S,
         constant: impl Fn(&Exact) -> S,
         sqrt: impl Fn(&S) -> S,
     ) -> S {
-        match self.width(joint) {
+        let joint = self.robot().joint_of(coordinate);
+        match joint.and_then(|joint| self.width(joint)) {
             None => S::zero(),
             Some(width) => per_speed(qd, &constant(&Exact::from(width * width)), sqrt),
         }

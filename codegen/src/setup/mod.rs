@@ -30,7 +30,7 @@ use std::sync::OnceLock;
 use dalembert_model::equations::chain::Body;
 use dalembert_model::equations::following::Following;
 use dalembert_model::equations::regressor::{Column, of_links};
-use dalembert_model::equations::{JointPosition, SinCosPair};
+use dalembert_model::equations::{JointPosition, SinCosPair, base_position};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Columns, Motion, RuntimeParameter, Sizes};
 use dalembert_model::robot::{Finding, JointKind, Position, Robot};
@@ -81,10 +81,10 @@ impl Setup {
         Setup {
             robot: robot.clone(),
             scene: None,
-            rows: (0..n).collect(),
+            rows: (0..robot.coordinates()).collect(),
             chained: (0..n).collect(),
             locks: vec![None; n],
-            parameters: Vec::new(),
+            parameters: always_taken(robot).collect(),
             base: no_bases(),
             load: None,
             fitted: None,
@@ -108,22 +108,29 @@ impl Setup {
         }
         let n = robot.joints.len();
         let locks: Vec<_> = (0..n).map(|i| scene.locked(i).map(position)).collect();
-        let rows = scene.rows(n);
-        let is_chained = |i: &usize| locks[*i].is_none() || rows.contains(i);
+        let joints = scene.rows(n);
+        let is_chained = |i: &usize| locks[*i].is_none() || joints.contains(i);
+        let base = robot.base_coordinates();
+        let rows = (0..base).chain(joints.iter().map(|joint| base + joint));
         Ok(Setup {
             scene: Some(scene.clone()),
+            rows: rows.collect(),
             chained: (0..n).filter(is_chained).collect(),
-            rows,
             locks,
             ..Setup::whole(&scene.apply(robot))
         })
     }
 
-    /// Returns the robot with these parameters as arguments of its functions.
+    /// Returns the robot with these parameters as arguments of its functions; gravity always is one
+    /// where the base floats.
     #[must_use]
     pub fn taking(self, parameters: &[RuntimeParameter]) -> Setup {
+        let taken = RuntimeParameter::ALL.into_iter();
+        let taken = taken.filter(|own| {
+            parameters.contains(own) || always_taken(&self.robot).any(|always| always == *own)
+        });
         Setup {
-            parameters: parameters.to_vec(),
+            parameters: taken.collect(),
             base: no_bases(),
             load: None,
             ..self
@@ -150,7 +157,9 @@ impl Setup {
     #[must_use]
     pub fn in_full_motion(&self) -> Setup {
         let mut full = self.clone().taking(&self.parameters);
-        full.rows = full.chained.clone();
+        let base = full.robot.base_coordinates();
+        let joints = full.chained.iter().map(|joint| base + joint);
+        full.rows = (0..base).chain(joints).collect();
         if let Some(scene) = &mut full.scene {
             (scene.velocity_zero, scene.acceleration_zero) = (false, false);
         }
@@ -190,7 +199,7 @@ impl Setup {
             still || scene.gravity.is_some() || scene.payload.is_some()
         };
         let same = !self.scene.as_ref().is_some_and(changes);
-        same && self.rows.iter().copied().eq(0..self.joints())
+        same && self.rows.iter().copied().eq(0..self.coordinates())
             && self.locks.iter().all(Option::is_none)
     }
 
@@ -199,7 +208,12 @@ impl Setup {
         self.robot.joints.len()
     }
 
-    /// Returns the joints that results are over, zero-based, in their order.
+    /// Returns the number of coordinates of a velocity: those of a base that floats, then n.
+    pub fn coordinates(&self) -> usize {
+        self.robot.coordinates()
+    }
+
+    /// Returns the coordinates that results are over, zero-based, in their order.
     pub fn rows(&self) -> &[usize] {
         &self.rows
     }
@@ -209,20 +223,24 @@ impl Setup {
         Following::of(&self.robot, &mut scalar)
     }
 
-    /// Returns the rows that a chain needs: those of its joints, and of what follows them.
+    /// Returns the rows of the arm that a chain needs: those of a base that floats, of its joints, and
+    /// of what follows them.
     pub fn chained_rows(&self) -> Vec<usize> {
-        let rows = 0..self.robot.rows().len();
-        rows.filter(|&row| self.chained.contains(&self.robot.mover_of(row)))
-            .collect()
+        let (base, rows) = (self.robot.base_coordinates(), 0..self.robot.rows().len());
+        let rows = rows.filter(|&row| self.chained.contains(&self.robot.mover_of(row)));
+        (0..base).chain(rows.map(|row| base + row)).collect()
     }
 
-    /// Returns the locks that merge links, a row each: those of joints without a torque to show.
+    /// Returns the locks that merge links, one for each row of the arm: those of joints without a
+    /// torque to show.
     pub fn merged(&self) -> Vec<Option<JointPosition<Exact>>> {
         let merges = |(i, lock): (usize, &Option<_>)| match self.chained.contains(&i) {
             true => None,
             false => lock.clone(),
         };
-        let mut merged: Vec<_> = self.locks.iter().enumerate().map(merges).collect();
+        let base = std::iter::repeat_n(None, self.robot.base_coordinates());
+        let locks = self.locks.iter().enumerate().map(merges);
+        let mut merged: Vec<_> = base.chain(locks).collect();
         let following = self.following(Exact::clone);
         for own in &following {
             merged.insert(own.row, None);
@@ -265,25 +283,28 @@ impl Setup {
         mut constant: impl FnMut(&Exact) -> S,
     ) -> Motion<S> {
         let mut motion = motion(&self.robot, input);
-        for (joint, lock) in self.locks.iter().enumerate() {
+        for coordinate in 0..self.coordinates() {
+            let joint = self.robot.joint_of(coordinate);
+            let lock = joint.and_then(|joint| self.lock(joint));
             match lock {
                 None => {}
                 Some(JointPosition::Revolute(pair)) => {
-                    motion.q[joint] = JointPosition::Revolute(pair.map(&mut constant));
+                    motion.q[coordinate] = JointPosition::Revolute(pair.map(&mut constant));
                 }
                 Some(JointPosition::Prismatic(q)) => {
-                    motion.q[joint] = JointPosition::Prismatic(constant(q));
+                    motion.q[coordinate] = JointPosition::Prismatic(constant(q));
                 }
             }
-            motion.moves[joint] = lock.is_none();
+            motion.moves[coordinate] = lock.is_none();
             // Zero by structure: what it multiplies is gone.
             let is_zero = |argument| lock.is_some() || self.has_zero(argument);
             if is_zero(Argument::Velocity) {
-                motion.per_speed[joint] = self.per_speed_at_rest(joint).map(|x| constant(&x));
+                let at_rest = joint.and_then(|joint| self.per_speed_at_rest(joint));
+                motion.per_speed[coordinate] = at_rest.map(|x| constant(&x));
             }
             for (argument, entries) in motion.vectors_mut() {
                 if is_zero(argument) {
-                    entries[joint] = S::zero();
+                    entries[coordinate] = S::zero();
                 }
             }
         }
@@ -342,10 +363,17 @@ impl Setup {
             function == Function::Load || self.takes(function, RuntimeParameter::Payload);
         let load = self.load().filter(|_| is_loaded);
         Sizes {
-            rows: self.rows.len(),
-            joints: self.joints(),
             base: base.map_or(0, |base| base.columns.len()),
             load: load.map_or(0, |load| load.rows.len()),
+            ..Sizes::of(&self.robot).over(&self.rows)
+        }
+    }
+
+    /// Returns the row of the arm that a coordinate is of.
+    fn arm_row(&self, coordinate: usize) -> usize {
+        match self.robot.joint_of(coordinate) {
+            None => coordinate,
+            Some(joint) => self.robot.base_coordinates() + self.robot.row_of(joint),
         }
     }
 
@@ -359,17 +387,22 @@ impl Setup {
         following: &[Following<S>],
         values: Vec<S>,
     ) -> Vec<S> {
-        let own = self.rows.iter().map(|&joint| self.robot.row_of(joint));
-        let own: Vec<usize> = own.collect();
+        let own: Vec<usize> = self.rows.iter().map(|&own| self.arm_row(own)).collect();
         quantity.selected(values, [rows, &own], following, sizes)
     }
+}
+
+fn always_taken(robot: &Robot) -> impl Iterator<Item = RuntimeParameter> {
+    (robot.floating.is_some())
+        .then_some(RuntimeParameter::Gravity)
+        .into_iter()
 }
 
 fn no_bases() -> Bases {
     [const { OnceLock::new() }; Quantity::ALL.len()]
 }
 
-fn motion<S>(robot: &Robot, mut input: impl FnMut(Input) -> S) -> Motion<S> {
+fn motion<S: Scalar>(robot: &Robot, mut input: impl FnMut(Input) -> S) -> Motion<S> {
     let joints = || robot.joints.iter().enumerate();
     let q = joints().map(|(i, joint)| match joint.kind {
         JointKind::Revolute => JointPosition::Revolute(SinCosPair {
@@ -380,10 +413,18 @@ fn motion<S>(robot: &Robot, mut input: impl FnMut(Input) -> S) -> Motion<S> {
             JointPosition::Prismatic(input(Input::Entry(Argument::Position, i)))
         }
     });
-    let q = q.collect();
-    let speeds = joints().map(|(i, joint)| joint.has_coulomb().then(|| input(Input::PerSpeed(i))));
-    let per_speed = speeds.collect();
-    let sizes = Sizes::whole(robot.joints.len());
+    let q: Vec<JointPosition<S>> = q.collect();
+    let base = robot.base_coordinates();
+    let q = base_position().into_iter().take(base).chain(q).collect();
+    let speeds = joints().map(|(i, joint)| {
+        let coordinate = robot.base_coordinates() + i;
+        joint
+            .has_coulomb()
+            .then(|| input(Input::PerSpeed(coordinate)))
+    });
+    let none = std::iter::repeat_with(|| None).take(base);
+    let per_speed = none.chain(speeds).collect();
+    let sizes = Sizes::of(robot);
     let entries = |argument: Argument| {
         let entries = 0..argument.length(sizes);
         entries.map(|i| input(Input::Entry(argument, i))).collect()

@@ -39,9 +39,9 @@ impl Setup {
         match input {
             Input::Sin(joint) => libm::sin(state.q[joint]),
             Input::Cos(joint) => libm::cos(state.q[joint]),
-            Input::PerSpeed(joint) => {
-                let qd = state.entry(Argument::Velocity, joint);
-                self.per_speed(joint, &qd, f64::nearest, |x| libm::sqrt(*x))
+            Input::PerSpeed(coordinate) => {
+                let qd = state.entry(Argument::Velocity, coordinate);
+                self.per_speed(coordinate, &qd, f64::nearest, |x| libm::sqrt(*x))
             }
             Input::Entry(argument, index) => state.entry(argument, index),
         }
@@ -62,8 +62,8 @@ impl Setup {
     }
 
     fn heaviest(&self) -> f64 {
-        let masses = self.robot().joints.iter();
-        let masses = masses.map(|joint| f64::nearest_rational(&joint.mass));
+        let masses = self.robot().bodies();
+        let masses = masses.map(|body| f64::nearest_rational(&body.mass));
         positive(masses.fold(0.0, f64::max))
     }
 

@@ -48,7 +48,7 @@ impl<'a> Task<'a> {
             arguments: setup.arguments(function),
             load: setup.sizes(function).load,
             speeds: setup.speeds(),
-            ..Program::empty(function, setup.joints())
+            ..Program::empty(function, Sizes::of(setup.robot()))
         };
         empty.with_graph(graph)
     }
@@ -175,7 +175,7 @@ impl<S: Divide> Posed<'_, S> {
         let base = columns.len();
         let sizes = Sizes {
             base,
-            ..Sizes::whole(setup.joints())
+            ..Sizes::of(setup.robot())
         };
         let own = setup.select(quantity, sizes, &rows, following, entries);
         own.chunks(base.max(1)).map(<[S]>::to_vec).collect()
@@ -205,7 +205,7 @@ impl<S: Divide> Posed<'_, S> {
         let mut all = all.into_iter();
         let mut selected = Vec::with_capacity(function.outputs(sizes));
         for &quantity in function.quantities() {
-            let own = all.by_ref().take(quantity.len(sizes.over(rows.len())));
+            let own = all.by_ref().take(quantity.len(sizes.over_all(rows.len())));
             selected.extend(setup.select(quantity, sizes, rows, following, own.collect()));
         }
         selected

@@ -144,7 +144,7 @@ impl Request {
     pub fn setup(&self, robot: &Robot) -> Result<Setup, Complaint> {
         let setup = Setup::in_scene(robot, self.scene.as_ref())?;
         let setup = setup.taking(&self.parameters);
-        if setup.has(RuntimeParameter::Payload) && robot.branches() {
+        if setup.has(RuntimeParameter::Payload) && robot.is_tree() {
             let message = "a payload that is an argument is on the last link, and the links of this robot \
                            branch";
             let help =
@@ -213,7 +213,7 @@ impl Request {
     pub fn for_file(mut self, robot: &Robot, outputs: &[Function]) -> Request {
         if !outputs.is_empty() {
             self.functions = outputs.to_vec();
-        } else if robot.branches() {
+        } else if robot.is_tree() {
             self.functions.retain(|function| !function.is_of_hand());
         }
         self

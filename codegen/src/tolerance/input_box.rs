@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use dalembert_checker::certify::Body;
 use dalembert_model::number::Rounded;
-use dalembert_model::robot::{Joint, JointKind, Limit, Position, Robot};
+use dalembert_model::robot::{FloatingBase, Joint, JointKind, Limit, Position, Robot};
 
 use crate::function::{Argument, Function};
 use crate::program::ScalarType;
@@ -13,7 +13,7 @@ use crate::sincos::interval::Interval;
 use crate::sincos::stated;
 use crate::words::{Complaint, complaint};
 
-/// Intervals of joint positions, velocities and accelerations, one a joint, and of a load.
+/// Intervals of joint positions, of velocities and accelerations, one a coordinate, and of a load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputBox {
     /// q, rad or m.
@@ -28,15 +28,26 @@ pub struct InputBox {
     pub load: Vec<Interval>,
 }
 
-pub(super) fn missing(limits: impl IntoIterator<Item = (&'static str, Vec<usize>)>) -> Complaint {
-    let of = |(limit, joints): (&str, Vec<usize>)| {
-        let numbers: Vec<String> = joints.iter().map(|joint| (joint + 1).to_string()).collect();
-        let (joints, have) = match numbers.len() {
-            1 => ("joint", "has"),
-            _ => ("joints", "have"),
+/// Joints lack limits, or a base that floats, which is none.
+pub(super) fn missing(
+    limits: impl IntoIterator<Item = (&'static str, Vec<Option<usize>>)>,
+) -> Complaint {
+    let of = |(limit, owners): (&str, Vec<Option<usize>>)| {
+        let base = owners.contains(&None).then(|| "the base".to_owned());
+        let joints = owners.iter().flatten();
+        let numbers: Vec<String> = joints.map(|joint| (joint + 1).to_string()).collect();
+        let joints = match numbers.as_slice() {
+            [] => None,
+            [one] => Some(format!("joint {one}")),
+            all => Some(format!("joints {}", all.join(", "))),
         };
-        let numbers = numbers.join(", ");
-        format!("{joints} {numbers} {have} no limit `{limit}`")
+        let have = if numbers.len() + usize::from(base.is_some()) == 1 {
+            "has"
+        } else {
+            "have"
+        };
+        let both: Vec<String> = base.into_iter().chain(joints).collect();
+        format!("{} {have} no limit `{limit}`", both.join(" and "))
     };
     let limits: Vec<String> = limits.into_iter().map(of).collect();
     complaint(format!("a bound needs a box: {}", limits.join("; ")))
@@ -76,12 +87,13 @@ impl InputBox {
             payload: arguments.contains(&Argument::Load).then(|| payloads(setup)),
             load: Vec::new(),
         };
-        let mut lacking: BTreeMap<&'static str, Vec<usize>> = BTreeMap::new();
+        let mut lacking: BTreeMap<&'static str, Vec<Option<usize>>> = BTreeMap::new();
+        limits.add_base(setup, &arguments, &mut lacking);
         for (joint, row) in setup.robot().joints.iter().enumerate() {
             // Where a limit is missing, the box is not returned.
             let mut or_missing = |found: Option<Interval>, limit: Limit| {
                 found.unwrap_or_else(|| {
-                    lacking.entry(limit.key()).or_default().push(joint);
+                    lacking.entry(limit.key()).or_default().push(Some(joint));
                     Interval::ZERO
                 })
             };
@@ -109,6 +121,34 @@ impl InputBox {
         match lacking.is_empty() {
             true => Ok(limits),
             false => Err(missing(lacking.into_iter().rev())),
+        }
+    }
+
+    fn add_base(
+        &mut self,
+        setup: &Setup,
+        arguments: &[Argument],
+        lacking: &mut BTreeMap<&'static str, Vec<Option<usize>>>,
+    ) {
+        let Some(base) = &setup.robot().floating else {
+            return;
+        };
+        for (argument, limit, all) in [
+            (Argument::Velocity, Limit::Velocity, &mut self.velocity),
+            (
+                Argument::Acceleration,
+                Limit::Acceleration,
+                &mut self.acceleration,
+            ),
+        ] {
+            let is_read = arguments.contains(&argument);
+            let most = base.limits.rate(limit).filter(|_| is_read);
+            if is_read && most.is_none() {
+                lacking.entry(limit.key()).or_default().push(None);
+            }
+            let range = |k: usize| most.map_or(0.0, |most| f64::nearest_rational(&most[k]));
+            let ranges = (0..FloatingBase::COORDINATES).map(range);
+            all.extend(ranges.map(Interval::symmetric));
         }
     }
 
@@ -166,6 +206,7 @@ fn position(joint: &Joint) -> Option<Interval> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::function::Sizes;
     use crate::program::Program;
     use crate::tolerance::scale;
     use dalembert_model::read::parse;
@@ -180,7 +221,7 @@ mod tests {
             );
             parse(&source).unwrap().robot
         };
-        let program = |function| Program::empty(function, 1);
+        let program = |function| Program::empty(function, Sizes::whole(1));
         let still = of("velocity = 0, acceleration = 0, torque = 0");
         let at_rest = InputBox::of(&still).unwrap();
         assert_eq!(at_rest.velocity, [Interval::ZERO]);

@@ -18,8 +18,9 @@ pub(crate) fn overflows(program: &Program, scalar: ScalarType, limits: &InputBox
         sizes.push(match node {
             Node::Constant(constant) => f64::nearest(constant).abs() * SLACK,
             Node::Input(Input::Sin(_) | Input::Cos(_)) => SINE,
-            Node::Input(Input::PerSpeed(joint)) => {
-                let own = program.speeds.iter().find(|own| own.joint == *joint);
+            Node::Input(Input::PerSpeed(coordinate)) => {
+                let mut speeds = program.speeds.iter();
+                let own = speeds.find(|own| own.coordinate == *coordinate);
                 own.map_or(f64::INFINITY, |own| {
                     SLACK / libm::sqrt(f64::nearest(&own.square))
                 })

@@ -30,6 +30,9 @@ pub(crate) const FRICTION: &str = "it has Coulomb friction in it, which divides 
 pub(crate) const FOLLOWS: &str = "joints of the robot follow others (`mimic`), and what may be \
     left out of links that share a coordinate is not bounded: leave the tolerance out of the scene";
 
+pub(crate) const FLOATS: &str = "the base of the robot floats, and what may be left out of its \
+    functions is not bounded: leave the tolerance out of the scene";
+
 pub(crate) fn unbounded(function: Function) -> Option<Complaint> {
     if function.columns() != Columns::None {
         let why = "its entries multiply parameters of any size";

@@ -26,16 +26,26 @@ const INSIDE: f64 = 1.0 - 1e-9;
 /// A joint without a limit that it needs, or with one of zero; a quantity of which torque limits
 /// are no measure.
 pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, Complaint> {
-    let read = |joint: usize, limit: Limit| {
-        let value = robot.joints.get(joint);
-        let value = value.and_then(|row| row.limits.rate(limit));
+    let read = |coordinate: usize, limit: Limit| {
+        let joint = robot.joint_of(coordinate);
+        let value = match joint {
+            Some(joint) => (robot.joints.get(joint)).and_then(|row| row.limits.rate(limit)),
+            None => {
+                let base = robot.floating.as_ref();
+                let six = base.and_then(|base| base.limits.rate(limit));
+                six.map(|six| &six[coordinate])
+            }
+        };
         match value.map(f64::nearest_rational) {
             Some(value) if value > 0.0 => Ok(value),
             Some(_) => Err(complaint(format!(
-                "the limit `{}` of joint {} is 0: errors relative to the actuators need \
+                "the limit `{}` of {} is 0: errors relative to the actuators need \
                  one above 0; give that, or make them relative to the range",
                 limit.key(),
-                joint + 1
+                joint.map_or_else(
+                    || robot.coordinate_label(coordinate),
+                    |joint| format!("joint {}", joint + 1)
+                )
             ))),
             None => Err(missing([(limit.key(), vec![joint])])),
         }
@@ -50,7 +60,7 @@ pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, Complaint>
     let mut scales = Vec::new();
     for quantity in program.function.quantities() {
         for index in 0..quantity.len(sizes) {
-            let joints: Vec<usize> = quantity.joints(index, rows, sizes).collect();
+            let joints: Vec<usize> = quantity.coordinates(index, rows, sizes).collect();
             scales.push(match (quantity.facts().scale, joints.as_slice()) {
                 (ErrorScale::Load, &[i]) => torque(i)?,
                 (ErrorScale::Inertia, &[i, k]) => inertia(i, k)?.min(inertia(k, i)?),
@@ -88,7 +98,7 @@ pub(crate) fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
     let mut all = Vec::new();
     for quantity in program.function.quantities() {
         for index in 0..quantity.len(sizes) {
-            let own = quantity.joints(index, rows, sizes).map(of);
+            let own = quantity.coordinates(index, rows, sizes).map(of);
             all.push(own.reduce(f64::min).or(strictest).unwrap_or(0.0));
         }
     }

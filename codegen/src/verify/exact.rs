@@ -32,7 +32,7 @@ use crate::scalar::{Erased, restored};
 use crate::setup::Setup;
 use dalembert_model::number::Exact;
 
-/// The cost of Lagrange–Euler grows with n⁴ to n⁵.
+/// The cost of Lagrange–Euler grows with n⁴ to n⁵ of a serial arm.
 const WRITTEN_LIMIT: usize = 10;
 
 pub(super) fn reference_formulation(setup: &Setup) -> Formulation {

@@ -9,7 +9,7 @@
 //!
 //! [`BaseParameters`]: crate::setup::base::BaseParameters
 
-use dalembert_model::equations::regressor::{Column, LinkParameter, of_drives, of_links};
+use dalembert_model::equations::regressor::{Column, of_drives, of_links};
 use dalembert_model::number::Exact;
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
@@ -61,13 +61,9 @@ pub fn prove_base(task: Task<'_>, base: &BaseParameters) -> Result<(), Disproof>
 }
 
 fn parameters(robot: &Robot) -> Vec<Parameter> {
-    let links = (0..robot.rows().len()).flat_map(|joint| {
-        let all = LinkParameter::ALL.into_iter();
-        all.map(move |own| Parameter::Link(joint, own))
-    });
     let drives = of_drives::<Exact>(robot);
-    let drives = drives.iter().map(Parameter::of_drive);
-    links.chain(drives).collect()
+    let drives = drives.iter().map(|drive| Parameter::of_drive(robot, drive));
+    Parameter::of_bodies(robot).chain(drives).collect()
 }
 
 struct Statement<'a> {

@@ -101,10 +101,10 @@ impl Leaves for AtState<'_> {
         match input {
             Input::Sin(joint) => TrueValue::rounded(self.pairs[joint].sin, 1.0),
             Input::Cos(joint) => TrueValue::rounded(self.pairs[joint].cos, 1.0),
-            Input::PerSpeed(joint) => {
-                let qd = finite(Argument::Velocity, joint);
+            Input::PerSpeed(coordinate) => {
+                let qd = finite(Argument::Velocity, coordinate);
                 self.setup
-                    .per_speed(joint, &qd, TrueValue::constant, TrueValue::sqrt)
+                    .per_speed(coordinate, &qd, TrueValue::constant, TrueValue::sqrt)
             }
             Input::Entry(argument, index) => finite(argument, index),
         }

@@ -55,9 +55,13 @@ impl<'k> Known<'k> {
     pub(crate) fn new(setting: &'k Setting<'k>, ranges: &'k Ranges, load: usize) -> Known<'k> {
         let (joints, rows) = (setting.joints(), &setting.rows);
         let count = rows.len();
+        let over = match setting.base() {
+            0 => "JOINTS",
+            _ => "COORDINATES",
+        };
         let mut items = HashSet::from([
             format!("pub const N: usize = {joints};"),
-            format!("pub const JOINTS: [usize; {count}] = {rows:?};"),
+            format!("pub const {over}: [usize; {count}] = {rows:?};"),
         ]);
         for (name, public, count) in [
             ("Gravity", "pub ", 3),
@@ -140,9 +144,9 @@ impl<'k> Known<'k> {
         let is_single = head.contains("const float ");
         let float = if is_single { "float" } else { "double" };
         let suffix = if is_single { "F" } else { "" };
-        let count = self.setting.joints();
         let (mut ends, mut arguments) = (Ends::default(), Vec::new());
-        for (name, ends) in STATE.iter().zip(&mut ends) {
+        for (place, (name, ends)) in STATE.iter().zip(&mut ends).enumerate() {
+            let count = self.setting.entries(place);
             let own = format!("const {float} {name}[{macros}_RESTRICT {count}]");
             if head.contains(&own) {
                 *ends = Some(vec![None; count]);
@@ -179,15 +183,20 @@ impl<'k> Known<'k> {
     /// Returns true if a box is the robot file's, and open only where the functions of its module
     /// hold everywhere.
     fn has(&self, module: &str, ends: &Ends, is_single: bool) -> bool {
-        let count = self.setting.joints();
         // A box of no functions is another module's.
         let Some(held) = self.held.get(module) else {
             return false;
         };
         (0..3).all(|place| {
             let given = ends[place].as_deref();
+            let base = if place == 0 { 0 } else { self.setting.base() };
+            let is_locked = |index: usize| {
+                let joint = index.checked_sub(base);
+                joint.is_some_and(|joint| self.setting.is_locked(joint))
+            };
+            let count = self.setting.entries(place);
             let is_known = |joint: usize| match given.and_then(|own| own[joint]) {
-                None if self.setting.is_locked(joint) => true,
+                None if is_locked(joint) => true,
                 None if place == 0 => {
                     let is_bounded = held.bounded[0] && self.setting.is_limited(joint);
                     !is_bounded && !held.polynomials.contains(&joint)

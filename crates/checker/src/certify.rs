@@ -128,7 +128,7 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
         literals: Literals::default(),
         setting: &setting,
         tolerance: match tolerance {
-            Some(own) => Some((vec![own; setting.joints()], None)),
+            Some(own) => Some((vec![own; setting.sizes().coordinates], None)),
             None => (setting.tolerance().map_err(of_robot)?).map(|(own, to)| (own, Some(to))),
         },
         scene,
@@ -298,7 +298,11 @@ impl<'w> Whole<'w> {
             let why = "it divides, and no result of it asks for that";
             return Err(refused(why.into()));
         }
-        let base = claimed.base(&self.constants, self.setting.links())?;
+        let base = claimed.base(
+            &self.constants,
+            self.setting.links(),
+            self.setting.base() > 0,
+        )?;
         let head = self.head(claimed, &function, &base, self.is_single(found))?;
         let read = self.read(&head, found)?;
         seen.known.items.extend(structure(&head));
@@ -418,7 +422,7 @@ impl<'w> Whole<'w> {
         base: &Base,
         is_single: bool,
     ) -> Result<Head<'h>, Fault> {
-        let sizes = [self.setting.joints(), self.setting.links()];
+        let sizes = self.setting.sizes();
         let load = self.load()?.map_or(0, |own| own.outputs.len());
         let arguments = function.arguments.iter().map(|&place| {
             let (name, axis) = ARGUMENTS[place];
@@ -442,7 +446,7 @@ impl<'w> Whole<'w> {
             is_single,
             arguments: arguments.collect(),
             fields,
-            joints: sizes[0],
+            joints: sizes.joints,
         })
     }
 
@@ -469,10 +473,11 @@ impl<'w> Whole<'w> {
         if let Some(joint) = joints.find(|joint| !self.setting.turns_by(*joint)) {
             return Err(format!("the sine of joint {}, which slides", joint + 1));
         }
-        for &(joint, literal) in &read.speeds {
-            let square = self.setting.square_of_width(joint);
+        for &(coordinate, literal) in &read.speeds {
+            let square = self.setting.square_of_width(coordinate);
             if !square.is_some_and(|own| own.is_nearest(literal, is_single)) {
-                return Err(format!("another width of friction of joint {}", joint + 1));
+                let joint = (coordinate + 1).saturating_sub(self.setting.base());
+                return Err(format!("another width of friction of joint {joint}"));
             }
         }
         Ok(())

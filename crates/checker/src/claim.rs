@@ -114,7 +114,10 @@ pub struct Planned {
     pub passes: Vec<(String, [usize; 4])>,
     /// The number of joints.
     pub joints: usize,
-    /// The joints that the results are over, from one.
+    /// True if six coordinates of a base that floats come before those of the joints.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub floats: bool,
+    /// The coordinates that the results are over, from one.
     pub rows: Vec<usize>,
     /// The hash of the scene.
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -232,6 +235,10 @@ impl Claim {
     }
 }
 
+fn is_false(value: &bool) -> bool {
+    !value
+}
+
 fn is_name(name: &str) -> bool {
     let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     name.len() < 1 << 7
@@ -326,9 +333,10 @@ impl Claimed {
     /// # Errors
     /// The first word that is no parameter, or no value.
     #[cfg(feature = "certify")]
-    pub fn base(&self, constants: &[Exact], links: usize) -> Result<Base, Fault> {
-        let is_long = |text: &String| text.split_ascii_whitespace().nth(12 * links).is_some();
-        if self.base.len() > 12 * links || self.base.iter().any(is_long) {
+    pub fn base(&self, constants: &[Exact], links: usize, floats: bool) -> Result<Base, Fault> {
+        let most = 12 * (links + usize::from(floats));
+        let is_long = |text: &String| text.split_ascii_whitespace().nth(most).is_some();
+        if self.base.len() > most || self.base.iter().any(is_long) {
             return Err(self.refused("more base parameters than parameters"));
         }
         let term = |word: &str| {
@@ -336,7 +344,7 @@ impl Claimed {
                 Some((factor, name)) => (constant(constants, factor)?.clone(), name),
                 None => (Exact::read("1")?, word),
             };
-            Some((parameter(name, links)?, factor))
+            Some((parameter(name, links, floats)?, factor))
         };
         let read = |word: &str| term(word).ok_or_else(|| self.refused(word));
         let combination = |text: &String| text.split_ascii_whitespace().map(read).collect();
@@ -358,17 +366,21 @@ pub(crate) fn whole(word: &str) -> Option<usize> {
     (word == format!("{number}")).then_some(number)
 }
 
+/// Links are counted from one; a base that floats is zero.
 #[cfg(feature = "certify")]
-fn parameter(name: &str, links: usize) -> Option<usize> {
+fn parameter(name: &str, links: usize, floats: bool) -> Option<usize> {
     const NAMES: [&str; 10] = [
         "m", "mx", "my", "mz", "Ixx", "Iyy", "Izz", "Ixy", "Iyz", "Ixz",
     ];
     let digits = name.find(|c: char| c.is_ascii_digit())?;
-    let link = whole(&name[digits..])?.checked_sub(1)?;
-    let link = Some(link).filter(|link| *link < links)?;
-    match &name[..digits] {
-        "armature" => Some(10 * links + link),
-        "viscous" => Some(11 * links + link),
-        own => Some(10 * link + NAMES.iter().position(|name| *name == own)?),
+    let number = whole(&name[digits..]).filter(|number| *number <= links)?;
+    let (link, drives) = (number.checked_sub(1), 10 * (links + usize::from(floats)));
+    match (&name[..digits], link) {
+        ("armature", link) => Some(drives + link?),
+        ("viscous", link) => Some(drives + links + link?),
+        (own, link) => {
+            let body = if floats { number } else { link? };
+            Some(10 * body + NAMES.iter().position(|name| *name == own)?)
+        }
     }
 }

@@ -345,7 +345,7 @@ fn worse(before: f64, own: f64) -> f64 {
 }
 
 pub(crate) fn ranges(setting: &Setting, body: Body) -> Result<Ranges, String> {
-    let sizes = [setting.joints(), setting.links()];
+    let sizes = setting.sizes();
     let of = |&(name, axis): &(&str, char)| {
         let rate = if name == "tau" { WRENCH } else { RATE };
         let own = setting.ranges(name, rate)?;

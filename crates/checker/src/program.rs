@@ -1,8 +1,9 @@
 //! Straight-line code, over exact constants or over literals.
 
-/// The arguments, in the order in which heads have them, and their lengths.
+/// The arguments, in the order in which heads have them, and their lengths: `j` for an entry a joint,
+/// `n` for one a coordinate of the velocity.
 pub const ARGUMENTS: [(&str, char); 12] = [
-    ("q", 'n'),
+    ("q", 'j'),
     ("qd", 'n'),
     ("qdd", 'n'),
     ("tau", 'n'),
@@ -35,7 +36,7 @@ pub enum Operand<C> {
     Entry(usize, usize),
     /// The sine, or else the cosine, of a joint's angle.
     Sine(usize, bool),
-    /// 1/√(q̇² + w²) of a joint.
+    /// 1/√(q̇² + w²) of a coordinate.
     Speed(usize),
 }
 

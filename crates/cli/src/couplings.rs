@@ -39,12 +39,12 @@ pub struct Coupling {
 }
 
 /// Lists the coefficients of a robot: D, then h, then c, each in the order of its indices;
-/// `None` if it has too many joints.
+/// `None` if it has too many joints, or its base floats.
 pub fn couplings(robot: &Robot) -> Option<Vec<Coupling>> {
     let function = Function::DynamicCoefficients;
     let n = robot.joints.len();
     let sizes = Sizes::whole(n);
-    if function.outputs(sizes) > MAX_OUTPUTS {
+    if robot.floating.is_some() || function.outputs(sizes) > MAX_OUTPUTS {
         return None;
     }
     // Equal functions have equal fingerprints in every formulation. The graph of Lagrange–Euler

@@ -133,9 +133,9 @@ fn formula(
     let input = |input| match input {
         Input::Sin(joint) => libm::sincos(state.q[joint]).0,
         Input::Cos(joint) => libm::sincos(state.q[joint]).1,
-        Input::PerSpeed(joint) => {
-            let qd = state.entry(Argument::Velocity, joint);
-            setup.per_speed(joint, &qd, f64::nearest, |x| libm::sqrt(*x))
+        Input::PerSpeed(coordinate) => {
+            let qd = state.entry(Argument::Velocity, coordinate);
+            setup.per_speed(coordinate, &qd, f64::nearest, |x| libm::sqrt(*x))
         }
         Input::Entry(argument, joint) => state.entry(argument, joint),
     };
@@ -168,7 +168,7 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
         let name = own.function.to_string();
         report.table(&format!("functions/{name}"), &name, steps_of(own));
     }
-    if request.scene.is_none() {
+    if request.scene.is_none() && robot.floating.is_none() {
         let heads = "formulation=Table 3, torques|mul|add|mul as written|add as written";
         let rows = comparisons(robot).map(|(formulation, counts)| {
             let mut row = cells![formulation];

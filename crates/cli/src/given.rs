@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use dalembert_codegen::Function;
 use dalembert_codegen::workspace::{Argument, Emitted, JointState, Quantity, Runtime, Sizes};
+use dalembert_model::number::Rounded;
 use dalembert_model::outputs::Shape;
 use dalembert_model::read::closest;
 use dalembert_model::robot::Robot;
@@ -25,6 +26,8 @@ const FEW_DIGITS: f64 = 1e-4;
 const MOST: usize = 10;
 
 const TORQUE: &str = "torque";
+
+const GRAVITY: &str = "g";
 
 /// The condition of D, by which the source of a state judged the results that need D⁻¹.
 const REMARK: &str = "condition";
@@ -61,11 +64,12 @@ impl Numbers {
     }
 }
 
-/// Reads the states of a robot with n joints.
+/// Reads the states of a robot. Where its base floats, gravity in the base's axes is `g`, the robot
+/// file's unless a state gives it.
 ///
 /// # Errors
 /// The text is not JSON with a list of states, or everything that is wrong with the states.
-pub fn read(text: &str, n: usize) -> Result<Vec<GivenState>, String> {
+pub fn read(text: &str, robot: &Robot) -> Result<Vec<GivenState>, String> {
     let file: File = serde_json::from_str(text).map_err(|error| {
         format!(
             "{error}\n  = help: a file of states is {{\"states\": [{{\"q\": […], \"qd\": […], \"qdd\": […], \
@@ -75,7 +79,7 @@ pub fn read(text: &str, n: usize) -> Result<Vec<GivenState>, String> {
     let mut mistakes = Vec::new();
     let mut states = Vec::new();
     for (at, keys) in (1..).zip(&file.states) {
-        let (state, wrong) = state(keys, n);
+        let (state, wrong) = state(keys, robot);
         states.push(state);
         mistakes.extend(wrong.iter().map(|why| format!("state {at}: {why}")));
     }
@@ -93,9 +97,9 @@ pub fn read(text: &str, n: usize) -> Result<Vec<GivenState>, String> {
     }
 }
 
-fn state(keys: &BTreeMap<String, Numbers>, n: usize) -> (GivenState, Vec<String>) {
+fn state(keys: &BTreeMap<String, Numbers>, robot: &Robot) -> (GivenState, Vec<String>) {
     let mut wrong = Vec::new();
-    let sizes = Sizes::whole(n);
+    let sizes = Sizes::of(robot);
     let mut values = |key: &str, length: usize| -> Option<Vec<f64>> {
         let values = keys.get(key)?.flat();
         if values.len() != length {
@@ -106,9 +110,13 @@ fn state(keys: &BTreeMap<String, Numbers>, n: usize) -> (GivenState, Vec<String>
     };
     let state = JointState::new(|argument| {
         let length = argument.length(sizes);
+        if argument == Argument::Gravity && robot.floating.is_some() {
+            let own = robot.gravity.each_ref().map(f64::nearest_rational);
+            return values(GRAVITY, length).unwrap_or_else(|| own.to_vec());
+        }
         let given = argument.given().and_then(|key| values(key, length));
         let is_motion = Argument::JOINTS[..3].contains(&argument);
-        given.unwrap_or_else(|| vec![0.0; if is_motion { n } else { 0 }])
+        given.unwrap_or_else(|| vec![0.0; if is_motion { length } else { 0 }])
     });
     let mut known = BTreeMap::new();
     let quantities = results().chain(keys.keys().filter_map(|key| at_frame(key)));
@@ -134,7 +142,8 @@ fn state(keys: &BTreeMap<String, Numbers>, n: usize) -> (GivenState, Vec<String>
     let arguments = Argument::ALL.into_iter().filter_map(Argument::given);
     let words: Vec<&str> = arguments.chain(results().map(|(key, _)| key)).collect();
     for key in keys.keys() {
-        if words.contains(&key.as_str()) || key == REMARK || at_frame(key).is_some() {
+        let is_gravity = key == GRAVITY && robot.floating.is_some();
+        if words.contains(&key.as_str()) || key == REMARK || is_gravity || at_frame(key).is_some() {
             continue;
         }
         let shown: String = key.chars().take(40).map(printable).collect();
@@ -196,7 +205,7 @@ pub fn compare(
 ) -> Vec<Compared> {
     let own = emitted.with_libm();
     let function = emitted.function;
-    let sizes = Sizes::whole(robot.joints.len());
+    let sizes = Sizes::of(robot);
     let mut all: BTreeMap<Quantity, Compared> = BTreeMap::new();
     for (index, given) in states.iter().enumerate() {
         // A state need not have what only some functions read.
@@ -243,15 +252,15 @@ pub fn compare(
 }
 
 fn place(quantity: Quantity, entry: usize, robot: &Robot) -> String {
-    let n = robot.joints.len().max(1);
+    let n = robot.coordinates().max(1);
     match quantity.shape() {
         Shape::SCALAR => "its value".to_owned(),
-        Shape::VECTOR => robot.joint_label(entry),
+        Shape::VECTOR => robot.coordinate_label(entry),
         Shape::MATRIX => {
-            let [row, column] = [entry / n, entry % n].map(|joint| robot.joint_label(joint));
+            let [row, column] = [entry / n, entry % n].map(|k| robot.coordinate_label(k));
             format!("row of {row}, column of {column}")
         }
-        _ => quantity.entry(entry, &Vec::from_iter(0..n), Sizes::whole(n)),
+        _ => quantity.entry(entry, &Vec::from_iter(0..n), Sizes::of(robot)),
     }
 }
 

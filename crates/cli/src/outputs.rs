@@ -61,7 +61,7 @@ pub(crate) fn run() -> Outcome {
 /// Returns symbol, shape and unit of a quantity.
 fn result(quantity: Quantity) -> [String; 3] {
     let axis = |axis: &Axis| match axis {
-        Axis::Joints => "n".to_owned(),
+        Axis::Coordinates | Axis::Links => "n".to_owned(),
         Axis::Fixed(length) => length.to_string(),
         Axis::LinkParameters => "10n".to_owned(),
         Axis::BaseParameters => "p".to_owned(),

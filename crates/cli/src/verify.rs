@@ -111,7 +111,7 @@ fn given_states(
 ) -> Result<Vec<GivenState>, Failure> {
     let shown = file.display();
     let fail = |why: String| Failure::Input(format!("error: {shown}: {why}"));
-    let states = given::read(&text(file, MAX_STATES_BYTES)?, source.robot.joints.len());
+    let states = given::read(&text(file, MAX_STATES_BYTES)?, &source.robot);
     let states = states.map_err(fail)?;
     let known = states.iter().flat_map(|state| state.known.keys().copied());
     let known: BTreeSet<Quantity> = known.collect();

@@ -28,7 +28,7 @@ fn scenes_select_along_axes_over_joints() {
         let (mut start, mut at) = (0, 0);
         for quantity in emitted.function.quantities() {
             let sizes = emitted.sizes;
-            let all = sizes.over(3);
+            let all = sizes.over_all(3);
             for index in 0..quantity.len(sizes) {
                 let name = quantity.entry(index, &[2, 0], sizes);
                 let same = |i: &usize| quantity.entry(*i, &[0, 1, 2], all) == name;

@@ -216,6 +216,8 @@ fn unknowns(model: &Model) -> Vec<Unknown> {
 
 fn terms(model: &Model, column: Column) -> Vec<(Unknown, f64)> {
     let unknown = |parameter: Parameter| match parameter {
+        // No model has one: `Model::new` refuses a base that floats.
+        Parameter::Base(own) => Unknown::Link(0, place(own)),
         Parameter::Link(joint, own) => Unknown::Link(joint, place(own)),
         Parameter::Armature(joint) => Unknown::Armature(joint),
         Parameter::Viscous(joint) => Unknown::Viscous(joint),

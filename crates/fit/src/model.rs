@@ -73,6 +73,11 @@ impl Model {
             "joints that follow others (`mimic`) are not identified: fit the arm without them, \
              locked",
         )?;
+        ensure(
+            robot.floating.is_none(),
+            "a base that floats is not identified: fit the limbs with the base held, as a robot \
+             whose base is fixed",
+        )?;
         let limits = Limits::of(&robot);
         ensure(
             limits.iter().all(Limits::moves),

@@ -11,7 +11,7 @@ use crate::select::OTHERS;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct ChainArgs {
-    /// The base link of a URDF or an MJCF, which does not move [default: the root]
+    /// The base link of a URDF or an MJCF, which does not move unless it floats [default: the root]
     #[cfg_attr(feature = "clap", arg(long, value_name = "LINK", help_heading = MODEL))]
     pub base: Option<String>,
     /// The link whose frame is the hand [default: the palm, or the end of the longest chain]; given
@@ -21,6 +21,10 @@ pub struct ChainArgs {
     /// Take every joint that moves: arms on a torso, fingers on a hand
     #[cfg_attr(feature = "clap", arg(long, conflicts_with = "tip", help_heading = MODEL))]
     pub tree: bool,
+    /// Let the base float: a legged robot. Takes every joint that moves, or those on the ways to the tips;
+    /// with --tree, what a free joint carries in the model floats unasked
+    #[cfg_attr(feature = "clap", arg(long, help_heading = MODEL))]
+    pub floating: bool,
     /// Lock a joint at a position in rad or m, such as 0.3, pi/2 or 90deg; JOINT is its name or its
     /// number among the moving joints; may be given several times
     #[cfg_attr(feature = "clap", arg(long, value_name = "JOINT=VALUE", value_parser = lock, help_heading = MODEL))]
@@ -58,6 +62,7 @@ impl ChainArgs {
             base: self.base.clone(),
             tips: self.tip.clone(),
             tree: self.tree,
+            floating: self.floating,
             lock: self.lock.iter().cloned().chain(others).collect(),
             without: self.without.clone(),
             ignore_ties: self.ignore_ties,
@@ -69,11 +74,13 @@ impl ChainArgs {
     pub fn pairs(&self) -> Vec<(String, String)> {
         let lock = |(joint, at): &(String, String)| format!("{joint}={at}");
         let locks: Vec<String> = self.lock.iter().map(lock).collect();
-        let [tree, ties] = [self.tree, self.ignore_ties].map(|is_set| is_set.then(String::new));
-        let options: [(&str, &[String]); 7] = [
+        let set = [self.tree, self.floating, self.ignore_ties];
+        let [tree, floating, ties] = set.map(|is_set| is_set.then(String::new));
+        let options: [(&str, &[String]); 8] = [
             ("base", self.base.as_slice()),
             ("tip", &self.tip),
             ("tree", tree.as_slice()),
+            ("floating", floating.as_slice()),
             ("lock", &locks),
             ("lock-others", self.lock_others.as_slice()),
             ("without", &self.without),
@@ -95,6 +102,7 @@ impl ChainArgs {
                 "base" => args.base = Some(value),
                 "tip" => args.tip.push(value),
                 "tree" => args.tree = true,
+                "floating" => args.floating = true,
                 "lock" => args.lock.push(lock(&value).ok()?),
                 "lock-others" => args.lock_others = Some(value),
                 "without" => args.without.push(value),
@@ -127,6 +135,7 @@ mod tests {
         let args = ChainArgs {
             tip: vec!["left".to_owned(), "right".to_owned()],
             tree: true,
+            floating: true,
             lock: vec![("elbow".to_owned(), "pi/2".to_owned())],
             lock_others: Some("-0.1".to_owned()),
             without: vec!["left".to_owned(), "right".to_owned()],
@@ -134,7 +143,7 @@ mod tests {
             ..ChainArgs::default()
         };
         assert_eq!(ChainArgs::from_pairs(&args.pairs()), Some(args.clone()));
-        let shown = "--tip left --tip right --tree --lock elbow=pi/2 --lock-others -0.1 --without left --without right --ignore-ties";
+        let shown = "--tip left --tip right --tree --floating --lock elbow=pi/2 --lock-others -0.1 --without left --without right --ignore-ties";
         assert_eq!(args.to_string(), shown);
         assert!(ChainArgs::default().pairs().is_empty());
         let unknown = [("top".to_owned(), String::new())];

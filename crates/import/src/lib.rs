@@ -67,14 +67,16 @@ pub const FELT: f64 = 1e-6;
 /// The part to take of a model, and how.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// The link that stands still; without one, the root.
+    /// The link that stands still, or floats; without one, the root.
     pub base: Option<String>,
     /// The link whose frame is the hand; without one, the palm that the fingers hang on
     /// or the end of the longest chain, if there is one; the first of several that one joint moves.
     /// Several take the joints on the ways to all of them.
     pub tips: Vec<String>,
-    /// Take every joint that moves; no tips are given then.
+    /// Take every joint that moves; no tips are given then. What a free joint carries floats.
     pub tree: bool,
+    /// Let the base float; without tips every joint that moves is taken.
+    pub floating: bool,
     /// Joints that stay where they are, each with its position, within the joint's
     /// limits: a number of the model's units, `pi/2` or `90deg`. The name `*` stands for
     /// every joint that hangs on the chain: each is held there, or at the nearest limit. A

@@ -21,9 +21,11 @@ use crate::select::{Selection, State};
 /// A robot as a tree: each joint that moves, with all that is fixed to its link as one body.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree {
+    /// The base with all that is fixed to it, if it floats.
+    pub(crate) base: Option<Body>,
     /// Each body after the one that it hangs on.
     pub(crate) bodies: Vec<Branch>,
-    /// Every link that moves, in the frame of the joint that moves it.
+    /// Every link that moves, in the frame of the joint that moves it, or of a base that floats.
     pub(crate) frames: Vec<Frame>,
     /// The tips that move, each in the frame of its body.
     pub(crate) ends: Vec<(usize, Placement)>,
@@ -45,7 +47,8 @@ pub(crate) struct Branch {
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
     pub(crate) link: usize,
-    pub(crate) body: usize,
+    /// None for a base that floats.
+    pub(crate) body: Option<usize>,
     pub(crate) placement: Placement,
 }
 
@@ -93,9 +96,13 @@ pub(crate) fn merged(
     }
     let mut frames = Vec::new();
     let mut good = true;
-    for (index, branch) in bodies.iter_mut().enumerate() {
+    let mut base = selection.floats.then(|| combined(&[]));
+    let of_base = base.iter_mut().map(|body| (None, body));
+    let of_joints = bodies.iter_mut().enumerate();
+    let of_joints = of_joints.map(|(index, branch)| (Some(index), &mut branch.body));
+    for (index, merged) in of_base.chain(of_joints) {
         let mut parts = Vec::new();
-        for (link, (_, way, _)) in places.iter().filter(|(_, (body, ..))| *body == Some(index)) {
+        for (link, (_, way, _)) in places.iter().filter(|(_, (body, ..))| *body == index) {
             frames.push(Frame {
                 link: *link,
                 body: index,
@@ -118,7 +125,7 @@ pub(crate) fn merged(
             let pose = way.then(&pose(&origin));
             parts.push(moved(&body, &pose, &(&size + origin.size())));
         }
-        branch.body = combined(&parts);
+        *merged = combined(&parts);
     }
     if !good {
         return None;
@@ -147,6 +154,7 @@ pub(crate) fn merged(
         Some((body.as_ref().copied()?, placement(way, &size)))
     });
     Some(Tree {
+        base,
         ends: ends.collect(),
         bodies,
         frames,
@@ -160,13 +168,18 @@ impl Tree {
         bodies.any(|(index, body)| body.parent != index.checked_sub(1))
     }
 
+    /// True if joints are placed in the robot file, and have no rows: it branches, or its base floats.
+    pub(crate) fn is_placed(&self) -> bool {
+        self.base.is_some() || self.branches()
+    }
+
     /// Returns the hand in the frame of the last body, if all bodies lie on one chain.
     pub(crate) fn hand(&self) -> Option<&Placement> {
         let last = self
             .bodies
             .len()
             .checked_sub(1)
-            .filter(|_| !self.branches())?;
+            .filter(|_| !self.is_placed())?;
         let mut ends = self.ends.iter();
         ends.find(|(body, _)| *body == last)
             .map(|(_, placement)| placement)

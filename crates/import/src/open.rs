@@ -123,6 +123,7 @@ impl Options {
             ("base", self.base.is_some()),
             ("tip", !self.tips.is_empty()),
             ("tree", self.tree),
+            ("floating", self.floating),
             ("lock", !self.lock.is_empty()),
             ("without", !self.without.is_empty()),
             ("ignore-ties", self.ignore_ties),

@@ -79,7 +79,7 @@ pub(crate) fn snapped(model: &Model, selection: &Selection, reach: Reach) -> (Mo
             snaps.limit(limit, &of("limit"));
         }
     }
-    for link in selection.links() {
+    for &link in &selection.links {
         let link = &mut model.links[link];
         let Some(inertial) = &mut link.inertial else {
             continue;

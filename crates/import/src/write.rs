@@ -4,10 +4,13 @@ use std::collections::BTreeSet;
 use std::fmt::Display;
 
 use dalembert_model::number::{Angle, Rational};
+use dalembert_model::placed::Body;
 use dalembert_model::robot::values::{
     lines, list, number, numbers, one_line, placement, position, quoted, table, texts, unless_zero,
 };
-use dalembert_model::robot::{HAND, Placement, Robot, is_frame_name, suggested_name, write_frame};
+use dalembert_model::robot::{
+    FloatingBase, HAND, Parent, Placement, Robot, is_frame_name, suggested_name, write_frame,
+};
 use num_traits::{Signed, Zero};
 
 use crate::Options;
@@ -45,14 +48,18 @@ pub(crate) fn file(
     };
     let tips: Vec<&str> = selection.tips.iter().map(|tip| link(*tip)).collect();
     let part = match tips.as_slice() {
+        _ if tree.base.is_some() && options.tips.is_empty() => {
+            format!("All that moves on link {base}, which floats,")
+        }
         _ if options.tree && tree.branches() => format!("All that moves on link {base}"),
         [tip] => format!("From link {base} to link {tip}"),
         tips => format!("From link {base} to the links {}", tips.join(", ")),
     };
-    let mut head = vec![
-        format!("{part} of {file}, by `dalembert import`."),
-        format!("Base axes are those of {base}; gravity is {gravity}."),
-    ];
+    let axes = match tree.base {
+        None => format!("Base axes are those of {base}; gravity is {gravity}."),
+        Some(_) => "Gravity is in the world; functions take it in the base's axes.".to_owned(),
+    };
+    let mut head = vec![format!("{part} of {file}, by `dalembert import`."), axes];
     if snaps.iter().any(|snap| snap.changes) {
         head.push("Numbers that were taken for others, with their lines there:".to_owned());
     }
@@ -62,7 +69,7 @@ pub(crate) fn file(
     }
     head.extend(Snap::counted(snaps).map(|counted| counted + "."));
     let odd = odd_angles(tree);
-    let on_the_circle = tree.branches() && (!options.exact || odd > MOST_ODD);
+    let on_the_circle = tree.is_placed() && (!options.exact || odd > MOST_ODD);
     if on_the_circle && options.exact {
         head.push(format!(
             "{odd} odd angles are within 2^-52 rad of the model's: points of the circle with \
@@ -99,11 +106,21 @@ pub(crate) fn file(
     let joint_names: Vec<String> = (joints.iter().enumerate())
         .map(|(index, joint)| name_of(joint, index, problems))
         .collect();
+    if let Some(body) = &tree.base {
+        text.push_str("\n[[joint]]\n");
+        let kind = Some(quoted(FloatingBase::KIND));
+        lines(&mut text, [("name", Some(quoted(base))), ("kind", kind)]);
+        lines(&mut text, inertial(body));
+    }
     for (index, (model_joint, link)) in joints.iter().zip(&tree.bodies).enumerate() {
         text.push_str("\n[[joint]]\n");
         let parent = (link.parent != index.checked_sub(1)).then(|| match link.parent {
             Some(parent) => quoted(&joint_names[parent]),
-            None => quoted("base"),
+            None => quoted(if tree.base.is_some() {
+                base
+            } else {
+                Parent::BASE
+            }),
         });
         let name = Some(quoted(&joint_names[index]));
         lines(&mut text, [("name", name), ("parent", parent)]);
@@ -146,7 +163,10 @@ impl Writer<'_> {
                 text.push_str(&comment(&format!("Link {link_name}.")));
             }
             text.push_str("[[frame]]\n");
-            let link = (frame.body + 1).to_string();
+            let link = match frame.body {
+                Some(body) => (body + 1).to_string(),
+                None => quoted(Parent::BASE),
+            };
             lines(text, [("name", Some(quoted(&name))), ("link", Some(link))]);
             write_frame(text, &self.as_read(&frame.placement));
             taken.insert(name);
@@ -171,18 +191,20 @@ impl Writer<'_> {
         let axis = joint.axis.each_ref().map(|x| number(&x.value));
         let damping = joint.damping.as_ref();
         let viscous = damping.and_then(|damping| unless_zero(number(&damping.value)));
-        let keys = [
+        let head = [
             ("kind", Some(quoted(kind))),
             ("placement", Some(self.placement(&link.placement))),
             ("axis", Some(list(axis))),
-            ("mass", Some(number(&link.body.mass))),
-            ("com", Some(list(link.body.com.iter().map(number)))),
-            ("inertia", Some(numbers(link.body.inertia.entries()))),
+        ];
+        let keys = [
             ("viscous", viscous),
             ("armature", unless_zero(number(&joint.armature))),
             ("limits", limits),
         ];
-        lines(text, keys);
+        lines(
+            text,
+            head.into_iter().chain(inertial(&link.body)).chain(keys),
+        );
     }
 
     /// Returns a placement whose angles the reader of robot files takes without a warning.
@@ -200,6 +222,14 @@ impl Writer<'_> {
     fn placement(&self, at: &Placement) -> String {
         placement(&self.as_read(at))
     }
+}
+
+fn inertial(body: &Body) -> [(&'static str, Option<String>); 3] {
+    [
+        ("mass", Some(number(&body.mass))),
+        ("com", Some(list(body.com.iter().map(number)))),
+        ("inertia", Some(numbers(body.inertia.entries()))),
+    ]
 }
 
 fn frame_name(link_name: &str, taken: &BTreeSet<String>) -> Option<String> {

@@ -239,3 +239,90 @@ fn what_cannot_be_a_tree_is_said() {
     let ball = r#"<body name="wrist"><joint name="any" type="ball"/><inertial pos="0 0 1" mass="1" diaginertia="1 1 1"/></body>"#;
     says(&mjcf(ball), &tree(), "joint `any` is a ball and hangs");
 }
+
+/// A quadruped that floats: its torques, D, accelerations and slopes are Pinocchio's.
+#[test]
+fn a_base_floats() {
+    let text = data("solo12.urdf");
+    let golden: Value = serde_json::from_str(&data("solo12.golden.json")).unwrap();
+    let options = Options {
+        floating: true,
+        ..Options::default()
+    };
+    let robot = taken(&text, &options).robot;
+    let base = robot.floating.as_ref().unwrap();
+    assert_eq!(base.name.as_deref(), Some("base_link"));
+    assert_eq!((robot.joints.len(), robot.coordinates()), (12, 18));
+    assert_eq!(robot.tips().len(), 4);
+    // Feet are fixed to shins, and what is fixed to the base is a part of it.
+    let foot = robot.frames.iter().find(|frame| frame.name == "fl_foot");
+    assert_eq!(foot.unwrap().row, Some(2));
+    assert!(robot.frames.iter().any(|frame| frame.row.is_none()));
+    // With one tip it is a leg on a base that floats, too.
+    let leg = Options {
+        tips: vec!["FL_FOOT".to_owned()],
+        lock: vec![("*".to_owned(), "0".to_owned())],
+        ..options
+    };
+    assert_eq!(taken(&text, &leg).robot.coordinates(), 9);
+    let names: Vec<&str> = golden["joints"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|name| name.as_str().unwrap())
+        .collect();
+    assert_eq!(coordinates(&robot), names);
+    let arm = Arm::from_robot(&robot, &mut f64::nearest);
+    for state in golden["states"].as_array().unwrap() {
+        let of = |key: &str| DVector::from_vec(flat(&state[key]));
+        let g = flat(&state["g"]);
+        let runtime = Reference::new(arm.clone().with_gravity(&[g[0], g[1], g[2]]));
+        let [q, qd, qdd, effort] = ["q", "qd", "qdd", "effort"].map(of);
+        let tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
+        let gravity = runtime.gravity(&q).unwrap();
+        let bias = runtime.coriolis(&q, &qd).unwrap() + &gravity;
+        let acc = runtime.forward_dynamics(&q, &qd, &effort).unwrap();
+        let d = runtime.inertia(&q).unwrap();
+        for (key, found) in [("tau", tau), ("gravity", gravity), ("bias", bias)] {
+            let off = relative(found.as_slice(), of(key).as_slice());
+            assert!(off < 2e-15, "{key}: {off:e}");
+        }
+        let off = relative(d.as_slice(), &flat(&state["D"]));
+        assert!(off < 2e-15, "D: {off:e}");
+        let off = relative(acc.as_slice(), of("acc").as_slice());
+        assert!(off < 1e-12, "q̈: {off:e}");
+    }
+}
+
+/// A free joint floats where everything that moves is asked for, and not where one arm is.
+#[test]
+fn a_free_joint_floats() {
+    let body = |name: &str, at: &str, inside: &str| {
+        format!(
+            r#"<body name="{name}" pos="{at}"><inertial pos="0 0 0.1" mass="2" diaginertia="0.1 0.1 0.1"/>{inside}</body>"#
+        )
+    };
+    let hinge = |name: &str| format!(r#"<joint name="{name}" type="hinge" axis="0 1 0"/>"#);
+    let foot = body("foot", "0 0 -0.3", &hinge("ankle"));
+    let left = body("left", "0 0.1 0", &(hinge("hip") + &foot));
+    let text = |free: &str| {
+        let trunk = body("trunk", "0 0 0.5", &(free.to_owned() + &left));
+        format!(r#"<mujoco><worldbody>{trunk}</worldbody></mujoco>"#)
+    };
+    for free in ["<freejoint/>", r#"<joint type="free"/>"#] {
+        let robot = taken(&text(free), &tree()).robot;
+        let base = robot.floating.as_ref().unwrap();
+        assert_eq!(base.name.as_deref(), Some("trunk"));
+        assert_eq!(f64::nearest_rational(&base.mass), 2.0);
+        let fixed = taken(&text(free), &Options::default());
+        assert!(fixed.robot.floating.is_none() && !fixed.text.contains("convention"));
+        assert_eq!(fixed.robot.joints.len(), 2);
+    }
+    assert!(taken(&text(""), &tree()).robot.floating.is_none());
+    let floating = Options {
+        floating: true,
+        base: Some("trunk".to_owned()),
+        ..Options::default()
+    };
+    assert!(taken(&text(""), &floating).robot.floating.is_some());
+}

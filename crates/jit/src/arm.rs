@@ -9,7 +9,6 @@ use dalembert_codegen::{
     Counts, Function as Output, Language, Plan, Request, RobotFileError, ScalarType, generate,
 };
 use dalembert_import::{OpenError, Text, is_model, open_text};
-use dalembert_model::equations::regressor::LinkParameter;
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
 use dalembert_stamp::{Comment, Stamp};
@@ -252,11 +251,7 @@ impl Arm {
     /// [`LoadError`]: what is kept is damaged.
     pub fn parameters(&self) -> Result<Vec<(String, f64)>, LoadError> {
         let values = self.setup()?.arm(Exact::clone).parameters();
-        let links = 0..values.len() / LinkParameter::COUNT;
-        let names = links.flat_map(|link| {
-            let all = LinkParameter::ALL.into_iter();
-            all.map(move |own| Parameter::Link(link, own).to_string())
-        });
+        let names = Parameter::of_bodies(&self.robot).map(|own| own.to_string());
         Ok(names.zip(values.iter().map(f64::nearest)).collect())
     }
 

@@ -49,8 +49,8 @@ pub(crate) struct Proved {
     /// The index in `rust`.
     pub(crate) file: usize,
     pub(crate) arguments: Vec<String>,
-    /// Rows, joints, base parameters and load: [`Sizes`].
-    pub(crate) sizes: [usize; 4],
+    /// Rows, links, joints, coordinates of a base that floats, base parameters and load: [`Sizes`].
+    pub(crate) sizes: [usize; 6],
     pub(crate) proof: String,
 }
 
@@ -67,16 +67,25 @@ impl Proved {
             scalar: emitted.scalar.name().to_owned(),
             file,
             arguments: arguments.map(|own| own.name().to_owned()).collect(),
-            sizes: [sizes.rows, sizes.joints, sizes.base, sizes.load],
+            sizes: [
+                sizes.rows,
+                sizes.links,
+                sizes.joints,
+                sizes.floating,
+                sizes.base,
+                sizes.load,
+            ],
             proof: format!("{}{tolerance}", function.proof),
         }
     }
 
     pub(crate) fn sizes(&self) -> Sizes {
-        let [rows, joints, base, load] = self.sizes;
+        let [rows, links, joints, floating, base, load] = self.sizes;
         Sizes {
             rows,
+            links,
             joints,
+            floating,
             base,
             load,
         }

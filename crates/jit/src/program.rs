@@ -85,7 +85,7 @@ pub(crate) fn emit(
     };
     inputs.sines(code)?;
     for speed in &code.speeds {
-        let qd = inputs.input(Input::Entry(Argument::Velocity, speed.joint))?;
+        let qd = inputs.input(Input::Entry(Argument::Velocity, speed.coordinate))?;
         let (one, square) = (emitter.constant(1.0), emitter.constant(speed.square.0));
         let value = emitter.with(|b| {
             let squared = b.ins().fmul(qd, qd);
@@ -93,7 +93,7 @@ pub(crate) fn emit(
             let root = b.ins().sqrt(sum);
             b.ins().fdiv(one, root)
         });
-        let name = Input::PerSpeed(speed.joint);
+        let name = Input::PerSpeed(speed.coordinate);
         inputs.read_before.insert(name, value);
     }
     run(emitter, &code.dag, |input| inputs.input(*input))

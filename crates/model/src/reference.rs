@@ -14,7 +14,7 @@ use crate::equations::kinematics::poses;
 use crate::equations::load::Loading;
 use crate::equations::matrix::{Columns, zeros};
 use crate::equations::regressor::{Column, of_links};
-use crate::equations::{Arm, DhVariables, Formulation, JointPosition, SinCosPair};
+use crate::equations::{Arm, DhVariables, Formulation, JointPosition, SinCosPair, base_position};
 use crate::number::{Exact, Rounded};
 use crate::outputs::{Argument, Axis, Motion, Quantity, Sizes, Written};
 use crate::robot::{JointKind, Robot};
@@ -105,7 +105,8 @@ impl<T: Float> JointVectors<T> {
 /// The dynamics of one arm in floating point.
 ///
 /// All vectors are of length n, from the base to the hand: q in rad or m, q̇ and q̈ in the same per
-/// second, torques in N·m, or N at a prismatic joint. A vector of another length is a
+/// second, torques in N·m, or N at a prismatic joint. Where the base floats, all but q have six
+/// entries of it first, linear over angular in its axes, and the arm's gravity is in these. A vector of another length is a
 /// [`WrongLength`] error; NaN and infinities spread to the outputs.
 ///
 /// ```
@@ -123,6 +124,7 @@ impl<T: Float> JointVectors<T> {
 ///     gravity: [0.0, -9.81, 0.0],
 ///     base: None,
 ///     tool: None,
+///     floats: false,
 ///     links: vec![Link {
 ///         parent: None,
 ///         kind: JointKind::Revolute,
@@ -182,6 +184,11 @@ impl<T: Float> Reference<T> {
 
     /// Returns n, without the joints that follow others.
     pub fn joints(&self) -> usize {
+        self.coordinates() - self.arm.base_joints()
+    }
+
+    /// Returns the number of coordinates of a velocity: six of a base that floats, then n.
+    pub fn coordinates(&self) -> usize {
         self.arm.links.len() - self.arm.following.len()
     }
 
@@ -286,7 +293,7 @@ impl<T: Float> Reference<T> {
     /// `q` has another length than the arm has joints.
     pub fn christoffel(&self, q: &DVector<T>) -> Result<Vec<DMatrix<T>>, WrongLength> {
         let h = self.vector(Quantity::Christoffel, [q])?;
-        let n = self.joints();
+        let n = self.coordinates();
         let matrices = h.as_slice().chunks(n * n);
         Ok(matrices.map(|h| self.matrix(h)).collect())
     }
@@ -328,18 +335,22 @@ impl<T: Float> Reference<T> {
     }
 
     fn sizes(&self) -> Sizes {
-        Sizes::whole(self.joints())
+        Sizes {
+            rows: self.coordinates(),
+            floating: self.arm.base_joints(),
+            ..Sizes::whole(self.joints())
+        }
     }
 
     fn whole_at(&self, q: &DVector<T>) -> Result<Vec<DhVariables<T>>, WrongLength> {
         let q = self.values(Argument::Position, q)?;
-        let motion = Motion::new(self.positions(q), |_| zeros(q.len()));
+        let motion = Motion::new(self.positions(q), |_| zeros(self.coordinates()));
         let motion = motion.of_rows(&self.whole.following);
         Ok(self.whole.at(&motion.q))
     }
 
     fn matrix(&self, rows: &[T]) -> DMatrix<T> {
-        DMatrix::from_row_slice(self.joints(), self.joints(), rows)
+        DMatrix::from_row_slice(self.coordinates(), self.coordinates(), rows)
     }
 
     fn positions(&self, q: &[T]) -> Vec<JointPosition<T>> {
@@ -350,9 +361,11 @@ impl<T: Float> Reference<T> {
             }
             JointKind::Prismatic => JointPosition::Prismatic(*q),
         };
-        let rows = self.rows().into_iter();
+        let base = self.arm.base_joints();
+        let rows = self.rows().into_iter().skip(base);
         let links = rows.map(|row| &self.arm.links[row]);
-        links.zip(q).map(position).collect()
+        let fixed = base_position().into_iter().take(base);
+        fixed.chain(links.zip(q).map(position)).collect()
     }
 
     fn rows(&self) -> Vec<usize> {

@@ -164,6 +164,7 @@ fn wanted(options: &Options<'_, '_>) -> PyResult<Load> {
     load.urdf.base = options.get("base")?;
     load.urdf.tips = options.get("tip")?.unwrap_or_default();
     load.urdf.tree = options.get("tree")?.unwrap_or_default();
+    load.urdf.floating = options.get("floating")?.unwrap_or_default();
     load.urdf.lock = options.get("lock")?.unwrap_or_default();
     load.urdf.without = options.get("without")?.unwrap_or_default();
     load.urdf.exact = options.get("exact")?.unwrap_or_default();

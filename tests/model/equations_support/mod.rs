@@ -15,6 +15,7 @@ pub fn arm<S>(convention: Convention, gravity: [S; 3], links: Vec<Link<S>>) -> A
         gravity,
         base: None,
         tool: None,
+        floats: false,
         links,
         following: Vec::new(),
         frames: Frames::default(),

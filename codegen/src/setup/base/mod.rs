@@ -30,6 +30,7 @@ use dalembert_model::equations::chain::{Chain, Probed, Skeleton};
 use dalembert_model::equations::matrix::opposite;
 use dalembert_model::equations::regressor::{Column, LinkParameter, of_drives, of_links};
 use dalembert_model::number::Exact;
+use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
 
 use super::Setup;
@@ -41,7 +42,9 @@ use moments::{MAX_TERMS, Moment, kept, parts};
 /// A parameter of the robot file, of a link about the origin and in the axes of its own frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Parameter {
-    /// A parameter of a link.
+    /// A parameter of a base that floats.
+    Base(LinkParameter),
+    /// A parameter of the link of a row.
     Link(usize, LinkParameter),
     /// The rotor's inertia of a joint.
     Armature(usize),
@@ -50,17 +53,29 @@ pub enum Parameter {
 }
 
 impl Parameter {
-    pub(crate) fn of_drive(column: &Column<Exact>) -> Parameter {
+    pub(crate) fn of_drive(robot: &Robot, column: &Column<Exact>) -> Parameter {
+        let row = column.joint - robot.base_coordinates();
         match column.of {
-            Probed::Viscous => Parameter::Viscous(column.joint),
-            Probed::Armature | Probed::Body(_) => Parameter::Armature(column.joint),
+            Probed::Viscous => Parameter::Viscous(row),
+            Probed::Armature | Probed::Body(_) => Parameter::Armature(row),
         }
+    }
+
+    /// Lists those of all bodies, in the order of the columns of a full regressor.
+    pub fn of_bodies(robot: &Robot) -> impl Iterator<Item = Parameter> {
+        let base = robot.floating.iter().flat_map(|_| LinkParameter::ALL);
+        let links = (0..robot.rows().len()).flat_map(|row| {
+            let all = LinkParameter::ALL.into_iter();
+            all.map(move |own| Parameter::Link(row, own))
+        });
+        base.map(Parameter::Base).chain(links)
     }
 }
 
 impl fmt::Display for Parameter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Parameter::Base(parameter) => write!(f, "{}0", parameter.name()),
             Parameter::Link(joint, parameter) => write!(f, "{}{}", parameter.name(), joint + 1),
             Parameter::Armature(joint) => write!(f, "armature{}", joint + 1),
             Parameter::Viscous(joint) => write!(f, "viscous{}", joint + 1),
@@ -79,11 +94,16 @@ pub struct BaseParameters {
 
 const FULL: &str = "ask for `full_regressor`, over all parameters of all links";
 
-fn large(joint: usize) -> Complaint {
+fn large(parameter: Parameter) -> Complaint {
+    let body = match parameter {
+        Parameter::Base(_) => "the base".to_owned(),
+        Parameter::Link(row, _) | Parameter::Armature(row) | Parameter::Viscous(row) => {
+            format!("the link of joint {}", row + 1)
+        }
+    };
     let message = format!(
-        "the base parameters that the link of joint {} is part of have more than {MAX_TERMS} products \
-         of sines and cosines of the table's angles",
-        joint + 1
+        "the base parameters that {body} is part of have more than {MAX_TERMS} products of sines and \
+         cosines of the table's angles"
     );
     no_base(message, "give angles that are multiples of pi/2 as such")
 }
@@ -111,7 +131,15 @@ impl BaseParameters {
         let chain = Chain::new(&origins::without_bodies(&skeleton), &regrouping);
 
         let mut candidates: Vec<Column<Exact>> = Vec::new();
-        let mut places: Vec<(usize, Moment)> = Vec::new();
+        // Of a base that floats, or of a link of the chain.
+        let mut places: Vec<(Option<usize>, Moment)> = Vec::new();
+        for &moment in Moment::ALL.iter().filter(|_| arm.floats) {
+            candidates.push(Column {
+                joint: arm.first_body(),
+                of: Probed::Body(moment.unit()),
+            });
+            places.push((None, moment));
+        }
         for (link, segment) in skeleton.links.iter().enumerate() {
             let (turned, moved) = &segment.dh;
             let back = transposed(turned);
@@ -121,7 +149,7 @@ impl BaseParameters {
                     joint: segment.joint,
                     of: Probed::Body(body.moved(&opposite(moved)).turned(&back)),
                 });
-                places.push((link, moment));
+                places.push((Some(link), moment));
             }
         }
         let drives: Vec<Column<Exact>> = of_drives(robot);
@@ -146,30 +174,33 @@ impl BaseParameters {
         let columns: Vec<Column<Exact>> = columns.collect();
         let mut combinations = vec![Vec::new(); columns.len()];
         let over = &reduced.coefficients;
-        for (link, segment) in chain.links.iter().enumerate() {
-            for probe in &segment.probes {
-                let Probed::Body(body) = &probe.of else {
-                    continue;
-                };
-                let joint = probe.column / LinkParameter::COUNT;
-                let own = LinkParameter::ALL[probe.column % LinkParameter::COUNT];
-                let parts = parts(&chain, link, body).ok_or_else(|| large(joint))?;
+        let of_bodies: Vec<Parameter> = Parameter::of_bodies(robot).collect();
+        let on_base = chain.base_probes.iter().map(|probe| (None, probe));
+        let on_links = chain.links.iter().enumerate();
+        let on_links = on_links.flat_map(|(link, own)| {
+            let probes = own.probes.iter();
+            probes.map(move |probe| (Some(link), probe))
+        });
+        for (link, probe) in on_base.chain(on_links) {
+            if let Probed::Body(body) = &probe.of {
+                let parameter = of_bodies[probe.column];
+                let parts = parts(&chain, link, body).ok_or_else(|| large(parameter))?;
                 let mut sums = vec![Exact::zero(); columns.len()];
                 for ((place, moment), over) in places.iter().zip(over) {
-                    let part = moment.read(&parts[*place]);
+                    let part = moment.read(parts.at(*place));
                     for (pivot, factor) in over.iter().filter(|_| !part.is_zero()) {
                         sums[*pivot] = sums[*pivot].add(&part.mul(factor));
                     }
                 }
                 let sums = combinations.iter_mut().zip(sums);
                 for (terms, sum) in sums.filter(|(_, sum)| !sum.is_zero()) {
-                    terms.push((Parameter::Link(joint, own), sum));
+                    terms.push((parameter, sum));
                 }
             }
         }
         for (drive, over) in drives.iter().zip(&over[places.len()..]) {
             for (pivot, factor) in over {
-                combinations[*pivot].push((Parameter::of_drive(drive), factor.clone()));
+                combinations[*pivot].push((Parameter::of_drive(robot, drive), factor.clone()));
             }
         }
         for terms in &mut combinations {
@@ -189,13 +220,14 @@ impl BaseParameters {
 
     /// Returns every base parameter's value for a robot of exact numbers.
     pub fn values(&self, arm: &Arm<Exact>) -> Vec<Exact> {
-        let bodies: Vec<_> = (0..arm.links.len()).map(|joint| arm.body(joint)).collect();
+        let base = arm.base_joints();
         let value = |terms: &Vec<(Parameter, Exact)>| {
             let terms = terms.iter().map(|(parameter, factor)| {
                 let own = match *parameter {
-                    Parameter::Link(joint, own) => own.of_body(&bodies[joint]),
-                    Parameter::Armature(joint) => arm.links[joint].armature.clone(),
-                    Parameter::Viscous(joint) => arm.links[joint].friction.viscous.clone(),
+                    Parameter::Base(own) => own.of_body(&arm.body(arm.first_body())),
+                    Parameter::Link(row, own) => own.of_body(&arm.body(base + row)),
+                    Parameter::Armature(row) => arm.links[base + row].armature.clone(),
+                    Parameter::Viscous(row) => arm.links[base + row].friction.viscous.clone(),
                 };
                 own.mul(factor)
             });

@@ -19,6 +19,20 @@ pub(super) enum Moment {
 }
 
 impl Moment {
+    /// All of a body.
+    pub(super) const ALL: [Moment; 10] = [
+        Moment::Mass,
+        Moment::First(0),
+        Moment::First(1),
+        Moment::First(2),
+        Moment::Second(0, 0),
+        Moment::Second(1, 1),
+        Moment::Second(2, 2),
+        Moment::Second(0, 1),
+        Moment::Second(0, 2),
+        Moment::Second(1, 2),
+    ];
+
     pub(super) fn unit(self) -> Body<Exact> {
         let mut body = Body::zero();
         match self {
@@ -63,14 +77,27 @@ pub(super) fn kept(kind: JointKind) -> &'static [Moment] {
     }
 }
 
+/// What each link keeps of a body, and a base that floats.
+pub(super) struct Parts {
+    base: Body<Exact>,
+    links: Vec<Body<Exact>>,
+}
+
+impl Parts {
+    /// Returns that of a link, or of the base.
+    pub(super) fn at(&self, link: Option<usize>) -> &Body<Exact> {
+        link.map_or(&self.base, |link| &self.links[link])
+    }
+}
+
 pub(super) fn parts(
     chain: &Chain<Exact>,
-    link: usize,
+    link: Option<usize>,
     body: &Body<Exact>,
-) -> Option<Vec<Body<Exact>>> {
+) -> Option<Parts> {
     let mut parts = vec![Body::zero(); chain.links.len()];
     let mut arriving = body.clone();
-    for i in chain.way(link) {
+    for i in link.into_iter().flat_map(|link| chain.way(link)) {
         if terms(&arriving) > MAX_TERMS {
             return None;
         }
@@ -78,7 +105,10 @@ pub(super) fn parts(
         parts[i] = stays;
         arriving = moves;
     }
-    Some(parts)
+    Some(Parts {
+        base: arriving,
+        links: parts,
+    })
 }
 
 fn terms(body: &Body<Exact>) -> usize {

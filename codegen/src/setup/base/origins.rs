@@ -35,6 +35,7 @@ pub(super) fn chosen(skeleton: &Skeleton<Exact>) -> Regrouping<Exact> {
 
 pub(super) fn without_bodies(skeleton: &Skeleton<Exact>) -> Skeleton<Exact> {
     let mut empty = skeleton.clone();
+    empty.base = empty.base.map(|_| Body::zero());
     empty
         .links
         .iter_mut()
@@ -72,6 +73,7 @@ fn cost(frames: &Skeleton<Exact>, regrouping: &Regrouping<Exact>) -> u64 {
             })
             .collect();
     }
+    chain.base_probes.clear();
     chain.columns = kept(JointKind::Revolute).len();
     let counter = Counter::new();
     let chain = chain.map(Exact::counted);
@@ -84,7 +86,7 @@ fn cost(frames: &Skeleton<Exact>, regrouping: &Regrouping<Exact>) -> u64 {
         JointKind::Prismatic => JointPosition::Prismatic(value()),
     });
     let position: Vec<JointPosition<Count<'_>>> = position.collect();
-    let rates: Vec<Count<'_>> = position.iter().map(|_| value()).collect();
+    let rates: Vec<Count<'_>> = (0..chain.coordinates()).map(|_| value()).collect();
     let (chain, at) = chain.posed(&position);
     chain.regressor(&at, &rates, &rates, CompositeOrder::Outward);
     let (multiplications, additions) = counter.counts();

@@ -119,6 +119,10 @@ fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Vec<
     let gravity = Digits.list(entries(Some(&file.gravity)))?;
     let mut all = vec![Part::new("gravity", gravity)];
     let base = Digits.placement(file.base.as_ref())?;
+    if let Some(own) = &file.floating {
+        let body = Digits.body(Some(&own.mass), own.com.as_ref(), own.inertia.as_ref())?;
+        all.extend(weighed("the base", body, &base));
+    }
     let (mut frame, mut links) = (base.clone(), Vec::new());
     for (index, row) in file.joint.iter().enumerate() {
         let name = |what: &str| format!("{what} of joint {}", index + 1);
@@ -165,7 +169,7 @@ fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Vec<
         all.extend(weighed("the payload", body, frame));
     }
     for own in &file.frame {
-        let link = &links[file.row(&own.link)?];
+        let link = file.frame_row(own)?.map_or(&base, |row| &links[row]);
         let at = link.then(&Digits.placement(Some(&own.placement()))?);
         all.push(Part::new(format!("frame `{}`", own.name), at.rows()));
     }
@@ -203,6 +207,10 @@ pub fn check(file: &File, aligned: &File, scene: Option<&str>) -> Result<(), Str
         });
         own.collect::<Result<Vec<_>, String>>()
     };
+    let name = |file: &File| (file.floating.as_ref()).map(|own| own.name.clone());
+    if name(file) != name(aligned) {
+        return Err("the rows have another base than the robot file".into());
+    }
     if kinds(file) != kinds(aligned) || follows(file)? != follows(aligned)? {
         return Err("the rows are of other joints than the robot file's".into());
     }
@@ -213,9 +221,9 @@ pub fn check(file: &File, aligned: &File, scene: Option<&str>) -> Result<(), Str
     if carriers(file)? != carriers(aligned)? {
         return Err("the rows are carried by other links than the robot file's".into());
     }
-    let links = |file: &File| -> Result<Vec<usize>, String> {
+    let links = |file: &File| -> Result<Vec<Option<usize>>, String> {
         let frames = file.frame.iter();
-        frames.map(|own| file.row(&own.link)).collect()
+        frames.map(|own| file.frame_row(own)).collect()
     };
     if links(file)? != links(aligned)? {
         return Err("the rows have frames on other links than the robot file".into());

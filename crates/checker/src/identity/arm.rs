@@ -9,8 +9,8 @@ use num_traits::{ToPrimitive, Zero};
 
 use super::exact::Point;
 use super::number::Number;
-use super::robot::{Placement, Row, angle_of, number_of};
-use super::screw::{Body, Pose, Scalar, Screw, Vector, cross, dot, opposite, scaled};
+use super::robot::{File, Floating, Placement, Row, angle_of, number_of};
+use super::screw::{Body, Pose, Scalar, Screw, Vector, cross, dot, opposite, scaled, sum};
 use super::setting::Setting;
 use super::state::State;
 
@@ -55,7 +55,8 @@ pub(super) const HAND: &str = "hand";
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
     pub(super) name: String,
-    pub(super) row: usize,
+    /// None for a base that floats.
+    pub(super) row: Option<usize>,
     pub(super) pose: Pose,
 }
 
@@ -64,7 +65,10 @@ pub(super) struct Frame {
 pub struct Arm {
     /// The rows of the table, from the base outward.
     pub joints: Vec<Joint>,
+    /// The body of a base that floats.
+    pub(super) base: Option<Body>,
     pub(super) movers: Vec<usize>,
+    /// The coordinates that are locked.
     pub(super) locked: Vec<usize>,
     /// The acceleration of gravity, m/s².
     pub(super) gravity: Vector,
@@ -176,6 +180,21 @@ impl Reading for Point {
 }
 
 impl Point {
+    /// A base that floats stays where it is: in its axes nothing but gravity depends on that.
+    fn floating(&self, file: &File, own: &Floating) -> Result<Body, String> {
+        let places = [&file.base, &file.tool, &file.payload_frame];
+        let is_bare = own.com.is_none() || own.inertia.is_none();
+        let has_mass = !number_of(Some(&own.mass))?.is_zero();
+        if places.into_iter().any(Option::is_some) || file.convention.is_some() {
+            return Err("a base that floats, beside a place of it or rows".into());
+        }
+        if is_bare && has_mass {
+            return Err("the base: expected `com` and `inertia` beside a mass".into());
+        }
+        let (body, centre) = self.body(Some(&own.mass), own.com.as_ref(), own.inertia.as_ref())?;
+        Ok(body.moved(&centre))
+    }
+
     fn line(&self, setting: &Setting, row: usize) -> Result<Line, String> {
         let own = &setting.follows[row];
         let whole = |times: &Rational| times.to_i64().unwrap_or_default();
@@ -291,19 +310,23 @@ impl Arm {
         }
         let gravity = scene.gravity.as_ref().unwrap_or(&file.gravity);
         let mut frames = Vec::new();
-        if !file.branches() {
-            let (name, row) = (HAND.to_owned(), joints.len().saturating_sub(1));
+        if !file.is_tree() {
+            let (name, row) = (HAND.to_owned(), joints.len().checked_sub(1));
             let pose = frame.then(&point.placement(file.tool.as_ref())?);
             frames.push(Frame { name, row, pose });
         }
         for own in &file.frame {
-            let (name, row) = (own.name.clone(), file.row(&own.link)?);
+            let (name, row) = (own.name.clone(), file.frame_row(own)?);
             let placed = point.placement(Some(&own.placement()))?;
-            let pose = joints[row].link.then(&placed);
+            let link = row.map_or(base, |row| joints[row].link);
+            let pose = link.then(&placed);
             frames.push(Frame { name, row, pose });
         }
         let locked = (0..setting.joints()).filter(|&own| setting.is_locked(own));
+        let locked = locked.map(|joint| setting.base() + joint);
+        let body = file.floating.as_ref().map(|own| point.floating(file, own));
         let mut arm = Arm {
+            base: body.transpose()?,
             movers: setting.movers.clone(),
             locked: locked.collect(),
             gravity: point.list(entries(Some(gravity)))?,
@@ -321,6 +344,23 @@ impl Arm {
             arm.carry(row, carried, &point.placement(frame)?);
         }
         Ok(arm)
+    }
+
+    /// Returns the arm as a coordinate of its base grows: where that is has no effect, and as it turns
+    /// gravity turns the other way in its axes.
+    pub(super) fn with_base_turned(&self, coordinate: usize) -> Arm {
+        let mut arm = self.clone();
+        if let Some(axis) = coordinate.checked_sub(3) {
+            let mut turn = Vector::default();
+            turn[axis] = Number::step(1);
+            arm.gravity = sum(arm.gravity, cross(arm.gravity, turn));
+        }
+        arm
+    }
+
+    /// Returns how many coordinates are those of a base that floats: six, or none.
+    pub(super) fn base_coordinates(&self) -> usize {
+        if self.base.is_some() { 6 } else { 0 }
     }
 
     /// Lists a row and those that carry its link, to the base.
@@ -360,15 +400,19 @@ impl Arm {
     /// Returns the parameters that base parameters add up: ten a link, about the origin and in the axes
     /// of its own frame, then armature and viscous friction of each row.
     pub(super) fn parameters(&self) -> Vec<Number> {
-        let links = self.joints.iter().flat_map(|own| {
-            let body = own.body.moved(&own.shown.inverse());
+        let links = self
+            .joints
+            .iter()
+            .map(|own| own.body.moved(&own.shown.inverse()));
+        let bodies = self.base.iter().copied().chain(links);
+        let bodies = bodies.flat_map(|body| {
             let [x, y, z] = body.first;
             let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = body.tensor;
             [body.mass, x, y, z, xx, yy, zz, xy, yz, xz]
         });
         let armatures = self.joints.iter().map(|own| own.armature);
         let viscous = self.joints.iter().map(|own| own.viscous);
-        links.chain(armatures).chain(viscous).collect()
+        bodies.chain(armatures).chain(viscous).collect()
     }
 
     /// 1 where the axes of two joints that turn are parallel at q = 0, −1 where they are opposite.
@@ -382,15 +426,17 @@ impl Arm {
 
     pub(super) fn spread(&self, rates: &[Number]) -> Vec<Number> {
         let leaders = self.joints.iter().map(|own| own.leader);
-        let spread = leaders.map(|(leader, factor)| rates[leader] * factor);
+        let base = self.base_coordinates();
+        let spread = leaders.map(|(leader, factor)| rates[base + leader] * factor);
         spread.collect()
     }
 
     pub(super) fn gathered(&self, loads: impl IntoIterator<Item = Number>) -> Vec<Number> {
-        let mut all = vec![Number::default(); self.movers.len()];
+        let base = self.base_coordinates();
+        let mut all = vec![Number::default(); base + self.movers.len()];
         for (joint, load) in self.joints.iter().zip(loads) {
             let (leader, factor) = joint.leader;
-            all[leader] = all[leader] + load * factor;
+            all[base + leader] = all[base + leader] + load * factor;
         }
         all
     }

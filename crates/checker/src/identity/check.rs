@@ -93,7 +93,7 @@ pub fn check(own: Statement, points: &mut Points) -> Result<(), String> {
     // its determinant of 4 n², and what is derived twice or inverted twice of a small multiple of
     // that. What follows a joint several times as far is of as many times its degree.
     let setting = points.setting;
-    let n = setting.links() as f64;
+    let n = (setting.links() + setting.base()) as f64;
     let own_degree = 200.0 * n * n * setting.turns();
     let load_degree = own.load.map_or(1.0, |load| load.degree().max(1.0));
     let degree = (own.program.degree() * load_degree + own_degree) * (2.0 * n + 1.0);

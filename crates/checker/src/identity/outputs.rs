@@ -17,6 +17,8 @@ struct At<'a> {
     state: &'a State,
     view: &'a View,
     axes: Vec<Screw>,
+    /// That of a base that floats.
+    base: Option<Body>,
     bodies: Vec<Body>,
     /// What the base has moved by, and then each link.
     poses: Vec<Pose>,
@@ -36,6 +38,7 @@ impl<'a> At<'a> {
             state,
             view,
             axes: axes.map(|(own, pose)| pose.screw(own.axis)).collect(),
+            base: arm.base,
             bodies: bodies.map(|(own, pose)| own.body.moved(pose)).collect(),
             poses,
         }
@@ -53,7 +56,20 @@ impl<'a> At<'a> {
     }
 
     fn count(&self) -> usize {
-        self.arm.movers.len()
+        self.first() + self.arm.movers.len()
+    }
+
+    /// Returns how many coordinates come before those of the joints.
+    fn first(&self) -> usize {
+        self.arm.base_coordinates()
+    }
+
+    /// Returns the motion of a base that floats, or one that stands still.
+    fn of_base(&self, rates: &[Number]) -> Screw {
+        match self.base {
+            Some(_) => screw(rates),
+            None => Screw::default(),
+        }
     }
 
     fn given(&self, name: &str) -> &'a [Number] {
@@ -64,14 +80,21 @@ impl<'a> At<'a> {
         vec![0.into(); self.count()]
     }
 
-    /// Returns the wrench that each joint passes on, by the equations of Newton and Euler.
-    fn wrenches(&self, qd: &[Number], qdd: &[Number], gravity: Vector) -> Vec<Screw> {
-        let [qd, qdd] = [qd, qdd].map(|rates| self.arm.spread(rates));
+    /// Returns the wrench on the base, and the one that each joint passes on, by the equations of
+    /// Newton and Euler. Rates of components in axes that turn are those of a motion as such.
+    fn wrenches(&self, qd: &[Number], qdd: &[Number], gravity: Vector) -> (Screw, Vec<Screw>) {
         // A base that is accelerated upward feels what one in gravity does.
-        let base = (
-            Screw::default(),
-            Screw(Vector::default(), opposite(gravity)),
-        );
+        let lifted = Screw(Vector::default(), opposite(gravity));
+        let base = (self.of_base(qd), self.of_base(qdd).plus(lifted));
+        let [qd, qdd] = [qd, qdd].map(|rates| self.arm.spread(rates));
+        let exerted = |body: &Body, (v, a): (Screw, Screw)| {
+            let turned = v.across_momentum(body.momentum(v));
+            body.momentum(a).plus(turned)
+        };
+        let mut on_base = Screw::default();
+        if let Some(body) = &self.base {
+            on_base = exerted(body, base);
+        }
         let mut motions: Vec<(Screw, Screw)> = Vec::new();
         let mut wrenches: Vec<Screw> = Vec::new();
         for (k, joint) in self.arm.joints.iter().enumerate() {
@@ -81,29 +104,34 @@ impl<'a> At<'a> {
             let a = a.plus(axis.times(qdd[k])).plus(v.across(own));
             let v = v.plus(own);
             motions.push((v, a));
-            let turned = v.across_momentum(body.momentum(v));
-            wrenches.push(body.momentum(a).plus(turned));
+            wrenches.push(exerted(body, (v, a)));
         }
         for k in (0..wrenches.len()).rev() {
-            if let Some(carrier) = self.arm.joints[k].parent {
-                wrenches[carrier] = wrenches[carrier].plus(wrenches[k]);
-            }
+            let own = wrenches[k];
+            let carrier = self.arm.joints[k].parent;
+            let carrier = carrier.map_or(&mut on_base, |carrier| &mut wrenches[carrier]);
+            *carrier = carrier.plus(own);
         }
-        wrenches
+        (on_base, wrenches)
     }
 
     /// Returns D q̈ + h, and c if there is gravity, without friction.
     fn loads(&self, qd: &[Number], qdd: &[Number], gravity: Vector) -> Vec<Number> {
-        let wrenches = self.wrenches(qd, qdd, gravity);
+        let (on_base, wrenches) = self.wrenches(qd, qdd, gravity);
         let torques = self.axes.iter().zip(wrenches);
         let torques = torques.map(|(axis, wrench)| axis.power(wrench));
+        let mut loads = self.arm.gathered(torques);
+        let units = base_units().into_iter().take(self.first());
+        for (load, unit) in loads.iter_mut().zip(units) {
+            *load = unit.power(on_base);
+        }
         let drives = self.drives(|own| own.armature, qdd);
-        plus(&self.arm.gathered(torques), &drives)
+        plus(&loads, &drives)
     }
 
     fn with_friction(&self, loads: &[Number], rates: &[Number]) -> Vec<Number> {
         // What follows another joint has no Coulomb friction.
-        let speed = |own: &Joint| self.state.speeds[own.leader.0];
+        let speed = |own: &Joint| self.state.speeds[self.first() + own.leader.0];
         let drag = self.drives(|own| own.viscous + own.coulomb * speed(own), rates);
         plus(loads, &drag)
     }
@@ -126,21 +154,37 @@ impl<'a> At<'a> {
     /// Returns D: if one joint alone moves, all links behind it move as one body.
     fn inertia(&self) -> Matrix {
         let mut d = vec![self.zeros(); self.count()];
-        let mut behind = self.bodies.clone();
+        let (mut behind, first) = (self.bodies.clone(), self.first());
+        let mut whole = self.base.unwrap_or_default();
+        let units = || base_units().into_iter().take(first).enumerate();
         for (k, joint) in self.arm.joints.iter().enumerate().rev() {
-            if let Some(carrier) = joint.parent {
-                behind[carrier] = behind[carrier].plus(&behind[k]);
-            }
-            let momentum = behind[k].momentum(self.axes[k]);
-            let (row, factor) = joint.leader;
+            let own = behind[k];
+            let carrier = joint
+                .parent
+                .map_or(&mut whole, |carrier| &mut behind[carrier]);
+            *carrier = carrier.plus(&own);
+            let momentum = own.momentum(self.axes[k]);
+            let (leader, factor) = joint.leader;
+            let row = first + leader;
             d[row][row] = d[row][row] + joint.armature * factor * factor;
+            for (column, unit) in units() {
+                let entry = unit.power(momentum) * factor;
+                d[row][column] = d[row][column] + entry;
+                d[column][row] = d[column][row] + entry;
+            }
             for i in self.arm.way(k) {
-                let (column, other) = self.arm.joints[i].leader;
+                let (leader, other) = self.arm.joints[i].leader;
+                let column = first + leader;
                 let entry = self.axes[i].power(momentum) * factor * other;
                 d[row][column] = d[row][column] + entry;
                 if i < k {
                     d[column][row] = d[column][row] + entry;
                 }
+            }
+        }
+        for (row, unit) in units() {
+            for (column, other) in units() {
+                d[row][column] = other.power(whole.momentum(unit));
             }
         }
         d
@@ -171,10 +215,21 @@ impl<'a> At<'a> {
         self.loads(&self.zeros(), self.given("qd"), Vector::default())
     }
 
-    /// Returns C(v) w: h is quadratic, so it is half of h(v + w) − h(v) − h(w).
+    /// Returns C(v) w: h is quadratic, so it is half of h(v + w) − h(v) − h(w). Of a base that floats
+    /// half of D [v, w] comes in: how far motions that are constant in its axes do not commute.
     fn across(&self, v: &[Number], w: &[Number]) -> Vec<Number> {
         let both = self.coriolis(&plus(v, w));
-        let twice = minus(&minus(&both, &self.coriolis(v)), &self.coriolis(w));
+        let mut twice = minus(&minus(&both, &self.coriolis(v)), &self.coriolis(w));
+        if self.base.is_some() {
+            let mut bracket = self.zeros();
+            let Screw(turn, shift) = screw(v).across(screw(w));
+            bracket[..3].copy_from_slice(&shift);
+            bracket[3..6].copy_from_slice(&turn);
+            twice = plus(
+                &twice,
+                &self.loads(&self.zeros(), &bracket, Vector::default()),
+            );
+        }
         twice.into_iter().map(|own| own * self.arm.half).collect()
     }
 
@@ -193,13 +248,13 @@ impl<'a> At<'a> {
         self.driven(vec![rest]).concat()
     }
 
-    fn hand(&self) -> Option<(usize, Pose)> {
+    fn hand(&self) -> Option<(Option<usize>, Pose)> {
         let name = match self.view.frame.as_str() {
             "" => HAND,
             name => name,
         };
         let own = self.arm.frames.iter().find(|own| own.name == name)?;
-        let pose = self.poses.get(own.row + 1)?;
+        let pose = self.poses.get(own.row.map_or(0, |row| row + 1))?;
         Some((own.row, pose.then(&own.pose)))
     }
 
@@ -222,15 +277,28 @@ impl<'a> At<'a> {
         let Some((last, hand)) = self.hand() else {
             return Vec::new();
         };
-        let way: Vec<usize> = self.arm.way(last).collect();
+        let way: Vec<usize> = last
+            .into_iter()
+            .flat_map(|last| self.arm.way(last))
+            .collect();
         let column = |(row, own): (usize, &Screw)| {
             let is_on_way = way.contains(&row);
             let own = if is_on_way { *own } else { Screw::default() };
             self.seen(own, &hand)
         };
         let columns = self.axes.iter().enumerate().map(column).collect();
-        let rows = transposed(&columns).into_iter();
-        rows.map(|row| self.arm.gathered(row)).collect()
+        let base = base_units().map(|unit| self.seen(unit, &hand));
+        let base = transposed(&base[..self.first()].to_vec());
+        let rows = transposed(&columns)
+            .into_iter()
+            .map(|row| self.arm.gathered(row));
+        let with_base = |(k, mut row): (usize, Vec<Number>)| {
+            if let Some(own) = base.get(k) {
+                row[..own.len()].copy_from_slice(own);
+            }
+            row
+        };
+        rows.enumerate().map(with_base).collect()
     }
 
     fn moving_jacobian(&self) -> Matrix {
@@ -239,17 +307,53 @@ impl<'a> At<'a> {
 
     /// Returns the slopes of numbers by each entry of an argument, a column each.
     fn slopes(&self, by: usize, of: impl Fn(&At) -> Vec<Number>) -> Matrix {
-        let column = |joint: usize| {
-            let moved = self.state.moving(by, joint, 1);
-            parts(of(&self.moved(&moved, &[by])), 1)
+        let column = |coordinate: usize| {
+            let index = match by {
+                0 => coordinate.checked_sub(self.first()),
+                _ => Some(coordinate),
+            };
+            let own = match index {
+                Some(index) => {
+                    let moved = self.state.moving(by, index, 1);
+                    of(&self.moved(&moved, &[by]))
+                }
+                None => {
+                    let arm = self.arm.with_base_turned(coordinate);
+                    of(&At {
+                        arm: &arm,
+                        ..self.clone()
+                    })
+                }
+            };
+            parts(own, 1)
         };
         transposed(&(0..self.count()).map(column).collect())
     }
 
-    /// Returns J̇q̇: the slope of J q̇ along q̇.
+    /// Returns J̇q̇: the slope of J q̇ along q̇, in axes that do not turn.
     fn rate(&self) -> Vec<Number> {
         let qd = self.given("qd");
-        times(&self.slopes(0, |own| times(&own.jacobian(), qd)), qd)
+        let rate = times(&self.slopes(0, |own| times(&own.jacobian(), qd)), qd);
+        let (Some(_), Some((last, hand))) = (self.base, self.hand()) else {
+            return rate;
+        };
+        // Components in the base's axes, which turn; in the hand's they are what they are.
+        let base = screw(qd);
+        let links = last.into_iter().flat_map(|last| self.arm.way(last));
+        let rates = self.arm.spread(qd);
+        let motion = links.fold(base, |all, k| all.plus(self.axes[k].times(rates[k])));
+        let turned = match self.view.axes.as_str() {
+            "local" => return rate,
+            "world" => base.across(motion),
+            _ => {
+                let linear = sum(motion.1, cross(motion.0, hand.origin));
+                let linear = cross(base.0, linear);
+                // Seen at the hand, the linear part is that of its point.
+                let angular = cross(base.0, motion.0);
+                Screw(angular, sum(linear, cross(hand.origin, angular)))
+            }
+        };
+        plus(&rate, &self.seen(turned, &hand))
     }
 
     /// Returns Jᵀw.
@@ -282,26 +386,33 @@ impl<'a> At<'a> {
     /// Ten columns a link, then armature and viscous friction of the rows that have some.
     fn columns(&self, torques: impl Fn(&At) -> Vec<Number>) -> Matrix {
         let (rows, step) = (self.arm.joints.len(), Number::step(1));
+        let bodies = rows + usize::from(self.base.is_some());
         let column = |place: usize| {
             let mut at = self.clone();
-            if place < 10 * rows {
-                let link = place / 10;
+            if place < 10 * bodies {
                 let entry = |k: usize| if k == place % 10 { step } else { 0.into() };
-                let body =
-                    Body::new(std::array::from_fn(entry)).moved(&self.arm.joints[link].shown);
-                at.bodies[link] = at.bodies[link].plus(&body.moved(&self.poses[link + 1]));
+                let body = Body::new(std::array::from_fn(entry));
+                match ((place / 10 + rows).checked_sub(bodies), &mut at.base) {
+                    (Some(link), _) => {
+                        let body = body.moved(&self.arm.joints[link].shown);
+                        at.bodies[link] = at.bodies[link].plus(&body.moved(&self.poses[link + 1]));
+                    }
+                    (None, Some(own)) => *own = own.plus(&body),
+                    (None, None) => {}
+                }
                 return parts(torques(&at), 1);
             }
+            let place = place - 10 * bodies;
             let mut arm = self.arm.clone();
             let joint = &mut arm.joints[place % rows];
-            let one = match place < 11 * rows {
+            let one = match place < rows {
                 true => &mut joint.armature,
                 false => &mut joint.viscous,
             };
             *one = if one.is_nonzero() { *one + step } else { *one };
             parts(torques(&At { arm: &arm, ..at }), 1)
         };
-        (0..12 * rows).map(column).collect()
+        (0..10 * bodies + 2 * rows).map(column).collect()
     }
 
     /// Returns D a + C v + c + b∘v.
@@ -348,7 +459,8 @@ impl<'a> At<'a> {
             }
             "kinetic" => vec![product(qd, &self.momentum()) * self.arm.half],
             "potential" => {
-                let first = self.bodies.iter().map(|own| own.first);
+                let bodies = self.base.iter().chain(&self.bodies);
+                let first = bodies.map(|own| own.first);
                 vec![-dot(self.arm.gravity, first.fold(Vector::default(), sum))]
             }
             "p" => self.momentum(),
@@ -364,7 +476,7 @@ impl<'a> At<'a> {
             "jacobian" => self.jacobian().concat(),
             "jacobian_rate" => self.rate(),
             "wrenches" => {
-                let wrenches = self.wrenches(qd, self.given("qdd"), self.arm.gravity);
+                let (_, wrenches) = self.wrenches(qd, self.given("qdd"), self.arm.gravity);
                 let about = |(k, own): (usize, Screw)| {
                     let (origin, is_moved) = self.arm.joints[k].origin;
                     let origin = self.poses[k + usize::from(is_moved)].apply(origin);
@@ -405,7 +517,8 @@ impl<'a> At<'a> {
             "y" | "y_base" => {
                 let mut columns = self.columns(|own| own.torques(own.given("qdd")));
                 if is == "y" {
-                    columns.truncate(10 * self.arm.joints.len());
+                    let drives = 2 * self.arm.joints.len();
+                    columns.truncate(columns.len() - drives);
                 }
                 transposed(&columns).concat()
             }
@@ -413,6 +526,21 @@ impl<'a> At<'a> {
             _ => Vec::new(),
         }
     }
+}
+
+/// Returns the motion of which these are the components, linear over angular.
+fn screw(six: &[Number]) -> Screw {
+    let part = |from: usize| std::array::from_fn(|k| six[from + k]);
+    Screw(part(3), part(0))
+}
+
+/// Returns unit motions of a base that floats: along x, y and z, then about these.
+fn base_units() -> [Screw; 6] {
+    let unit = |k: usize| std::array::from_fn(|i| Number::from(i64::from(i == k)));
+    std::array::from_fn(|k| match k.checked_sub(3) {
+        None => Screw(Vector::default(), unit(k)),
+        Some(axis) => Screw(unit(axis), Vector::default()),
+    })
 }
 
 fn parts(values: Vec<Number>, part: usize) -> Vec<Number> {
@@ -423,6 +551,9 @@ fn parts(values: Vec<Number>, part: usize) -> Vec<Number> {
 /// `d2tau_dq_dqd` those of λᵀτ by q and q̇. None of a field that has no formula.
 pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
     let own = At::new(arm, state, &field.view);
+    if arm.base.is_some() && field.is_of_fixed_base() {
+        return None;
+    }
     // A frame that is not there has no results, of which others would be short.
     if field.is_of_frame() {
         own.hand()?;
@@ -462,6 +593,7 @@ pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
 pub fn selected(field: &Field, setting: &Setting, values: Vec<Number>) -> Vec<Number> {
     let lengths = field.lengths(setting, 0).into_iter();
     let mut parts = vec![values];
+    let joint_rows = setting.joint_rows();
     for (axis, length) in field.axes.chars().zip(lengths) {
         // Behind these nothing is over joints.
         if ['l', 'b'].contains(&axis) {
@@ -469,7 +601,8 @@ pub fn selected(field: &Field, setting: &Setting, values: Vec<Number>) -> Vec<Nu
         }
         let all: Vec<usize> = (0..length).collect();
         let (count, rows) = match axis {
-            'n' => (setting.joints(), &setting.rows),
+            'n' => (setting.sizes().coordinates, &setting.rows),
+            'j' => (setting.joints(), &joint_rows),
             _ => (length, &all),
         };
         let split = parts.iter().flat_map(|part| {

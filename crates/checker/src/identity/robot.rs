@@ -19,6 +19,9 @@ pub struct File {
     pub(super) convention: Option<String>,
     pub(super) gravity: [String; 3],
     pub(super) joint: Vec<Row>,
+    /// The base, if it floats: the first joint of the file.
+    #[serde(skip)]
+    pub(super) floating: Option<Floating>,
     pub(super) base: Option<Placement>,
     pub(super) payload_frame: Option<Placement>,
     pub(super) tool: Option<Placement>,
@@ -158,6 +161,28 @@ pub(super) struct Row {
     pub(super) limits: Limits,
 }
 
+/// A base that floats. Its limits are of six numbers, linear over angular.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code, reason = "keys that the equations do not read")]
+pub(super) struct Floating {
+    pub(super) name: Option<String>,
+    kind: IgnoredAny,
+    pub(super) mass: String,
+    pub(super) com: Option<[String; 3]>,
+    pub(super) inertia: Option<[String; 6]>,
+    #[serde(default)]
+    pub(super) limits: BaseLimits,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct BaseLimits {
+    pub(super) velocity: Option<[String; 6]>,
+    pub(super) acceleration: Option<[String; 6]>,
+    pub(super) torque: Option<[String; 6]>,
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Mimic {
@@ -185,7 +210,7 @@ impl File {
         let why = match own.parent.as_deref() {
             None => return Ok(row.checked_sub(1)),
             Some(_) if own.placement.is_none() => "has a `parent` and no placement",
-            Some("base") => return Ok(None),
+            Some(word) if self.is_base(word) => return Ok(None),
             Some(word) => match self.row(word)? {
                 carrier if carrier < row => return Ok(Some(carrier)),
                 _ => "comes before its `parent`",
@@ -194,8 +219,26 @@ impl File {
         Err(format!("joint {}: it {why}", row + 1))
     }
 
-    /// Returns true if links have more than one end: there is no hand, and nothing to hold.
-    pub(super) fn branches(&self) -> bool {
+    /// Returns true for the name of the base.
+    pub(super) fn is_base(&self, word: &str) -> bool {
+        let own = self.floating.as_ref().and_then(|own| own.name.as_deref());
+        word == "base" || own == Some(word)
+    }
+
+    /// Returns the row whose link a frame is fixed to; none for a base that floats.
+    pub(super) fn frame_row(&self, own: &NamedFrame) -> Result<Option<usize>, String> {
+        match self.floating.is_some() && self.is_base(&own.link) {
+            true => Ok(None),
+            false => self.row(&own.link).map(Some),
+        }
+    }
+
+    /// Returns true if the base floats, or links have more than one end: there is no hand.
+    pub(super) fn is_tree(&self) -> bool {
+        self.floating.is_some() || self.branches()
+    }
+
+    fn branches(&self) -> bool {
         let rows = 1..self.joint.len();
         rows.into_iter()
             .any(|row| self.carrier(row) != Ok(Some(row - 1)))
@@ -208,7 +251,7 @@ impl File {
     pub(super) fn holder(&self, link: Option<&String>) -> Result<usize, String> {
         let last = self.joint.len().saturating_sub(1);
         let row = link.map(|link| self.row(link)).transpose()?;
-        match (row, self.branches()) {
+        match (row, self.is_tree()) {
             (Some(row), true) => Ok(row),
             (None, true) => Err("a payload, and no link that holds it".into()),
             (Some(row), false) if row != last => {
@@ -230,6 +273,9 @@ impl File {
         self.moved = scene.and_then(|name| self.scene.remove(name)?.payload);
         self.scene = other.scene;
         self.limits = other.limits;
+        if let (Some(own), Some(other)) = (&mut self.floating, other.floating) {
+            own.limits = other.limits;
+        }
         for (own, other) in self.joint.iter_mut().zip(other.joint) {
             own.limits = other.limits;
         }
@@ -246,8 +292,17 @@ pub fn read(source: &str) -> Result<File, String> {
         return Err("a robot file of more than 256 KiB".into());
     }
     let table = DeTable::parse(source).map_err(|error| error.to_string())?;
-    let value = plain(&DeValue::Table(table.into_inner()))?;
-    serde_json::from_value(value).map_err(|error| format!("robot file: {error}"))
+    let mut value = plain(&DeValue::Table(table.into_inner()))?;
+    let wrong = |error: serde_json::Error| format!("robot file: {error}");
+    let joints = value.get_mut("joint").and_then(Value::as_array_mut);
+    let floats = |own: &&mut Vec<Value>| own.first().is_some_and(|own| own["kind"] == "floating");
+    let floating = joints.filter(floats).map(|joints| joints.remove(0));
+    let mut file: File = serde_json::from_value(value).map_err(wrong)?;
+    file.floating = floating
+        .map(serde_json::from_value)
+        .transpose()
+        .map_err(wrong)?;
+    Ok(file)
 }
 
 /// Reads a number; one that is missing is zero.

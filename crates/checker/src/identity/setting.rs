@@ -8,6 +8,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::exact::{Angle, Exact, number};
 use super::robot::{File, OneOrEach, Row, Scene, number_of};
+use super::table::{Sizes, length};
 use crate::payload::Body;
 use crate::program::{ARGUMENTS, Operand};
 
@@ -27,7 +28,7 @@ pub struct Setting<'f> {
     pub(super) locks: Vec<Option<&'f String>>,
     /// `true` where q̇, and q̈, is zero.
     pub(super) still: [bool; 2],
-    /// The joints that results are over, from zero.
+    /// The coordinates that results are over, from zero.
     pub rows: Vec<usize>,
 }
 
@@ -64,13 +65,15 @@ impl File {
             locks[joint(word)?] = Some(position);
         }
         let free = (0..movers.len()).filter(|&own| locks[own].is_none());
-        let rows = match &scene.joints {
+        let joints: Vec<usize> = match &scene.joints {
             Some(list) => list
                 .iter()
                 .map(|word| joint(word))
                 .collect::<Result<_, _>>()?,
             None => free.collect(),
         };
+        let base = self.base_coordinates();
+        let rows = (0..base).chain(joints.into_iter().map(|joint| base + joint));
         Ok(Setting {
             file: self,
             scene,
@@ -78,8 +81,13 @@ impl File {
             movers,
             locks,
             still: [scene.velocity.is_some(), scene.acceleration.is_some()],
-            rows,
+            rows: rows.collect(),
         })
+    }
+
+    /// Returns how many coordinates are those of a base that floats: six, or none.
+    pub(super) fn base_coordinates(&self) -> usize {
+        if self.floating.is_some() { 6 } else { 0 }
     }
 
     /// Returns the row of a joint's number, from one, or of its name.
@@ -144,6 +152,35 @@ impl Setting<'_> {
         self.movers.len()
     }
 
+    /// Returns how many coordinates come before those of the joints.
+    pub fn base(&self) -> usize {
+        self.file.base_coordinates()
+    }
+
+    /// Returns the numbers that lengths follow from.
+    pub fn sizes(&self) -> Sizes {
+        Sizes {
+            joints: self.joints(),
+            coordinates: self.base() + self.joints(),
+            bodies: self.links() + usize::from(self.file.floating.is_some()),
+        }
+    }
+
+    /// Returns how many entries an argument of the state has: a joint each, or a coordinate each.
+    pub fn entries(&self, place: usize) -> usize {
+        let axis = ARGUMENTS.get(place).map_or('0', |own| own.1);
+        length(axis, self.sizes())
+    }
+
+    /// Returns the joints among the coordinates that results are over.
+    pub fn joint_rows(&self) -> Vec<usize> {
+        let joints = self
+            .rows
+            .iter()
+            .filter_map(|row| row.checked_sub(self.base()));
+        joints.collect()
+    }
+
     /// Returns how many links there are.
     pub fn links(&self) -> usize {
         self.file.joint.len()
@@ -201,7 +238,17 @@ impl Setting<'_> {
             let range = range.filter(|[low, high]| low <= high);
             range.ok_or_else(|| format!("joint {}: the range of `{name}` is empty", joint + 1))
         };
-        let all = (0..self.joints()).map(range);
+        let of_base = |k: usize| {
+            let text = self.base_limit(limit).map(|six| &six[k]);
+            let most = text.map_or(Some(rate), |text| number(text)?.to_f64());
+            let most = if is_still { Some(0.0) } else { most };
+            let range = most
+                .map(|most| [-most, most])
+                .filter(|[low, high]| low <= high);
+            range.ok_or_else(|| format!("the base: the range of `{name}` is empty"))
+        };
+        let base = if name == "q" { 0 } else { self.base() };
+        let all = (0..base).map(of_base).chain((0..self.joints()).map(range));
         Ok(Some(all.collect::<Result<_, String>>()?))
     }
 
@@ -268,9 +315,23 @@ impl Setting<'_> {
         Ok(Some((read.ok_or(wrong)?, &own.relative_to)))
     }
 
-    /// Returns a joint's limit of `velocity`, `acceleration` or `torque`, if there is one.
-    pub fn limit(&self, joint: usize, name: &str) -> Option<f64> {
-        number(self.limit_text(joint, name)?)?.to_f64()
+    /// Returns a coordinate's limit of `velocity`, `acceleration` or `torque`, if there is one.
+    pub fn limit(&self, coordinate: usize, name: &str) -> Option<f64> {
+        let text = match coordinate.checked_sub(self.base()) {
+            Some(joint) => self.limit_text(joint, name)?,
+            None => &self.base_limit(name)?[coordinate],
+        };
+        number(text)?.to_f64()
+    }
+
+    fn base_limit(&self, name: &str) -> Option<&[String; 6]> {
+        let limits = &self.file.floating.as_ref()?.limits;
+        let own = match name {
+            "velocity" => &limits.velocity,
+            "acceleration" => &limits.acceleration,
+            _ => &limits.torque,
+        };
+        own.as_ref()
     }
 
     /// Returns the text of a limit: the box's, else that of the joint.
@@ -290,11 +351,15 @@ impl Setting<'_> {
     pub fn is_fixed<C>(&self, own: &Operand<C>) -> bool {
         match own {
             Operand::Sine(joint, _) => self.is_locked(*joint),
-            Operand::Speed(joint) => self.is_locked(*joint) || self.still[0],
-            Operand::Entry(place, joint) => {
-                let is_of_joints = ARGUMENTS.get(*place).is_some_and(|own| own.1 == 'n');
+            Operand::Speed(coordinate) => self.is_held(*coordinate) || self.still[0],
+            Operand::Entry(place, index) => {
                 let is_still = matches!(place, 1 | 2) && self.still[place - 1];
-                is_of_joints && self.is_locked(*joint) || is_still
+                let is_locked = match ARGUMENTS.get(*place).map(|own| own.1) {
+                    Some('j') => self.is_locked(*index),
+                    Some('n') => self.is_held(*index),
+                    _ => false,
+                };
+                is_locked || is_still
             }
             Operand::Step(_) | Operand::Constant(_) => false,
         }
@@ -305,15 +370,21 @@ impl Setting<'_> {
         self.locks.get(joint).is_some_and(Option::is_some)
     }
 
+    fn is_held(&self, coordinate: usize) -> bool {
+        let joint = coordinate.checked_sub(self.base());
+        joint.is_some_and(|joint| self.is_locked(joint))
+    }
+
     /// Returns true for a joint that turns.
     pub fn turns_by(&self, joint: usize) -> bool {
         let row = self.movers.get(joint);
         row.is_some_and(|row| self.file.joint[*row].turns())
     }
 
-    /// Returns w² of a joint with Coulomb friction. Of others nothing may be read: the identity
+    /// Returns w² of a coordinate with Coulomb friction. Of others nothing may be read: the identity
     /// takes their 1/√(q̇² + w²) to be zero.
-    pub fn square_of_width(&self, joint: usize) -> Option<Exact> {
+    pub fn square_of_width(&self, coordinate: usize) -> Option<Exact> {
+        let joint = coordinate.checked_sub(self.base())?;
         let is_joint = joint < self.joints();
         let width = is_joint.then(|| self.width(joint))?.ok()??;
         Some(Exact::from(&width * &width))
@@ -323,7 +394,10 @@ impl Setting<'_> {
     pub fn is_unlimited(&self) -> bool {
         let given = &self.scene.r#box;
         let [rates, more] = [given.velocity.is_none(), given.acceleration.is_none()];
+        let base = self.file.floating.as_ref().map(|own| &own.limits);
+        let is_free = base.is_some_and(|own| own.velocity.is_none() || own.acceleration.is_none());
         let mut rows = self.movers.iter().map(|&row| &self.file.joint[row].limits);
-        rows.any(|own| rates && own.velocity.is_none() || more && own.acceleration.is_none())
+        is_free
+            || rows.any(|own| rates && own.velocity.is_none() || more && own.acceleration.is_none())
     }
 }

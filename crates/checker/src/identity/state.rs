@@ -14,7 +14,7 @@ pub struct State {
     pub given: Vec<Vec<Number>>,
     /// Sine and cosine of each joint's angle.
     pub pairs: Vec<[Number; 2]>,
-    /// 1/√(q̇² + w²) of each joint with Coulomb friction.
+    /// 1/√(q̇² + w²) of each coordinate with Coulomb friction.
     pub speeds: Vec<Number>,
 }
 
@@ -24,26 +24,26 @@ impl State {
     /// # Errors
     /// A position that the scene fixes is no number.
     pub fn draw(point: &Point, setting: &Setting) -> Result<State, String> {
-        let sizes = [setting.joints(), setting.links()];
+        let (sizes, base) = (setting.sizes(), setting.base());
         let list = |axis: char| (0..length(axis, sizes)).map(|_| point.residue()).collect();
         let mut state = State {
             given: ARGUMENTS.iter().map(|own| list(own.1)).collect(),
-            pairs: (0..sizes[0]).map(|_| point.pair()).collect(),
-            speeds: vec![0.into(); sizes[0]],
+            pairs: (0..sizes.joints).map(|_| point.pair()).collect(),
+            speeds: vec![0.into(); sizes.coordinates],
         };
         let is_fixed = |own: Operand<()>| setting.is_fixed(&own);
-        for joint in 0..sizes[0] {
+        for joint in 0..sizes.joints {
             // Velocities of which 1/√(q̇² + w²) is a residue too: q̇ = (u − w²/u)/2, and the root
             // is (u + w²/u)/2.
             if let Some(width) = setting.width(joint)? {
                 let (u, half, width) = (point.residue(), point.half(), point.number(&width));
                 let rest = width * width / u;
-                state.given[1][joint] = (u - rest) * half;
-                let root = match is_fixed(Operand::Speed(joint)) {
+                state.given[1][base + joint] = (u - rest) * half;
+                let root = match is_fixed(Operand::Speed(base + joint)) {
                     true => width,
                     false => (u + rest) * half,
                 };
-                state.speeds[joint] = Number::from(1) / root;
+                state.speeds[base + joint] = Number::from(1) / root;
             }
         }
         for (joint, lock) in setting.locks.iter().enumerate() {
@@ -66,17 +66,17 @@ impl State {
     }
 
     /// Returns the state in which an entry of an argument has a slope of one in direction 1 or 2.
-    pub fn moving(&self, argument: usize, joint: usize, direction: usize) -> State {
+    pub fn moving(&self, argument: usize, index: usize, direction: usize) -> State {
         let (mut state, step) = (self.clone(), Number::step(direction));
-        let own = self.given[argument][joint];
-        state.given[argument][joint] = own + step;
+        let own = self.given[argument][index];
+        state.given[argument][index] = own + step;
         // f(x + ε) is f(x) + f′(x) ε, also where x moves already.
         if argument == 0 {
-            let [sin, cos] = self.pairs[joint];
-            state.pairs[joint] = [sin + cos * step, cos - sin * step];
+            let [sin, cos] = self.pairs[index];
+            state.pairs[index] = [sin + cos * step, cos - sin * step];
         } else if argument == 1 {
-            let speed = self.speeds[joint];
-            state.speeds[joint] = speed - own * speed * speed * speed * step;
+            let speed = self.speeds[index];
+            state.speeds[index] = speed - own * speed * speed * speed * step;
         }
         state
     }

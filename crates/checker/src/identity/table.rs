@@ -6,8 +6,8 @@ use super::setting::Setting;
 use crate::program::{ARGUMENTS, argument};
 
 /// Every function, its arguments in order, and its results: the field in a struct, what it is where
-/// that is another word, and the lengths of its axes. `n` is the joints, `l` ten a link, `b` the
-/// base parameters.
+/// that is another word, and the lengths of its axes. `n` is the coordinates, `j` the joints, `l` ten
+/// a body, `b` the base parameters.
 const TABLE: &str = "
     inverse_dynamics: q qd qdd -> tau[n]
     gravity: q -> c[n]
@@ -21,10 +21,10 @@ const TABLE: &str = "
     coriolis_matrix: q qd -> c_matrix[nn]
     dalembert_terms: q qd -> d_rot[nn] d_tran[nn] h_rot[n] h_tran[n] c[n]
     forward_kinematics: q -> pose[34]
-    link_poses: q -> poses[n34]
+    link_poses: q -> poses[j34]
     jacobian: q -> jacobian[6n]
     jacobian_rate: q qd -> jacobian_rate[6]
-    reaction_wrenches: q qd qdd -> wrenches[n6]
+    reaction_wrenches: q qd qdd -> wrenches[j6]
     inverse_dynamics_derivatives: q qd qdd -> dtau_dq[nn] dtau_dqd[nn] d[nn]
     passivity: q qd v a -> tau=passivity[n]
     forward_dynamics: q qd tau -> qdd[n]
@@ -82,11 +82,23 @@ pub struct Function {
     pub fields: Vec<Field>,
 }
 
-/// Returns the length of an axis over so many joints, or links.
-pub fn length(axis: char, [joints, links]: [usize; 2]) -> usize {
+/// The numbers that lengths follow from.
+#[derive(Clone, Copy, Debug)]
+pub struct Sizes {
+    /// The joints that move by themselves.
+    pub joints: usize,
+    /// Those, and six of a base that floats.
+    pub coordinates: usize,
+    /// The links, and a base that floats.
+    pub bodies: usize,
+}
+
+/// Returns the length of an axis.
+pub fn length(axis: char, sizes: Sizes) -> usize {
     match axis {
-        'n' => joints,
-        'l' => 10 * links,
+        'j' => sizes.joints,
+        'n' => sizes.coordinates,
+        'l' => 10 * sizes.bodies,
         'p' => 10,
         digit => digit.to_digit(10).unwrap_or(0) as usize,
     }
@@ -159,6 +171,12 @@ impl Field {
         INVERSES.split_whitespace().any(|word| word == self.is)
     }
 
+    /// Returns true if it is of a fixed base alone.
+    pub(super) fn is_of_fixed_base(&self) -> bool {
+        const WORDS: &str = "symbols d_rot d_tran h_rot h_tran";
+        self.is.starts_with("d2") || WORDS.split(' ').any(|own| own == self.is)
+    }
+
     /// A torque of each joint, D of each two, or a coefficient of each three.
     pub(crate) fn is_measured(&self) -> bool {
         let known = "tau c h h_rot h_tran d d_rot d_tran symbols";
@@ -169,9 +187,10 @@ impl Field {
     pub fn lengths(&self, setting: &Setting, base: usize) -> Vec<usize> {
         let of = |axis: char| match axis {
             'n' => setting.rows.len(),
+            'j' => setting.joint_rows().len(),
             'b' => base,
             '6' if !self.view.rows.is_empty() => self.view.rows.len(),
-            axis => length(axis, [setting.joints(), setting.links()]),
+            axis => length(axis, setting.sizes()),
         };
         self.axes.chars().map(of).collect()
     }

@@ -116,6 +116,8 @@ impl Change {
         match self {
             Change::Repeated(most) if n >= most => return None,
             Change::Typed if !has_right_angle => return None,
+            // Where it is has no effect.
+            Change::FarBase if robot.floating.is_some() => return None,
             Change::Weightless => made.gravity = Default::default(),
             Change::Payload(e) => {
                 // At (0.1, 0, 0.1) m in the hand.

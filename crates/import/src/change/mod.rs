@@ -26,6 +26,9 @@ use crate::merge::{Branch, Tree};
 use crate::model::{Kind, Model, Number, positive};
 use pair::{Pair, next_up_unless_zero, root_of_squares, upward, vectors};
 
+/// √3, not below.
+const ROOT_3: f64 = 1.7320508075688774;
+
 /// Bounds of how far torques and pose of the snapped arm are from those of the URDF's digits.
 #[derive(Clone, Debug)]
 pub struct Change {
@@ -33,8 +36,9 @@ pub struct Change {
     /// The ends, each with its body, and from there: how far it is, and how it is turned.
     ends: Vec<(usize, [Pair; 2])>,
     limits: Motion,
-    /// The size of gravity, m/s².
-    gravity: f64,
+    /// The sizes of ω, ω̇ and v̇ of the base, the same of both: that of gravity, and those of a base
+    /// that floats.
+    base: [f64; 3],
     efforts: Option<Vec<f64>>,
 }
 
@@ -88,8 +92,8 @@ impl Change {
     fn pairs(&self, motion: &Motion) -> Vec<Pair> {
         let value =
             |values: &[f64], i: usize| Pair::of(values.get(i).copied().unwrap_or(0.0).abs());
-        // ω, ω̇ and v̇ of each body; those of the base are gravity, the same of both.
-        let base = [Pair::ZERO, Pair::ZERO, Pair::of(self.gravity)];
+        // ω, ω̇ and v̇ of each body.
+        let base = self.base.map(Pair::of);
         let mut motions: Vec<[Pair; 3]> = Vec::with_capacity(self.links.len());
         let mut loads = Vec::with_capacity(self.links.len());
         for (i, part) in self.links.iter().enumerate() {
@@ -258,9 +262,16 @@ pub(crate) fn bound(written: &Tree, snapped: &Tree, model: &Model, options: &Opt
         let sizes = gravity.each_ref().map(|x| upper(&x.value));
         root_of_squares(&sizes)
     });
+    let gravity = gravity.unwrap_or(9.81);
+    // Each component at most as of joints without limits: of three, and of ω × v.
+    let (speed, rise) = (3.0 * ROOT_3, otherwise * ROOT_3);
+    let base = match snapped.base {
+        None => [0.0, 0.0, gravity],
+        Some(_) => [speed, rise, gravity + rise + speed * speed].map(f64::next_up),
+    };
     Change {
         limits,
-        gravity: gravity.unwrap_or(9.81),
+        base,
         ends: ends.collect(),
         efforts: efforts.collect(),
         links: links

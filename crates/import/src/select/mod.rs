@@ -28,12 +28,17 @@ pub(crate) const OTHERS: &str = "*";
 #[derive(Clone, Debug)]
 pub(crate) struct Selection {
     pub(crate) base: usize,
+    /// True if the base floats.
+    pub(crate) floats: bool,
     pub(crate) tips: Vec<usize>,
     /// The joints of the robot, each after the one that it hangs on.
     pub(crate) order: Vec<usize>,
     pub(crate) states: Vec<State>,
-    /// The joint that moves each link: none for links that stand still or are not in the robot.
+    /// The joint that moves each link: none for links that are fixed to the base or are not in the
+    /// robot.
     pub(crate) movers: Vec<Option<usize>>,
+    /// The links that move, in the order of the model: with a base that floats those that are fixed to it.
+    pub(crate) links: Vec<usize>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -49,17 +54,11 @@ impl Selection {
         self.order.iter().copied().filter(moves).collect()
     }
 
-    /// Returns the links that move, in the order of the model.
-    pub(crate) fn links(&self) -> Vec<usize> {
-        let links = 0..self.movers.len();
-        links.filter(|link| self.movers[*link].is_some()).collect()
-    }
-
     /// Returns the parts of the model that the robot has, as problems name them: a link that stands
     /// still has no mass for the robot.
     pub(crate) fn parts(&self, model: &Model) -> BTreeSet<usize> {
         let joints = self.order.iter().map(|joint| &model.joints[*joint].at);
-        let links = self.links().into_iter().map(|link| &model.links[link].at);
+        let links = self.links.iter().map(|link| &model.links[*link].at);
         let masses = links.clone().map(|at| mass_part(at).start);
         let parts = joints.chain(links).map(|at| at.start);
         parts.chain(masses).collect()
@@ -87,8 +86,9 @@ pub(crate) fn select(
 ) -> Option<Selection> {
     let mut select = Select::new(model, options, problems)?;
     let base = select.base(options)?;
+    let floats = options.floating || options.tree && select.is_carried_freely(base);
     let tips = match (options.tree, options.tips.as_slice()) {
-        (true, []) => select.ends(base)?,
+        (_, []) if options.tree || floats => select.ends(base)?,
         (true, _) => return select.problems.refuse("tree_and_tips", &model.at, &[]),
         (false, []) => vec![select.tip(base)?],
         (false, names) => {
@@ -106,9 +106,14 @@ pub(crate) fn select(
             .problems
             .refuse("no_mover", &to.at, &[&from.name, &to.name]);
     }
-    let (order, movers) = select.settle(base, &wanted);
+    let (order, movers) = select.settle(base, floats, &wanted);
+    let ends = |link: usize| order.iter().any(|joint| model.ends[*joint][1] == link);
+    let is_fixed = |link: usize| floats && (link == base || ends(link));
+    let links = (0..movers.len()).filter(|link| movers[*link].is_some() || is_fixed(*link));
     let selection = Selection {
         base,
+        floats,
+        links: links.collect(),
         tips,
         order,
         movers,
@@ -116,7 +121,9 @@ pub(crate) fn select(
     };
     select.check_ties(&selection);
     select.check_followers_beside(&selection);
-    select.say_base(base);
+    if !floats {
+        select.say_base(base);
+    }
     select.say_held(&selection);
     (!select.problems.has_errors()).then_some(selection)
 }
@@ -166,7 +173,7 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
     pub(crate) fn base(&mut self, options: &Options) -> Option<usize> {
         let base = match &options.base {
             Some(name) => self.model.link(name)?,
-            None => self.root().map(|root| self.standing(root))?,
+            None => self.root().map(|root| self.standing(root, options))?,
         };
         // Behind a link that is in no circle, there is none.
         let is_circle = self
@@ -205,7 +212,7 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
     }
 
     /// Returns the link behind the joints that let the whole robot float or drive.
-    fn standing(&mut self, root: usize) -> usize {
+    fn standing(&mut self, root: usize, options: &Options) -> usize {
         let (mut base, mut link) = (root, root);
         while let [joint] = self.arms_on(link)[..] {
             let Joint { name, kind, at, .. } = &self.model.joints[joint];
@@ -214,12 +221,21 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
                 break;
             }
             if *kind != Kind::Fixed {
-                self.problems
-                    .say("begins_behind", at, &[name, &kind.word()]);
+                let floats = options.tree || options.floating;
+                if !floats || *kind != Kind::Floating {
+                    self.problems
+                        .say("begins_behind", at, &[name, &kind.word()]);
+                }
                 base = link;
             }
         }
         base
+    }
+
+    /// Returns true if a free joint carries a link.
+    fn is_carried_freely(&self, link: usize) -> bool {
+        let above = self.model.above[link];
+        above.is_some_and(|joint| self.model.joints[joint].kind == Kind::Floating)
     }
 
     /// Returns the joints on a link behind which something moves: a table is not a robot.
@@ -271,6 +287,7 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
     fn settle(
         &mut self,
         base: usize,
+        floats: bool,
         wanted: &BTreeSet<usize>,
     ) -> (Vec<usize>, Vec<Option<usize>>) {
         let mut movers = vec![None; self.model.links.len()];
@@ -285,7 +302,7 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
             if is_wanted {
                 self.check_axis(joint, wanted);
             } else if !self.stays(joint) {
-                if movers[parent].is_none() {
+                if movers[parent].is_none() && !floats {
                     // The base feels nothing of what hangs on it.
                     left.push(joint);
                     continue;
@@ -299,7 +316,7 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
                 true => movers[parent],
                 false => Some(joint),
             };
-            if is_wanted || movers[child].is_some() {
+            if floats || is_wanted || movers[child].is_some() {
                 order.push(joint);
             }
             open.extend(self.below[child].iter().rev());

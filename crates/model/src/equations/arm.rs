@@ -23,6 +23,8 @@ pub struct Arm<S> {
     pub base: Option<Columns<S>>,
     /// The pose of the hand in frame n; `None` where the hand is that frame.
     pub tool: Option<Columns<S>>,
+    /// True if the first six links are a base that floats, in the place of joints at position zero.
+    pub floats: bool,
     /// Links from the base to the hand.
     pub links: Vec<Link<S>>,
     /// Those of them whose joints follow others.
@@ -260,6 +262,7 @@ impl<S> Arm<S> {
             gravity: self.gravity.each_ref().map(&mut *f),
             base: self.base.as_ref().map(|pose| pose.map(&mut *f)),
             tool: self.tool.as_ref().map(|pose| pose.map(&mut *f)),
+            floats: self.floats,
             links: self.links.iter().map(|link| link.map(&mut *f)).collect(),
             following: self.following.iter().map(|own| own.map(&mut *f)).collect(),
             frames: self.frames.map(f),

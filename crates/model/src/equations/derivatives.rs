@@ -14,7 +14,7 @@ use alloc::vec::Vec;
 use super::chain::composite::{Composite, CompositeOrder};
 use super::chain::second_derivatives::SecondDerivatives;
 use super::chain::{Chain, Regrouping, Skeleton};
-use super::energy::moving;
+use super::energy::{contracted, moving};
 use super::forward::free;
 use super::lagrange_euler::LagrangeEuler;
 use super::matrix::*;
@@ -80,19 +80,28 @@ impl Formulation {
         qdd: &[S],
     ) -> Vec<Vec<S>> {
         let [qd, qdd] = [qd, qdd].map(|rates| constants(rates));
-        columns(at.len(), &|joint| {
-            let (arm, at) = moving(arm, at, &unit(at.len(), joint));
+        columns(at.len(), &|coordinate| {
+            let (arm, at) = arm.displaced(at, coordinate);
             self.inverse_dynamics(&arm, &at, &qd, &qdd)
         })
     }
 
     /// Returns ∂τ/∂q̇, n×n, what friction grows by on its diagonal: joint by joint as its velocity
     /// grows at a unit rate. What q̈ and gravity add to the torques does not depend on q̇ and is
-    /// left out. Lagrange–Euler has it from the symbols: Σ_m (h_ikm + h_imk) q̇_m = 2 C_ik.
+    /// left out. Lagrange–Euler has it from the symbols: Σ_m (h_ikm + h_imk) q̇_m.
     pub fn torque_by_velocity<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> Vec<Vec<S>> {
-        let is_doubled = self == Self::LagrangeEuler;
-        let mut rows = if is_doubled {
-            self.coriolis_matrix(arm, at, qd)
+        let mut rows = if self == Self::LagrangeEuler {
+            let c = contracted(&self.christoffel(arm, at), qd);
+            let mut rows: Vec<Vec<S>> = c
+                .iter()
+                .map(|row| row.iter().map(twice).collect())
+                .collect();
+            if arm.floats {
+                let of_base = arm.of_drift_slopes(&self.inertia(arm, at), qd);
+                let both = rows.iter().zip(&of_base);
+                rows = both.map(|(row, base)| sums(row, base)).collect();
+            }
+            rows
         } else {
             let still_arm = arm.map(still);
             let at = at.iter().map(|at| {
@@ -107,9 +116,6 @@ impl Formulation {
             })
         };
         for (i, (row, link)) in rows.iter_mut().zip(&arm.links).enumerate() {
-            if is_doubled {
-                row.iter_mut().for_each(|c| *c = twice(c));
-            }
             row[i] = plus(&row[i], &link.friction.slope());
         }
         rows

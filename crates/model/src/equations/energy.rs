@@ -32,19 +32,30 @@ impl Formulation {
             return products(&columns_of(&self.coriolis_matrix(arm, at, qd)), qd);
         }
         let h = self.velocity_terms(arm, at, qd);
-        let (arm_moving, at_moving) = moving(arm, at, qd);
+        let (arm_moving, at_moving) = arm.bending(at, qd);
         let p = self.momentum(&arm_moving, &at_moving, &constants(qd));
         p.iter().zip(&h).map(|(p, h)| minus(&p.rate, h)).collect()
     }
 
     /// Returns C, n×n: C_ik = Σ_m h_ikm q̇_m, so that C q̇ = h and Ḋ − 2C is skew.
     pub fn coriolis_matrix<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> Vec<Vec<S>> {
-        contracted(&self.christoffel(arm, at), qd)
+        let c = contracted(&self.christoffel(arm, at), qd);
+        match arm.floats {
+            false => c,
+            true => {
+                let of_base = arm.of_drift(&self.inertia(arm, at), qd);
+                c.iter()
+                    .zip(&of_base)
+                    .map(|(c, base)| sums(c, base))
+                    .collect()
+            }
+        }
     }
 
     /// Returns D a + C v + c + (b + F∘r)∘v, length n: Coulomb friction is taken as the
     /// damping that it is at q̇, as C is taken at q̇. A recursion gives C v, which is bilinear
-    /// in q̇ and v, as h of half their sum less h of half their difference.
+    /// in q̇ and v, as h of half their sum less h of half their difference, and D [q̇, v] / 2 of a base
+    /// that floats.
     pub fn passivity<S: Scalar>(
         self,
         arm: &Arm<S>,
@@ -66,7 +77,8 @@ impl Formulation {
                     rates.map(|(qd, v)| halved(&combine(qd, v))).collect()
                 };
                 let free = arm.clone().without_friction();
-                let with = self.inverse_dynamics(&free, at, &of(plus), a);
+                let a = arm.with_half_bracket(a, [qd, v]);
+                let with = self.inverse_dynamics(&free, at, &of(plus), &a);
                 differences(&with, &self.velocity_terms(arm, at, &of(minus)))
             }
         };

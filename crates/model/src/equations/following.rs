@@ -30,12 +30,12 @@ pub struct Following<S> {
 }
 
 impl<S> Following<S> {
-    /// Returns those of a robot, multipliers sent through `scalar`.
+    /// Returns those of a robot, as rows of its [`Arm`](super::Arm), multipliers sent through `scalar`.
     pub fn of(robot: &Robot, scalar: &mut dyn FnMut(&Exact) -> S) -> Vec<Following<S>> {
         let followers = robot.followers.iter();
         let following = followers.map(|follower| Following {
-            row: follower.row,
-            leader: robot.row_of(follower.leader),
+            row: robot.base_coordinates() + follower.row,
+            leader: robot.base_coordinates() + robot.row_of(follower.leader),
             multiplier: scalar(&Exact::from(follower.multiplier.clone())),
             turns: follower.turns(),
         });

@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 
 use super::dalembert::Dalembert;
 use super::lagrange_euler::{self, LagrangeEuler};
-use super::matrix::{halved, minus, symmetric, symmetric_each, unit, zeros};
+use super::matrix::{halved, minus, products, sums, symmetric, symmetric_each, unit, zeros};
 use super::newton_euler::table1;
 use super::newton_euler::table2::{self, Moment};
 use super::{Arm, At};
@@ -55,6 +55,7 @@ impl Formulation {
         qd: &[S],
         qdd: &[S],
     ) -> Vec<S> {
+        let qdd = &*arm.accelerations(qd, qdd);
         let in_link_axes = |moment| table2::inverse_dynamics(arm, at, [qd, qdd], moment);
         match self {
             Self::LagrangeEuler => LagrangeEuler::new(arm, at).inverse_dynamics(qd, qdd),
@@ -83,13 +84,17 @@ impl Formulation {
 
     /// Returns h_i = Σ_k Σ_m h_ikm q̇_k q̇_m, length n, without damping.
     pub fn velocity_terms<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> Vec<S> {
-        match self {
+        let h = match self {
             Self::LagrangeEuler => lagrange_euler::velocity_terms(&self.christoffel(arm, at), qd),
             Self::Dalembert => Dalembert::new(arm, at).velocity_terms(qd),
             _ => {
                 let arm = arm.weightless().without_friction();
-                self.inverse_dynamics(&arm, at, qd, &zeros(qd.len()))
+                return self.inverse_dynamics(&arm, at, qd, &zeros(qd.len()));
             }
+        };
+        match arm.floats {
+            false => h,
+            true => sums(&h, &products(&self.inertia(arm, at), &arm.drift(qd, qd))),
         }
     }
 
@@ -105,7 +110,8 @@ impl Formulation {
         }
     }
 
-    /// Returns `h[i][k][m]` = h_ikm, n×n×n, symmetric in k and m.
+    /// Returns `h[i][k][m]` = h_ikm, n×n×n, symmetric in k and m: of a base that floats those in its
+    /// six joints.
     pub fn christoffel<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<Vec<S>>> {
         match self {
             Self::LagrangeEuler => LagrangeEuler::new(arm, at).christoffel(),
@@ -113,7 +119,14 @@ impl Formulation {
                 let terms = Dalembert::new(arm, at);
                 polarised(at.len(), &|qd| terms.velocity_terms(qd))
             }
-            _ => polarised(at.len(), &|qd| self.velocity_terms(arm, at, qd)),
+            // In all joints: of a floating base's six, too, q̈ is zero.
+            _ => {
+                let arm = &Arm {
+                    floats: false,
+                    ..arm.clone()
+                };
+                polarised(at.len(), &|qd| self.velocity_terms(arm, at, qd))
+            }
         }
     }
 }

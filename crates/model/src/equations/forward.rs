@@ -3,6 +3,7 @@
 
 use alloc::vec::Vec;
 
+use super::arm::Posed;
 use super::articulated;
 use super::derivatives::{columns, with_rates};
 use super::energy::moving;
@@ -76,7 +77,8 @@ impl Formulation {
         moves: &[bool],
     ) -> Vec<S> {
         if !self.has_closed_form() && arm.following.is_empty() {
-            return articulated::forward_dynamics(arm, at, [qd, tau], moves);
+            let qdd = articulated::forward_dynamics(arm, at, [qd, tau], moves);
+            return arm.coordinate_rates(qd, qdd);
         }
         let d = self.gathered_inertia(arm, at);
         let bias = self.inverse_dynamics(arm, at, qd, &zeros(qd.len()));
@@ -125,8 +127,7 @@ impl Formulation {
         }
         let n = at.len();
         let rubbed = rubbed(arm, qd);
-        let run = |rates: &[S], growth: &[S]| {
-            let (mut arm, at) = moving(arm, at, rates);
+        let run = |(mut arm, at): Posed<Dual<S>>, growth: &[S]| {
             for link in &mut arm.links {
                 link.friction.coulomb = None;
             }
@@ -138,12 +139,13 @@ impl Formulation {
                 rate: negative(&times(slope, growth)),
             });
             let left: Vec<Dual<S>> = left.collect();
-            articulated::forward_dynamics(&arm, &at, [&grown, &left], moves)
+            let qdd = articulated::forward_dynamics(&arm, &at, [&grown, &left], moves);
+            arm.coordinate_rates(&grown, qdd)
         };
         let rest: Vec<S> = zeros(n);
         [
-            columns(n, &|k| run(&unit(n, k), &rest)),
-            columns(n, &|k| run(&rest, &unit(n, k))),
+            columns(n, &|k| run(arm.displaced(at, k), &rest)),
+            columns(n, &|k| run(moving(arm, at, &rest), &unit(n, k))),
         ]
     }
 }

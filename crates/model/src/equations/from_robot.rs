@@ -10,7 +10,9 @@ use super::friction::{Coulomb, Friction};
 use super::matrix::*;
 use super::{Arm, Link, SinCosPair};
 use crate::number::{Angle, Exact, Rational};
-use crate::robot::{Convention, Joint, JointKind, Placement, Position, Robot};
+use crate::robot::{
+    Convention, FloatingBase, Joint, JointKind, Parent, Placement, Position, Robot,
+};
 use crate::scalar::Scalar;
 
 impl<S> Arm<S> {
@@ -29,13 +31,23 @@ impl<S> Arm<S> {
         let [base, tool] = [base, tool].map(|pose| pose.map(|pose| pose.map(&mut *scalar)));
         let (following, rows) = (Following::of(robot, scalar), robot.rows());
         let places = places(&rows);
-        let links = rows.iter().enumerate().map(|(row, joint)| {
+        let first = robot.base_coordinates();
+        let body = robot.floating.iter().map(FloatingBase::body);
+        let base_links = body.flat_map(|body| Link::of_base(exact_link(&body, None, None)));
+        let joints = rows.iter().enumerate().map(|(row, joint)| {
             let mut followers = robot.followers.iter();
             let follower = followers.find(|follower| follower.row == row);
             let offset = follower.map(|follower| &follower.offset);
-            exact_link(joint, offset, places[row].as_ref()).map(&mut *scalar)
+            let link = exact_link(joint, offset, places[row].as_ref());
+            let parent = match (joint.parent, first) {
+                (Some(Parent::Base), 1..) => Some(Parent::Row(first - 1)),
+                (Some(Parent::Row(carrier)), _) => Some(Parent::Row(first + carrier)),
+                (parent, _) => parent,
+            };
+            Link { parent, ..link }
         });
-        let links = links.collect();
+        let links = base_links.chain(joints);
+        let links = links.map(|link| link.map(&mut *scalar)).collect();
         let in_row = |row: usize, placement: Option<&Placement>| {
             let link = places[row].as_ref().map(|place| place.link.clone());
             match (link, placement.map(exact_pose)) {
@@ -45,18 +57,22 @@ impl<S> Arm<S> {
         };
         let own = rows.iter().enumerate();
         let own = own.map(|(row, joint)| in_row(row, joint.frame.as_ref()));
+        let own = core::iter::repeat_n(None, first).chain(own);
         let own = own
             .map(|pose| pose.map(|pose| pose.map(&mut *scalar)))
             .collect();
         let named = robot.frames.iter().map(|frame| {
-            let pose = in_row(frame.joint, Some(&frame.placement));
+            let pose = match frame.row {
+                Some(row) => in_row(row, Some(&frame.placement)),
+                None => Some(exact_pose(&frame.placement)),
+            };
             NamedFrame {
                 name: frame.name.clone(),
-                joint: frame.joint,
+                joint: frame.row.map_or(first.saturating_sub(1), |row| first + row),
                 pose: pose.unwrap_or_else(Columns::identity).map(&mut *scalar),
             }
         });
-        let convention = match robot.branches() {
+        let convention = match robot.is_tree() {
             true => Convention::Modified,
             false => robot.convention,
         };
@@ -65,6 +81,7 @@ impl<S> Arm<S> {
             gravity,
             base,
             tool,
+            floats: robot.floating.is_some(),
             links,
             following,
             frames: Frames {

@@ -108,12 +108,13 @@ impl Formulation {
     }
 
     /// Returns J̇ q̇, linear over angular, in the arm's [`Axes`]: the rate of J q̇ in a motion that
-    /// keeps its velocities. In base axes at the hand it is the hand's acceleration.
+    /// keeps its velocities. In base axes at the hand it is the hand's acceleration, which in those
+    /// of a base that floats is no rate of components.
     pub fn jacobian_rate<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> [Vector<S>; 2] {
         let qd = &picked(qd, &arm.way_to_hand())[..];
         let (arm, at) = arm.to_hand(at);
         let at = &*at;
-        let rate = self.bias_acceleration(&arm, at, qd);
+        let rate = self.bias_acceleration(&arm, at, [qd, &arm.accelerations(qd, &zeros(qd.len()))]);
         let axes = arm.frames.axes;
         if axes == Axes::Mixed {
             return rate;
@@ -129,18 +130,22 @@ impl Formulation {
         in_axes(axes, Some(&self.hand(&arm, at)), [linear, angular])
     }
 
-    fn bias_acceleration<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> [Vector<S>; 2] {
+    fn bias_acceleration<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &At<S>,
+        [qd, qdd]: [&[S]; 2],
+    ) -> [Vector<S>; 2] {
         if self != Self::LagrangeEuler {
             let arm = arm.weightless();
             let base = Motion::of_base(&arm.gravity);
-            let rate = table1::tip_acceleration(&arm, at, [qd, &zeros(qd.len())], &base);
+            let rate = table1::tip_acceleration(&arm, at, [qd, qdd], &base);
             return match &arm.base {
                 None => rate,
                 Some(base) => rate.each_ref().map(|part| base.rotate(part)),
             };
         }
-        let rest: Vec<S> = zeros(qd.len());
-        let (arm, at) = accelerated(arm, at, qd, &rest);
+        let (arm, at) = accelerated(arm, at, qd, qdd);
         let hand = hand_of(&arm, &poses(&arm, &at));
         let linear = hand.origin.each_ref().map(|x| x.rate.rate.clone());
         [linear, angular(&hand).map(|omega| omega.rate)]
@@ -155,6 +160,7 @@ impl Formulation {
         qd: &[S],
         qdd: &[S],
     ) -> Vec<Wrench<S>> {
+        let qdd = &*arm.accelerations(qd, qdd);
         let wrenches = match self {
             Self::LagrangeEuler => wrenches_by_poses(arm, at, qd, qdd),
             _ => table1::wrenches(arm, at, qd, qdd),

@@ -56,7 +56,7 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
         let last = arm.to_hand(at).1.len().saturating_sub(1);
         let links = match axes {
             HandAxes::Asked => [0, 0],
-            HandAxes::FirstAndLast => [last.min(1), last],
+            HandAxes::FirstAndLast => [last.min(arm.base_joints() + 1), last],
             HandAxes::Last => [last, last],
         };
         let whole = |part: usize| {
@@ -175,6 +175,7 @@ fn acceleration<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], link: usize) -> [
     inner.links.truncate(link);
     outer.links.drain(..link);
     let rest = zeros(at.len());
+    let rest = arm.accelerations(qd, &rest);
     let base = table2::last_motion(&inner, at, qd, &rest);
     table1::tip_acceleration(&outer, &at[link..], [&qd[link..], &rest[link..]], &base)
 }

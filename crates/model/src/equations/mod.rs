@@ -8,6 +8,7 @@
 //! | [`dalembert`] | generalized D'Alembert, D^rot, D^tran, h^rot, h^tran, eqs. 4.1–4.5 |
 //! | [`energy`] | T, U, D q̇, ∂T/∂q and C of every formulation |
 //! | [`derivatives`] | ∂τ/∂q, ∂τ/∂q̇ and second ones of every formulation, by duals |
+//! | `floating` | a base that floats, as six joints |
 //! | [`forward`] | q̈, D⁻¹ and slopes of q̈ of every formulation |
 //! | [`following`] | joints that follow others, by the chain rule |
 //! | [`friction`] | what joints take of torque while they move |
@@ -42,6 +43,7 @@ pub mod dalembert;
 pub mod derivatives;
 pub mod energy;
 pub mod factor;
+mod floating;
 pub mod following;
 mod formulation;
 pub mod forward;
@@ -63,5 +65,6 @@ mod trees;
 
 pub use crate::scalar::SinCosPair;
 pub use arm::{Arm, At, DhVariables, JointPosition, Link};
+pub use floating::{BASE_COORDINATES, base_position};
 pub use formulation::Formulation;
 pub use from_robot::{exact_pose, pose_of};

@@ -100,7 +100,7 @@ pub fn of_links<S: Scalar>(arm: &Arm<S>) -> Vec<Column<S>> {
             of: Probed::Body(in_row(parameter.unit())),
         })
     };
-    (0..arm.links.len()).flat_map(of).collect()
+    (arm.first_body()..arm.links.len()).flat_map(of).collect()
 }
 
 impl<S: Scalar> Arm<S> {
@@ -119,14 +119,16 @@ impl<S: Scalar> Arm<S> {
             let body = self.body(joint);
             LinkParameter::ALL.map(|parameter| parameter.of_body(&body))
         };
-        (0..self.links.len()).flat_map(of_link).collect()
+        (self.first_body()..self.links.len())
+            .flat_map(of_link)
+            .collect()
     }
 }
 
 /// Returns the columns of the drives that a robot has: rotors' inertias, then viscous friction.
 pub fn of_drives<S>(robot: &Robot) -> Vec<Column<S>> {
     use num_traits::Zero;
-    let joints = || robot.rows().into_iter().enumerate();
+    let joints = || (robot.base_coordinates()..).zip(robot.rows());
     let armatures = joints().filter(|(_, joint)| !joint.armature.is_zero());
     let viscous = joints().filter(|(_, joint)| !joint.viscous.is_zero());
     let armatures = armatures.map(|(joint, _)| (joint, Probed::Armature));

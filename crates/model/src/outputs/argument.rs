@@ -5,7 +5,8 @@ use super::Sizes;
 use crate::equations::load::PAYLOAD;
 use crate::robot::Limit;
 
-/// An argument of a generated function: an array, of most with an entry a joint.
+/// An argument of a generated function: an array, of most with an entry a joint or, of rates and
+/// loads, a coordinate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Argument {
     /// q
@@ -144,7 +145,8 @@ impl Argument {
             Argument::Payload => PAYLOAD,
             Argument::Wrench => 6,
             Argument::Damping => 1,
-            _ => sizes.joints,
+            Argument::Position => sizes.joints,
+            _ => sizes.coordinates(),
         }
     }
 

@@ -155,7 +155,9 @@ impl Formula for MomentumDrift {
         let qd = &at.motion.qd;
         let [_, slope] = at.chain.momentum(at.at, qd);
         let gravity = at.composite.gravity(at.form.travel);
+        let none = Friction::none();
+        let free = core::iter::repeat_n(&none, at.chain.base_coordinates());
         let friction = at.chain.links.iter().map(|link| &link.friction);
-        Some(drift(slope, gravity, friction, qd))
+        Some(drift(slope, gravity, free.chain(friction), qd))
     }
 }

@@ -131,6 +131,17 @@ impl Function {
         !is_second && !quantities.any(|quantity| quantity.is_of_links())
     }
 
+    /// Returns true if robots whose base floats have it: nothing of the symbols h_ikm, no parts of
+    /// rotation and translation, and no second derivatives.
+    pub fn takes_floating_base(self) -> bool {
+        let quantities = self.quantities().iter();
+        let is_second = self.arguments().contains(&Argument::Multiplier);
+        !is_second
+            && !quantities
+                .clone()
+                .any(|quantity| quantity.facts().on_fixed_base)
+    }
+
     /// Returns what it has to do with a payload: as much as any of its results.
     pub fn payload_dependence(self) -> PayloadDependence {
         let all = self.quantities().iter();
@@ -209,7 +220,7 @@ impl Function {
             motion,
             columns: &[],
         };
-        let sizes = Sizes::whole(arm.links.len());
+        let sizes = arm_sizes(arm);
         let mut rest = results;
         let mut residual = Vec::new();
         for quantity in self.quantities() {
@@ -244,6 +255,16 @@ impl Function {
         }
         forms
     }
+}
+
+/// Returns the sizes of results over all rows of an arm.
+fn arm_sizes<S>(arm: &Arm<S>) -> Sizes {
+    let (rows, floating) = (arm.links.len(), arm.base_joints());
+    let sizes = Sizes {
+        floating,
+        ..Sizes::whole(rows - floating)
+    };
+    sizes.over_all(rows)
 }
 
 impl fmt::Display for Function {

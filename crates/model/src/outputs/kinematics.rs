@@ -44,7 +44,7 @@ impl Formula for LinkPoses {
         symbol: "A_i",
         summary: "Poses [R | p] of the links' frames.",
         arguments: &[Argument::Position],
-        shape: Shape(&[Axis::Joints, Axis::Fixed(3), Axis::Fixed(4)]),
+        shape: Shape(&[Axis::Links, Axis::Fixed(3), Axis::Fixed(4)]),
         unit: Pose::FACTS.unit,
         depends_on_base: true,
         of_links: true,
@@ -65,7 +65,7 @@ impl Formula for Jacobian {
         letter: "J",
         summary: "Jacobian J, linear over angular.",
         arguments: &[Argument::Position],
-        shape: Shape(&[Axis::Fixed(6), Axis::Joints]),
+        shape: Shape(&[Axis::Fixed(6), Axis::Coordinates]),
         unit: |at| match at {
             [Index::Fixed(..3), Index::Turning] => "m",
             [Index::Fixed(3..), Index::Sliding] => "1/m",
@@ -117,7 +117,7 @@ impl Formula for Wrench {
         letter: "w",
         summary: "Force over moment at every joint, about the origin of the frame whose z is its axis.",
         arguments: &Argument::STATE,
-        shape: Shape(&[Axis::Joints, Axis::Fixed(6)]),
+        shape: Shape(&[Axis::Links, Axis::Fixed(6)]),
         unit: |at| match at {
             [_, Index::Fixed(..3)] => "N",
             _ => "N·m",

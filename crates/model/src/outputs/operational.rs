@@ -129,7 +129,7 @@ impl Formula for ConsistentInverse {
         letter: "J̄",
         summary: "Dynamically consistent inverse J̄ of the Jacobian.",
         arguments: &[Argument::Position, Argument::Damping],
-        shape: Shape(&[Axis::Joints, Axis::Fixed(6)]),
+        shape: Shape(&[Axis::Coordinates, Axis::Fixed(6)]),
         unit: |at| match at {
             [Index::Turning, Index::Fixed(..3)] => "1/m",
             [Index::Sliding, Index::Fixed(3..)] => "m",

@@ -8,7 +8,7 @@ use super::{Argument, Axis, PayloadDependence, Quantity, Shape, Sizes};
 use crate::equations::chain::HandChoice;
 use crate::equations::following::{Following, gather};
 use crate::equations::regressor::LinkParameter;
-use crate::robot::{JointKind, Robot};
+use crate::robot::Robot;
 use crate::scalar::Scalar;
 
 /// What may be chosen of an output's frame; each choice includes those before it.
@@ -64,6 +64,8 @@ pub struct Facts {
     /// True if joints whose axes meet at the base may be solved for as one.
     pub has_shoulder: bool,
     pub(super) frame: FrameChoice,
+    /// True if it is there on a fixed base alone: what it is made of belongs to joints' own rates.
+    pub on_fixed_base: bool,
     /// True if an entry is of the link by itself, of which there are more than coordinates.
     pub of_links: bool,
 }
@@ -91,6 +93,7 @@ impl Facts {
         gravity: false,
         has_shoulder: false,
         frame: FrameChoice::None,
+        on_fixed_base: false,
         of_links: false,
     };
 
@@ -132,9 +135,9 @@ pub(super) enum Choice {
 /// The place of an entry along one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Index {
-    /// A joint that turns.
+    /// A coordinate that turns.
     Turning,
-    /// A joint that slides.
+    /// A coordinate that slides.
     Sliding,
     /// A place on an axis that is the same for every arm.
     Fixed(usize),
@@ -198,25 +201,28 @@ impl Quantity {
         self.facts().of_links || self.shape().0.contains(&Axis::LinkParameters)
     }
 
-    /// Returns the joints of an entry over these rows, one for each axis over joints.
-    pub fn joints(self, index: usize, rows: &[usize], sizes: Sizes) -> impl Iterator<Item = usize> {
-        let mut places = self.shape().places(index, sizes.over(rows.len()));
-        places.retain(|(axis, _)| *axis == Axis::Joints);
-        let joints = places.into_iter();
-        joints.filter_map(move |(_, place)| rows.get(place).copied())
+    /// Returns the coordinates of an entry over these rows, one for each axis over them.
+    pub fn coordinates(
+        self,
+        index: usize,
+        rows: &[usize],
+        sizes: Sizes,
+    ) -> impl Iterator<Item = usize> {
+        let places = self.shape().places(index, sizes.over(rows)).into_iter();
+        places.filter_map(move |(axis, place)| coordinate(axis, place, rows, sizes))
     }
 
     /// Returns the unit of an entry over these rows of a robot.
     pub fn unit(self, index: usize, rows: &[usize], sizes: Sizes, robot: &Robot) -> &'static str {
-        let turns = |place: usize| {
-            let joint = rows.get(place).and_then(|&joint| robot.joints.get(joint));
-            joint.is_some_and(|joint| joint.kind == JointKind::Revolute)
+        let turns = |axis: Axis, place: usize| {
+            let coordinate = coordinate(axis, place, rows, sizes);
+            coordinate.is_some_and(|coordinate| robot.turns(coordinate))
         };
-        let axes = self.shape().places(index, sizes.over(rows.len()));
+        let axes = self.shape().places(index, sizes.over(rows));
         let indices = axes.into_iter().map(|(axis, place)| match axis {
             Axis::Fixed(_) => Index::Fixed(self.component(place)),
-            Axis::Joints if turns(place) => Index::Turning,
-            Axis::Joints => Index::Sliding,
+            Axis::Coordinates | Axis::Links if turns(axis, place) => Index::Turning,
+            Axis::Coordinates | Axis::Links => Index::Sliding,
             Axis::LinkParameters => {
                 Index::Parameter(LinkParameter::ALL[place % LinkParameter::COUNT])
             }
@@ -234,16 +240,19 @@ impl Quantity {
         }
     }
 
-    /// Returns the name of one entry of a quantity over these joints, one-based: `D_12`, `h_123`,
-    /// with separators where a robot has more than nine joints, or an axis more entries.
+    /// Returns the name of one entry of a quantity over these coordinates, one-based: `D_12`, `h_123`,
+    /// with separators where a robot has more than nine, or an axis more entries. Links are counted
+    /// by their joints.
     pub fn entry(self, index: usize, rows: &[usize], sizes: Sizes) -> String {
         let letter = self.facts().letter;
-        let sizes = sizes.over(rows.len());
-        let number = |(axis, place): (Axis, usize)| match axis {
-            Axis::Joints => rows.get(place).map_or(0, |joint| joint + 1),
-            _ => place + 1,
+        let sizes = sizes.over(rows);
+        let number = |(axis, place): (Axis, usize)| match coordinate(axis, place, rows, sizes) {
+            Some(coordinate) if axis == Axis::Links => coordinate - sizes.floating + 1,
+            Some(coordinate) => coordinate + 1,
+            None => place + 1,
         };
-        let is_long = sizes.joints > 9 || self.shape().lengths(sizes).any(|length| length > 9);
+        let is_long =
+            sizes.coordinates() > 9 || self.shape().lengths(sizes).any(|length| length > 9);
         let places = self.shape().places(index, sizes).into_iter();
         let digits: Vec<String> = places.map(|at| number(at).to_string()).collect();
         match digits.as_slice() {
@@ -253,7 +262,7 @@ impl Quantity {
     }
 
     /// Returns its entries over some rows of an arm from those over others, gathered at the leaders
-    /// of joints that follow along each axis over joints, unless they are of links.
+    /// of joints that follow along each axis over coordinates.
     pub fn selected<S: Scalar>(
         self,
         mut values: Vec<S>,
@@ -262,28 +271,41 @@ impl Quantity {
         sizes: Sizes,
     ) -> Vec<S> {
         let shape = self.shape();
-        let lengths: Vec<usize> = shape.lengths(sizes.over(from.len())).collect();
+        let lengths: Vec<usize> = shape.lengths(sizes.over_all(from.len())).collect();
         for (place, axis) in shape.0.iter().enumerate() {
-            if *axis == Axis::Joints && !self.is_of_links() {
+            if *axis == Axis::Coordinates && !self.is_of_links() {
                 let stride = lengths[place + 1..].iter().product();
                 gather(following, from, stride, &mut values);
             }
         }
-        if from == to {
+        if from == to && sizes.floating == 0 {
             return values;
         }
         let place = |row: &usize| from.iter().position(|own| own == row);
         let places: Vec<usize> = to.iter().filter_map(place).collect();
-        let sizes = sizes.over(to.len());
+        let sizes = sizes.over(to);
+        // The rows of a base's coordinates come first, and are no links.
+        let base = sizes.rows - sizes.links;
         let entry = |index: usize| {
             let axes = shape.places(index, sizes).into_iter();
             let at = axes.fold(0, |at, (axis, place)| match axis {
-                Axis::Joints => at * from.len() + places[place],
+                Axis::Coordinates => at * from.len() + places[place],
+                Axis::Links => at * from.len() + places[base + place],
                 other => at * other.length(sizes) + place,
             });
             values[at].clone()
         };
         (0..shape.len(sizes)).map(entry).collect()
+    }
+}
+
+/// Returns the coordinate at a place along an axis over these rows; none of other axes.
+fn coordinate(axis: Axis, place: usize, rows: &[usize], sizes: Sizes) -> Option<usize> {
+    let over = sizes.over(rows);
+    match axis {
+        Axis::Coordinates => rows.get(place).copied(),
+        Axis::Links => rows.get(over.rows - over.links + place).copied(),
+        _ => None,
     }
 }
 

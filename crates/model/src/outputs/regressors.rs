@@ -17,7 +17,7 @@ impl Formula for BaseRegressor {
         letter: "Y",
         summary: "Regressor Y over the base parameters.",
         arguments: &Argument::STATE,
-        shape: Shape(&[Axis::Joints, Axis::BaseParameters]),
+        shape: Shape(&[Axis::Coordinates, Axis::BaseParameters]),
         linear: Some(("τ", "BASE_PARAMETERS")),
         choices: Some(&[Choice::Travel]),
         // What it shares with what the chain formulas give saves a few.
@@ -61,7 +61,7 @@ impl Formula for LinkRegressor {
     const FACTS: Facts = Facts {
         symbol: "Y over all links' parameters",
         summary: "Regressor Y over all links' parameters.",
-        shape: Shape(&[Axis::Joints, Axis::LinkParameters]),
+        shape: Shape(&[Axis::Coordinates, Axis::LinkParameters]),
         linear: None,
         unit,
         given: Some("regressor"),

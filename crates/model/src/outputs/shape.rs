@@ -3,12 +3,16 @@
 use alloc::vec::Vec;
 
 use crate::equations::regressor::LinkParameter;
+use crate::robot::Robot;
 
 /// An axis of a result's array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Axis {
-    /// An entry a joint; in a scene, a joint that results are over.
-    Joints,
+    /// An entry a coordinate of the velocity: those of a base that floats, then one a joint; in a
+    /// scene, those that results are over.
+    Coordinates,
+    /// An entry a joint, of the link that it moves; in a scene, those that results are over.
+    Links,
     /// So many entries, whatever the arm.
     Fixed(usize),
     /// An entry an inertial parameter, link by link, in a scene too.
@@ -22,10 +26,14 @@ pub enum Axis {
 /// The numbers that the lengths of axes follow from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sizes {
-    /// The joints that results are over.
+    /// The coordinates that results are over.
     pub rows: usize,
+    /// The joints among them.
+    pub links: usize,
     /// All joints.
     pub joints: usize,
+    /// The coordinates of a base that floats: six, or none.
+    pub floating: usize,
     /// The base parameters; zero where nothing is over these.
     pub base: usize,
     /// The regrouped parameters that a payload changes; zero where there is none at run time.
@@ -33,20 +41,51 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// Returns the sizes of results over all joints, of which none is over base parameters.
+    /// Returns the sizes of results over all joints on a fixed base, of which none is over base
+    /// parameters.
     pub fn whole(joints: usize) -> Sizes {
         Sizes {
             rows: joints,
+            links: joints,
             joints,
+            floating: 0,
             base: 0,
             load: 0,
         }
     }
 
-    /// Returns the same over so many joints.
+    /// Returns the sizes of results over all coordinates of a robot.
+    pub fn of(robot: &Robot) -> Sizes {
+        Sizes {
+            rows: robot.coordinates(),
+            floating: robot.base_coordinates(),
+            ..Sizes::whole(robot.joints.len())
+        }
+    }
+
+    /// Returns the number of coordinates of a velocity.
+    pub fn coordinates(self) -> usize {
+        self.floating + self.joints
+    }
+
+    /// Returns the same over these coordinates.
     #[must_use]
-    pub fn over(self, rows: usize) -> Sizes {
-        Sizes { rows, ..self }
+    pub fn over(self, rows: &[usize]) -> Sizes {
+        Sizes {
+            rows: rows.len(),
+            links: rows.iter().filter(|row| **row >= self.floating).count(),
+            ..self
+        }
+    }
+
+    /// Returns the same over all rows of an arm that has so many.
+    #[must_use]
+    pub fn over_all(self, rows: usize) -> Sizes {
+        Sizes {
+            rows,
+            links: rows,
+            ..self
+        }
     }
 }
 
@@ -58,11 +97,11 @@ impl Shape {
     /// One number.
     pub const SCALAR: Shape = Shape(&[]);
     /// n
-    pub const VECTOR: Shape = Shape(&[Axis::Joints]);
+    pub const VECTOR: Shape = Shape(&[Axis::Coordinates]);
     /// n×n
-    pub const MATRIX: Shape = Shape(&[Axis::Joints, Axis::Joints]);
+    pub const MATRIX: Shape = Shape(&[Axis::Coordinates, Axis::Coordinates]);
     /// n×n×n
-    pub const CUBE: Shape = Shape(&[Axis::Joints, Axis::Joints, Axis::Joints]);
+    pub const CUBE: Shape = Shape(&[Axis::Coordinates, Axis::Coordinates, Axis::Coordinates]);
 
     /// Returns the lengths of its axes.
     pub fn lengths(self, sizes: Sizes) -> impl DoubleEndedIterator<Item = usize> {
@@ -91,9 +130,12 @@ impl Axis {
     /// Returns its length.
     pub fn length(self, sizes: Sizes) -> usize {
         match self {
-            Axis::Joints => sizes.rows,
+            Axis::Coordinates => sizes.rows,
+            Axis::Links => sizes.links,
             Axis::Fixed(length) => length,
-            Axis::LinkParameters => LinkParameter::COUNT * sizes.joints,
+            Axis::LinkParameters => {
+                LinkParameter::COUNT * (sizes.joints + usize::from(sizes.floating > 0))
+            }
             Axis::BaseParameters => sizes.base,
             Axis::Load => sizes.load,
         }
@@ -106,7 +148,7 @@ mod tests {
 
     #[test]
     fn places_count_in_the_order_of_the_text() {
-        let shape = Shape(&[Axis::Fixed(2), Axis::Joints]);
+        let shape = Shape(&[Axis::Fixed(2), Axis::Coordinates]);
         let three = Sizes::whole(3);
         assert_eq!(shape.len(three), 6);
         for (index, places) in [(0, [0, 0]), (2, [0, 2]), (5, [1, 2])] {
@@ -119,17 +161,16 @@ mod tests {
 
     #[test]
     fn parameters_are_not_cut_by_rows() {
-        let shape = Shape(&[Axis::Joints, Axis::LinkParameters]);
+        let shape = Shape(&[Axis::Coordinates, Axis::LinkParameters]);
         assert_eq!(shape.len(Sizes::whole(6)), 360);
-        assert_eq!(shape.len(Sizes::whole(6).over(2)), 120);
-        let base = Shape(&[Axis::Joints, Axis::BaseParameters]);
+        assert_eq!(shape.len(Sizes::whole(6).over(&[1, 2])), 120);
+        let base = Shape(&[Axis::Coordinates, Axis::BaseParameters]);
         let sizes = Sizes {
             rows: 2,
-            joints: 6,
             base: 36,
-            load: 0,
+            ..Sizes::whole(6)
         };
-        let places = [(Axis::Joints, 1), (Axis::BaseParameters, 1)];
+        let places = [(Axis::Coordinates, 1), (Axis::BaseParameters, 1)];
         assert_eq!(base.places(37, sizes), places);
     }
 }

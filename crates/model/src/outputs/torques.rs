@@ -9,7 +9,7 @@ use super::quantity::{Choice, Facts, by_turns, kilograms, turns};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::dalembert::Part;
 use crate::equations::energy::contracted;
-use crate::equations::matrix::{plus, zero_vector, zeros};
+use crate::equations::matrix::{zero_vector, zeros};
 use crate::scalar::{Divide, Scalar};
 
 /// τ_i of τ = D q̈ + h + c + b∘q̇ (eq. 2.3)
@@ -22,9 +22,7 @@ pub(super) fn torques<S: Scalar>(at: &Regrouped<'_, S>, qdd: &[S]) -> Vec<S> {
     }
     let (gravity, exerted) = (&chain.gravity, zero_vector());
     let torques = at.composite.torques(gravity, qd, qdd, form.spin, &exerted);
-    let torques = torques.iter().enumerate();
-    let driven = torques.map(|(i, torque)| plus(torque, &chain.drive(i, qd, qdd)));
-    driven.collect()
+    chain.driven(torques, qd, qdd)
 }
 
 impl Formula for Torque {
@@ -119,7 +117,7 @@ impl Formula for Coriolis {
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let (chain, form) = (at.chain, at.form);
-        let rest = zeros(chain.links.len());
+        let rest = zeros(chain.coordinates());
         let (qd, none) = (&at.motion.qd, zero_vector());
         if form.composite_h {
             let composite = &at.composite;
@@ -147,6 +145,7 @@ impl Formula for Christoffel {
         choices: Some(&[]),
         by_differences: true,
         payload_dependence: PayloadDependence::Torque,
+        on_fixed_base: true,
         ..Facts::PLAIN
     };
 
@@ -182,7 +181,8 @@ impl Formula for CoriolisMatrix {
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let qd = &at.motion.qd;
-        let c = match at.form.flows {
+        // The symbols are those of a fixed base.
+        let c = match at.form.flows || at.chain.base.is_some() {
             true => at.composite.coriolis_matrix(qd, at.form.travel),
             false => contracted(&at.composite.christoffel(), qd),
         };
@@ -238,6 +238,7 @@ impl Formula for RotationInertia {
         unit: |at| kilograms(turns(at)),
         scale: ErrorScale::Inertia,
         payload_dependence: PayloadDependence::Full,
+        on_fixed_base: true,
         ..Facts::PLAIN
     };
 
@@ -272,6 +273,7 @@ impl Formula for RotationCoriolis {
         summary: "Coriolis and centripetal load of the links' rotation h^rot.",
         arguments: &[Argument::Position, Argument::Velocity],
         payload_dependence: PayloadDependence::Full,
+        on_fixed_base: true,
         ..Facts::LOAD
     };
 

@@ -111,7 +111,7 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
         let moved = frame::moved(&joint.body(), &back, &size);
         (joint.com, joint.inertia) = (moved.com, moved.inertia);
         joint.frame = placed_in(&back, joint.frame.as_ref(), &size).unless_identity();
-        let fixed = robot.frames.iter_mut().filter(|frame| frame.joint == i);
+        let fixed = robot.frames.iter_mut().filter(|frame| frame.row == Some(i));
         for frame in fixed {
             frame.placement = placed_in(&back, Some(&frame.placement), &size);
         }

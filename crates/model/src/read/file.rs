@@ -9,9 +9,11 @@ use toml_span::Value;
 use super::report::quote;
 use super::table::{Table, locate};
 use super::value::{Context, payloads, placement};
-use super::{Reading, guard, joint, link, mimic, parent, scene, suggest, syntax};
+use super::{Reading, base, guard, joint, link, mimic, parent, scene, suggest, syntax};
 use crate::placed::{derive, place};
-use crate::robot::{Convention, Finding, Frame, Joint, Placed, Placement, Robot, RobotWarning};
+use crate::robot::{
+    Convention, Finding, FloatingBase, Frame, Placed, Placement, Robot, RobotWarning,
+};
 
 /// `None` only after an error.
 pub(super) fn read(source: &str, cx: &mut Context) -> Option<Reading> {
@@ -29,8 +31,9 @@ pub(super) fn read(source: &str, cx: &mut Context) -> Option<Reading> {
     keys.span = 0..0;
     let (robot, findings) = robot(cx, &mut keys);
     for finding in findings {
-        if !cx.is_unread(&finding.place) {
-            let span = locate(&root, 0..0, source, &finding.place);
+        let place = in_file(&robot, &finding.place);
+        if !cx.is_unread(&place) {
+            let span = locate(&root, 0..0, source, &place);
             cx.sink
                 .found(finding.warning, span, finding.message, &finding.help);
         }
@@ -46,6 +49,18 @@ pub(super) fn read(source: &str, cx: &mut Context) -> Option<Reading> {
         scenes,
         notes: Vec::new(),
     })
+}
+
+/// Joints are counted without a base that floats, whose table is the first.
+fn in_file(robot: &Robot, place: &str) -> String {
+    let counted = place
+        .strip_prefix("joint/#")
+        .filter(|_| robot.floating.is_some());
+    let counted = counted.and_then(|rest| rest.split_once('/'));
+    match counted.and_then(|(number, key)| Some((number.parse::<usize>().ok()?, key))) {
+        Some((number, key)) => format!("joint/#{}/{key}", number + 1),
+        None => place.into(),
+    }
 }
 
 fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Finding>) {
@@ -70,10 +85,11 @@ fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Finding>) {
     let notes = keys.optional(cx, "notes", notes);
     keys.get("outputs");
     let read = keys.required(cx, "joint", JOINT, joints);
-    let read = read.unwrap_or_default();
+    let (floating, read) = read.unwrap_or_default();
 
     let word = |cx: &mut Context, value| cx.word(value, &Convention::WORDS, WHICH);
-    let convention = match (read.iter().any(|joint| joint.placed.is_some()), convention) {
+    let is_placed = floating.is_some() || read.iter().any(|joint| joint.placed.is_some());
+    let convention = match (is_placed, convention) {
         (false, _) => keys.required(cx, "convention", CONVENTION, word),
         (true, None) => None,
         (true, Some(value)) => {
@@ -93,14 +109,15 @@ fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Finding>) {
         tool,
         payload_frame,
         payload_range,
+        floating,
         joints: read.iter().map(|read| read.joint.clone()).collect(),
         followers: Vec::new(),
         frames: Vec::new(),
         notes: notes.unwrap_or_default(),
     };
-    let frames = keys.optional(cx, "frame", |cx, list| frames(cx, &robot.joints, list));
+    let frames = keys.optional(cx, "frame", |cx, list| frames(cx, &robot, list));
     robot.frames = frames.unwrap_or_default();
-    let parents = parent::read(cx, &robot.joints, &read);
+    let parents = parent::read(cx, &robot, &read);
     for (joint, parent) in robot.joints.iter_mut().zip(parents) {
         joint.parent = parent;
     }
@@ -140,27 +157,42 @@ fn notes(cx: &mut Context, value: &Value) -> Option<Vec<String>> {
     cx.each(items, |cx, _, item| cx.string(item))
 }
 
-fn joints<'v>(cx: &mut Context, list: &'v Value<'v>) -> Option<Vec<joint::Read<'v>>> {
+type Joints<'v> = (Option<FloatingBase>, Vec<joint::Read<'v>>);
+
+fn joints<'v>(cx: &mut Context, list: &'v Value<'v>) -> Option<Joints<'v>> {
     const BRACKETS: &str = "write [[joint]], with two brackets";
+    const EACH: &str = "each joint is a [[joint]] table";
     let items = cx.list(list, "[[joint]] tables", BRACKETS)?;
+    let (base, items) = match items.split_first() {
+        Some((first, others)) if base::floats(first) => {
+            let keys = Table::open(cx, first, "joint/#1", "the base", EACH)?;
+            (Some(base::read(cx, keys)), others)
+        }
+        _ => (None, items),
+    };
+    let first = usize::from(base.is_some());
     let most = Robot::MAX_JOINTS;
     if let Some(item) = items.get(most) {
         let message = format!("a robot has 1 to {most} joints, not {}", items.len());
         cx.refuse::<()>(item, message, "this is the first too many");
     }
-    cx.each(&items[..most.min(items.len())], |cx, index, item| {
+    let joints = cx.each(&items[..most.min(items.len())], |cx, index, item| {
         let number = index + 1;
-        let (place, name) = (format!("joint/#{number}"), format!("joint {number}"));
-        let keys = Table::open(cx, item, place, name, "each joint is a [[joint]] table")?;
+        let (place, name) = (
+            format!("joint/#{}", number + first),
+            format!("joint {number}"),
+        );
+        let keys = Table::open(cx, item, place, name, EACH)?;
         Some(joint::read(cx, keys))
-    })
+    });
+    Some((base, joints?))
 }
 
-fn frames(cx: &mut Context, joints: &[Joint], list: &Value) -> Option<Vec<Frame>> {
+fn frames(cx: &mut Context, robot: &Robot, list: &Value) -> Option<Vec<Frame>> {
     const NAME: &str = "name = \"camera\": functions are called after it, `jacobian_camera`";
     const LINK: &str = "link = 3, or the name of its joint: what the frame is fixed to";
     // Without joints, every link would be unknown as well.
-    if joints.is_empty() {
+    if robot.joints.is_empty() {
         return None;
     }
     let items = cx.list(
@@ -173,14 +205,17 @@ fn frames(cx: &mut Context, joints: &[Joint], list: &Value) -> Option<Vec<Frame>
         let (place, name) = (format!("frame/#{number}"), format!("frame {number}"));
         let mut keys = Table::open(cx, item, place, name, "each frame is a [[frame]] table")?;
         let name = keys.required(cx, "name", NAME, Context::string);
-        let joint = keys.required(cx, "link", LINK, |cx, value| {
-            link::read(cx, joints, value, LINK)
+        let row = keys.required(cx, "link", LINK, |cx, value| {
+            match link::is_base(robot, value) {
+                true => Some(None),
+                false => link::read(cx, &robot.joints, value, LINK).map(Some),
+            }
         });
         let placement = cx.placement(&mut keys);
         keys.finish(cx);
         Some(Frame {
             name: name?,
-            joint: joint?,
+            row: row?,
             placement: placement?,
         })
     })
@@ -189,17 +224,21 @@ fn frames(cx: &mut Context, joints: &[Joint], list: &Value) -> Option<Vec<Frame>
 /// Warnings about placed joints are about their placements, not about the rows.
 fn rows(cx: &mut Context, robot: &mut Robot, read: Vec<joint::Read>) -> Vec<Finding> {
     let (branches, is_any) = (
-        robot.branches(),
+        robot.is_tree(),
         read.iter().any(|joint| joint.placed.is_some()),
     );
     let is_placed = branches || is_any;
-    let (why, help) = match branches {
-        true => (
+    let (why, help) = match (branches, &robot.floating) {
+        (true, Some(_)) => (
+            "the base floats",
+            "give all joints a placement and an axis: rows of a table begin at a base that is fixed",
+        ),
+        (true, None) => (
             "links branch",
             "give all joints a placement and an axis: rows of a table cannot say where a branch \
              begins",
         ),
-        false => (
+        (false, _) => (
             "others are",
             "give all joints a placement and an axis, or all of them DH rows",
         ),
@@ -227,6 +266,8 @@ fn rows(cx: &mut Context, robot: &mut Robot, read: Vec<joint::Read>) -> Vec<Find
             .joints
             .iter_mut()
             .for_each(|joint| joint.parent = None);
+        chain.floating = None;
+        chain.frames.retain(|frame| frame.row.is_some());
         return chain.validate();
     }
     if !is_whole || !cx.unread.is_empty() {

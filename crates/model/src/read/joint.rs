@@ -10,7 +10,7 @@ use super::table::Table;
 use super::value::{Context, placement};
 use crate::number::{Angle, Rational};
 use crate::robot::Placed;
-use crate::robot::{Joint, JointKind, Limits};
+use crate::robot::{FloatingBase, Joint, JointKind, Limits};
 
 const ROW: [&str; 6] = ["alpha", "beta", "a", "d", "theta", "offset"];
 
@@ -25,6 +25,8 @@ pub(super) struct Read<'v> {
 /// Zeros stand in for values that cannot be read, which are reported.
 pub(super) fn read<'v>(cx: &mut Context, mut keys: Table<'v>) -> Read<'v> {
     const KIND: &str = "kind = \"revolute\" or \"prismatic\"";
+    const FIRST: &str =
+        "the base is the one body that floats: put its [[joint]] table before the others";
     const MASS: &str = "mass = 4.8, in kg; a link without mass has mass = 0";
     const COM: &str = "com = [x, y, z]: the centre of mass in the link frame, in m; only a link with mass = 0 may leave it out";
     const INERTIA: &str = "inertia = [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] about the centre of mass, in kg·m²; only a link with mass = 0 may leave it out";
@@ -32,7 +34,10 @@ pub(super) fn read<'v>(cx: &mut Context, mut keys: Table<'v>) -> Read<'v> {
     let own = &mut keys;
     let name = own.optional(cx, "name", Context::string);
     let kind = own.required(cx, "kind", KIND, |cx, value| {
-        cx.word(value, &JointKind::WORDS, "")
+        match value.as_str() == Some(FloatingBase::KIND) {
+            true => cx.refuse(value, "a joint that floats is the first", FIRST),
+            false => cx.word(value, &JointKind::WORDS, ""),
+        }
     });
     let alpha = angle(cx, own, "alpha");
     let beta = angle(cx, own, "beta");

@@ -9,7 +9,7 @@ use toml_span::Value;
 use super::report::quote;
 use super::suggest;
 use super::value::Context;
-use crate::robot::Joint;
+use crate::robot::{Joint, Parent, Robot};
 
 pub(super) fn read(cx: &mut Context, joints: &[Joint], value: &Value, help: &str) -> Option<usize> {
     let Some(text) = text_of(value) else {
@@ -23,6 +23,18 @@ pub(super) fn read(cx: &mut Context, joints: &[Joint], value: &Value, help: &str
         return cx.refuse(value, message, &help);
     }
     found
+}
+
+/// Returns true if a value names the base: by its name, where it floats.
+pub(super) fn is_base(robot: &Robot, value: &Value) -> bool {
+    let Some(text) = value.as_str() else {
+        return false;
+    };
+    let name = robot
+        .floating
+        .as_ref()
+        .and_then(|base| base.name.as_deref());
+    text == Parent::BASE || name == Some(text)
 }
 
 pub(super) fn text_of(value: &Value) -> Option<String> {

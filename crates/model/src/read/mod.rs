@@ -21,6 +21,10 @@
 //! placement = { xyz = [0.3, 0, 0.1], rpy = [0, "pi/2", 0] }
 //! axis = [0, 0, 1]
 //!
+//! [[joint]]                       # the first one alone: a base that floats
+//! kind = "floating"
+//! limits = { velocity = [2, 2, 1, 4, 4, 4] }          # of (v, ω) in its axes
+//!
 //! [[frame]]                       # a frame by its name, fixed to the link of joint 1
 //! name = "camera"
 //! link = 1
@@ -44,6 +48,7 @@
 //! `report` collects and prints diagnostics; `suggest` finds the likely word, `foreign` the likely
 //! intention where the text is no TOML.
 
+mod base;
 mod file;
 mod foreign;
 mod guard;

@@ -5,22 +5,19 @@ use alloc::vec::Vec;
 
 use super::value::Context;
 use super::{joint, link};
-use crate::robot::{Joint, Parent};
+use crate::robot::{Parent, Robot};
 
 const HELP: &str =
     "parent = 2, or the name of the joint whose link carries this one; \"base\" for the base";
 
 /// Returns the parents that are not the link before.
-pub(super) fn read(
-    cx: &mut Context,
-    joints: &[Joint],
-    read: &[joint::Read],
-) -> Vec<Option<Parent>> {
+pub(super) fn read(cx: &mut Context, robot: &Robot, read: &[joint::Read]) -> Vec<Option<Parent>> {
+    let joints = &robot.joints;
     // A parent that is not understood is of a robot that branches: nothing else is wrong with that.
     let unknown = (read.iter().any(|read| read.placed.is_some())).then_some(Parent::Base);
     let parents = read.iter().enumerate().map(|(row, read)| {
         let value = read.parent?;
-        if value.as_str() == Some(Parent::BASE) {
+        if link::is_base(robot, value) {
             return (row > 0).then_some(Parent::Base);
         }
         let Some(parent) = link::read(cx, joints, value, HELP) else {

@@ -159,6 +159,10 @@ impl Findings {
     }
 }
 
+pub(super) fn of_base(key: &str) -> String {
+    format!("joint/#0/{key}")
+}
+
 pub(super) fn of_joint(index: usize, key: &str) -> String {
     format!("joint/#{}/{key}", index + 1)
 }

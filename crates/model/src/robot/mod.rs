@@ -1,4 +1,5 @@
-//! A robot, fixed at build time, with exact parameters: a serial arm, or a tree of links.
+//! A robot, fixed at build time, with exact parameters: a serial arm, or a tree of links, whose base
+//! may float.
 //!
 //! One [`Joint`] per row of the DH table, or per joint that is placed where links branch;
 //! everything is SI, angles are exact ([`Angle`]), all other numbers are exact rationals.
@@ -6,6 +7,7 @@
 //! - `findings`: errors and warnings, each at a place of the robot file ([`Finding`]), and the
 //!   names by which a file silences them ([`RobotWarning`])
 //! - `follower`: joints that follow others, rows without a coordinate ([`Follower`])
+//! - `floating`: a base that floats ([`FloatingBase`])
 //! - `tree`: which link carries which ([`Parent`])
 //! - `validate`: checks of robots, from files and from code ([`Robot::validate`])
 //! - `reach`: how far an arm reaches, and inertias too large for that
@@ -16,6 +18,7 @@
 
 mod body;
 mod findings;
+mod floating;
 mod follower;
 pub(crate) mod reach;
 mod tree;
@@ -36,6 +39,7 @@ use crate::number::{Angle, Rational};
 pub use body::Defect;
 pub(crate) use findings::Findings;
 pub use findings::{Finding, RobotWarning, Severity};
+pub use floating::{BaseLimits, FloatingBase};
 pub use follower::Follower;
 pub use tree::{Parent, Placed};
 
@@ -80,7 +84,7 @@ impl JointKind {
     ];
 }
 
-/// A serial arm, or a tree of links.
+/// A serial arm, or a tree of links, whose base may float.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Robot {
     /// Its name; the generated module is called after it.
@@ -88,6 +92,8 @@ pub struct Robot {
     /// DH convention of every row.
     pub convention: Convention,
     /// Acceleration of gravity in base axes, m/s², e.g. (0, 0, −9.81).
+    ///
+    /// Of a base that floats it is in the world, and functions take it in the base's axes.
     ///
     /// Base axes are those that [`Robot::base`] places frame 0 in, here and in
     /// every pose, Jacobian and wrench; without it they are frame 0's own.
@@ -102,6 +108,8 @@ pub struct Robot {
     pub payload_frame: Option<Placement>,
     /// The payloads that there may be, where a payload is an argument.
     pub payload_range: Option<PayloadRange>,
+    /// The base, if it floats; joints are counted without it.
+    pub floating: Option<FloatingBase>,
     /// The joints, each after the one that carries it; 1 to [`Robot::MAX_JOINTS`]. Each is a row of
     /// the table and a coordinate; rows between them may be followers.
     pub joints: Vec<Joint>,
@@ -148,8 +156,8 @@ impl Placement {
 pub struct Frame {
     /// Its name: small letters, digits and single `_`, since functions are called after it.
     pub name: String,
-    /// The row of the joint that moves the link, zero-based.
-    pub joint: usize,
+    /// The row of the joint that moves the link, zero-based; `None` for a base that floats.
+    pub row: Option<usize>,
     /// Its pose in the frame of that row.
     pub placement: Placement,
 }
@@ -173,7 +181,7 @@ impl Robot {
 
     /// Returns true if a link has mass or inertia, or a joint an armature.
     pub fn has_mass(&self) -> bool {
-        self.rows().into_iter().any(|joint| {
+        self.bodies().any(|joint| {
             let inertia = joint.inertia.entries();
             let mut numbers = [&joint.mass, &joint.armature].into_iter().chain(inertia);
             numbers.any(|number| !number.is_zero())

@@ -84,7 +84,7 @@ impl Findings {
     /// Checks who carries whom, and that joints are placed exactly where links branch. Placements
     /// that a file has, and that rows are still to be derived from, are not looked at.
     pub(super) fn tree(&mut self, robot: &Robot) {
-        let branches = robot.branches();
+        let is_tree = robot.is_tree();
         for (row, joint) in robot.rows().into_iter().enumerate() {
             let parent = of_joint(row, "parent");
             match joint.parent {
@@ -103,8 +103,12 @@ impl Findings {
                 _ => {}
             }
             let Some(placed) = &joint.place else {
-                if branches {
-                    let message = format!("joint {} has no placement, and links branch", row + 1);
+                if is_tree {
+                    let why = match robot.floating {
+                        Some(_) => "the base floats",
+                        None => "links branch",
+                    };
+                    let message = format!("joint {} has no placement, and {why}", row + 1);
                     let help = "give every joint a placement and an axis: rows of a table cannot \
                                 say where a branch begins";
                     self.error(of_joint(row, "placement"), message, help);
@@ -121,13 +125,13 @@ impl Findings {
                     "such as [0, 0, 1] or [0.6, 0.8, 0]",
                 );
             }
-            if !branches || joint.has_row() {
+            if !is_tree || joint.has_row() {
                 let message = "a joint that is placed and has a row";
                 let help = "joints are placed where links branch; elsewhere they have rows";
                 self.error(of_joint(row, "placement"), message, help);
             }
         }
-        if !branches {
+        if !robot.branches() || robot.floating.is_some() {
             return;
         }
         let tips = robot.tips().len();

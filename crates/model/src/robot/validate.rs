@@ -65,7 +65,11 @@ impl Robot {
             findings.error("joint", message, help);
         }
         findings.tree(self);
+        findings.floating(self);
         let mut names = BTreeMap::new();
+        if let Some(base) = self.floating.as_ref().and_then(|base| base.name.as_deref()) {
+            names.insert(base, None);
+        }
         for (index, joint) in rows.into_iter().enumerate() {
             findings.joint(index, joint);
             findings.doubtful_joint(index, joint);
@@ -85,13 +89,16 @@ impl Robot {
             let Some(name) = joint.name.as_deref() else {
                 continue;
             };
-            findings.joint_name(index, name);
+            findings.joint_name(index + 1, name);
             if let Some(first) = names.get(name) {
-                let message = format!("joint {} is called {name:?} already", first + 1);
+                let message = match first {
+                    None => format!("the base is called {name:?} already"),
+                    Some(first) => format!("joint {} is called {name:?} already", first + 1),
+                };
                 let help = "give every joint a name of its own, or none";
                 findings.error(of_joint(index, "name"), message, help);
             } else {
-                names.insert(name, index);
+                names.insert(name, Some(index));
             }
         }
         findings.frames(self);
@@ -130,8 +137,9 @@ impl Findings {
         self.error("name", message, &help);
     }
 
-    fn joint_name(&mut self, index: usize, name: &str) {
-        let place = of_joint(index, "name");
+    /// Joints are counted from one; a base that floats is zero.
+    pub(super) fn joint_name(&mut self, joint: usize, name: &str) {
+        let place = format!("joint/#{joint}/name");
         let length = name.chars().count();
         if length == 0 || length > Robot::MAX_NAME || name.chars().any(char::is_control) {
             let most = Robot::MAX_NAME;
@@ -143,10 +151,9 @@ impl Findings {
             let message = "a joint's name has no character that turns the direction of text";
             self.error(place, message, &units::without_turns(name));
         } else if let Ok(number) = name.trim().parse::<i64>()
-            && usize::try_from(number) != Ok(index + 1)
+            && usize::try_from(number) != Ok(joint)
         {
             // Scenes name joints by either.
-            let joint = index + 1;
             let message = format!(
                 "joint {joint} is called {name:?}, which is a joint's number and not its own"
             );
@@ -180,7 +187,9 @@ impl Findings {
                 self.error(place, message, "give every frame a name of its own");
             }
             let rows = robot.rows().len();
-            if frame.joint >= rows {
+            if frame.row.is_some_and(|row| row >= rows)
+                || frame.row.is_none() && robot.floating.is_none()
+            {
                 let message = format!("frame {name:?} is fixed to no link of the robot");
                 let help = format!("links are counted from 1 to {rows}");
                 self.error(place, message, &help);
@@ -211,13 +220,7 @@ impl Findings {
         self.angle(&at(theta), &joint.theta);
         self.size(&at("a"), &joint.a);
         self.size(&at(d), &joint.d);
-        for value in &joint.com {
-            self.size(&at("com"), value);
-        }
-        for value in joint.inertia.rows().iter().flatten() {
-            self.size(&at("inertia"), value);
-        }
-        self.not_negative(&at("mass"), &joint.mass);
+        self.inertial(&at, joint);
         self.not_negative(&at("viscous"), &joint.viscous);
         self.coulomb(index, joint);
         self.not_negative(&at("armature"), &joint.armature);
@@ -232,6 +235,16 @@ impl Findings {
         if let Some(range) = &joint.limits.position {
             self.range(&at("limits/position"), joint.kind, range);
         }
+    }
+
+    pub(super) fn inertial(&mut self, at: &dyn Fn(&str) -> String, joint: &Joint) {
+        for value in &joint.com {
+            self.size(&at("com"), value);
+        }
+        for value in joint.inertia.rows().iter().flatten() {
+            self.size(&at("inertia"), value);
+        }
+        self.not_negative(&at("mass"), &joint.mass);
         self.body(&at("inertia"), joint);
     }
 
@@ -271,7 +284,7 @@ impl Findings {
         self.size(place, value.number());
     }
 
-    fn not_negative(&mut self, place: &str, value: &Rational) {
+    pub(super) fn not_negative(&mut self, place: &str, value: &Rational) {
         self.size(place, value);
         if value.is_negative() {
             let (_, key) = place.rsplit_once('/').unwrap_or(("", place));

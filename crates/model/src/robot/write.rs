@@ -11,7 +11,8 @@ use super::values::{
     angle, lines, list, number, numbers, payloads, placement, position, quoted, range, short_hash,
     table, texts, unless_zero, word,
 };
-use super::{Convention, Joint, JointKind, Parent, Placed, Placement, Robot};
+use super::{Convention, FloatingBase, Joint, JointKind, Parent, Placed, Placement, Robot};
+use crate::number::Rational;
 
 /// Writes a robot as a robot file.
 ///
@@ -24,10 +25,7 @@ pub fn write(robot: &Robot) -> String {
     let convention = word(&Convention::WORDS, &robot.convention);
     let head = [
         ("name", Some(quoted(&robot.name))),
-        (
-            "convention",
-            (!robot.branches()).then(|| quoted(convention)),
-        ),
+        ("convention", (!robot.is_tree()).then(|| quoted(convention))),
         ("gravity", Some(numbers(&robot.gravity))),
     ];
     let placements = robot.placements();
@@ -36,6 +34,10 @@ pub fn write(robot: &Robot) -> String {
     let limits = table([("payload", robot.payload_range.as_ref().and_then(payloads))]);
     lines(&mut text, [("limits", limits)]);
     lines(&mut text, [("notes", texts(&robot.notes))]);
+    if let Some(base) = &robot.floating {
+        text.push_str("\n[[joint]]\n");
+        write_base(&mut text, base);
+    }
     for (row, joint) in robot.rows().into_iter().enumerate() {
         text.push_str("\n[[joint]]\n");
         write_joint(&mut text, joint);
@@ -51,7 +53,10 @@ pub fn write(robot: &Robot) -> String {
     }
     for frame in &robot.frames {
         text.push_str("\n[[frame]]\n");
-        let link = format!("{}", frame.joint + 1);
+        let link = match frame.row {
+            Some(row) => format!("{}", row + 1),
+            None => quoted(Parent::BASE),
+        };
         let head = [("name", Some(quoted(&frame.name))), ("link", Some(link))];
         lines(&mut text, head);
         write_frame(&mut text, &frame.placement);
@@ -77,6 +82,26 @@ impl Robot {
             ..self.clone()
         })
     }
+}
+
+fn write_base(text: &mut String, base: &FloatingBase) {
+    let six = |limit: &Option<[Rational; 6]>| limit.as_ref().map(numbers);
+    let limits = table([
+        ("velocity", six(&base.limits.velocity)),
+        ("acceleration", six(&base.limits.acceleration)),
+        ("torque", six(&base.limits.torque)),
+    ]);
+    lines(
+        text,
+        [
+            ("name", base.name.as_deref().map(quoted)),
+            ("kind", Some(quoted(FloatingBase::KIND))),
+            ("mass", Some(number(&base.mass))),
+            ("com", Some(numbers(&base.com))),
+            ("inertia", Some(numbers(base.inertia.entries()))),
+            ("limits", limits),
+        ],
+    );
 }
 
 fn write_joint(text: &mut String, joint: &Joint) {

@@ -33,6 +33,7 @@ pub struct Composite<'a, S> {
 }
 
 /// The effect of turning and driving a joint on its composite, about a frame's origin in its axes.
+#[derive(Clone)]
 pub(super) struct Acting<S, const WRENCHES: usize, const VECTORS: usize> {
     pub(super) wrenches: [Wrench<S>; WRENCHES],
     pub(super) vectors: [Vector<S>; VECTORS],
@@ -94,11 +95,15 @@ impl<'a, S: Scalar> Composite<'a, S> {
         }
     }
 
-    /// Returns D, n×n, armature on the diagonal.
+    /// Returns D of all coordinates, armature on the diagonal.
     pub fn inertia(&self, travel: CompositeOrder) -> Vec<Vec<S>> {
         let n = self.chain.links.len();
         let columns: Vec<Vec<S>> = (0..n).map(|k| self.inertia_column(k, travel)).collect();
-        symmetric(n, |i, k| columns[i][k].clone())
+        let joints = symmetric(n, |i, k| columns[i][k].clone());
+        match &self.base {
+            None => joints,
+            Some(body) => self.bordered_inertia(body, joints),
+        }
     }
 
     /// Returns D_0k … D_kk.
@@ -119,50 +124,6 @@ impl<'a, S: Scalar> Composite<'a, S> {
             }
         }
         column
-    }
-
-    /// Returns D of a base that floats and of its joints, (6+n)×(6+n): force over moment, then τ,
-    /// by linear over angular acceleration of the base, then q̈.
-    pub fn floating_inertia(&self, travel: CompositeOrder) -> Vec<Vec<S>> {
-        let (chain, n) = (self.chain, self.bodies.len());
-        let joints = self.inertia(travel);
-        let body = self.base.clone().unwrap_or_else(Body::zero);
-        let mass = times(&times(&chain.per_unit, &chain.per_unit), &body.mass);
-        let [x, y, z] = scaled(&chain.per_unit, &body.first);
-        let (tensor, o) = (body.tensor(), S::zero);
-        let skew = [
-            [o(), negative(&z), y.clone()],
-            [z, o(), negative(&x)],
-            [negative(&y), x, o()],
-        ];
-        let mut d = alloc::vec![zeros(6 + n); 6 + n];
-        for i in 0..3 {
-            d[i][i] = mass.clone();
-            for k in 0..3 {
-                d[3 + i][3 + k] = super::body::entry(&tensor, i, k).clone();
-                d[3 + i][k] = skew[i][k].clone();
-                d[k][3 + i] = skew[i][k].clone();
-            }
-        }
-        for k in 0..n {
-            let seen = self.push_on_base(k);
-            for (i, entry) in chain.on_base(&seen).enumerate() {
-                let entry = chain.rescaled(k, entry);
-                (d[i][6 + k], d[6 + k][i]) = (entry.clone(), entry);
-            }
-            for i in 0..n {
-                d[6 + i][6 + k] = joints[i][k].clone();
-            }
-        }
-        d
-    }
-
-    /// Returns the wrench of a unit acceleration of joint k about the base's origin.
-    pub(super) fn push_on_base(&self, k: usize) -> Wrench<S> {
-        let way = self.chain.way(k);
-        way.fold(self.momentum(k), |w, i| {
-            self.chain.to_previous(i, self.at, &w)
-        })
     }
 
     /// Returns `h[i][k][m]` = h_ikm, n×n×n.
@@ -186,11 +147,11 @@ impl<'a, S: Scalar> Composite<'a, S> {
         (0..m).map(entry).collect()
     }
 
-    /// Returns c, length n.
+    /// Returns c, an entry a coordinate.
     pub fn gravity(&self, travel: CompositeOrder) -> Vec<S> {
         let chain = self.chain;
         if travel == CompositeOrder::Inward {
-            let rest = zeros(chain.links.len());
+            let rest = zeros(chain.coordinates());
             let (spin, couple) = (AccelerationForm::Column, MomentForm::SecondMoments);
             return chain.inverse_dynamics(self.at, &rest, &rest, spin, couple);
         }
@@ -211,10 +172,11 @@ impl<'a, S: Scalar> Composite<'a, S> {
                 }
             }
         });
-        c.collect()
+        let base = self.base.iter().flat_map(|body| chain.weight(body));
+        base.chain(c).collect()
     }
 
-    /// Returns τ, length n, without armature and damping.
+    /// Returns τ, an entry a coordinate, without armature and damping.
     pub fn torques(
         &self,
         gravity: &Vector<S>,
@@ -226,7 +188,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
         let chain = self.chain;
         let (rates, accelerations) = (chain.rates(qd), chain.rates(qdd));
         let n = chain.links.len();
-        let base = Motion::base(&chain.spin, gravity);
+        let base = chain.base_motion([qd, qdd], gravity);
         let mut motions: Vec<Motion<S>> = Vec::with_capacity(n);
         let mut wrenches = Vec::with_capacity(n);
         let mut own = Vec::with_capacity(n);
@@ -251,15 +213,11 @@ impl<'a, S: Scalar> Composite<'a, S> {
             motions.push(before.next(link, &self.at[i], &rates[i], &accelerations[i], spin));
         }
         let own_wrench = |i: usize| wrenches[i].clone();
-        let (torques, arrived) = chain.loads(self.at, own_wrench, exerted, |i| own[i].clone());
-        let Some(body) = &self.base else {
-            return torques;
-        };
-        let wrench = base.wrench(body, MomentForm::SecondMoments);
-        chain
-            .on_base(&arrived.with(&wrench))
-            .chain(torques)
-            .collect()
+        let loads = chain.loads(self.at, own_wrench, exerted, |i| own[i].clone());
+        chain.with_base(loads, |body| {
+            let whole = self.base.as_ref().unwrap_or(body);
+            base.wrench(whole, MomentForm::SecondMoments)
+        })
     }
 
     /// Returns the wrench of Δ_k Δ_m on the composite body m, `turn` being the angular part of Δ_k.

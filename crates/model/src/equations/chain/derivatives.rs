@@ -4,7 +4,7 @@
 use alloc::vec::Vec;
 
 use super::composite::{Acting, Composite, CompositeOrder};
-use super::recursion::{AccelerationForm, MomentForm, Motion};
+use super::recursion::{AccelerationForm, MomentForm, Motion, Motions};
 use super::{Body, ChainLink, Displacement, Rotation};
 use crate::equations::matrix::*;
 use crate::equations::screws::{Twist, Wrench};
@@ -41,9 +41,10 @@ pub(super) struct Joint<S> {
 }
 
 impl<S: Scalar> Composite<'_, S> {
-    /// Returns ∂τ/∂q and ∂τ/∂q̇, each n×n.
+    /// Returns ∂τ/∂q and ∂τ/∂q̇ of all coordinates. Of a base that floats the first is as it moves in
+    /// its axes, velocities kept.
     pub fn slopes(&self, qd: &[S], qdd: &[S], travel: CompositeOrder) -> Slopes<S> {
-        let joints = self.own_slopes(qd, qdd);
+        let (joints, flow) = self.own_slopes_to(qd, qdd);
         let n = joints.len();
         let [position, velocity] = [zero_matrix(n), zero_matrix(n)];
         let mut slopes = Slopes { position, velocity };
@@ -56,6 +57,8 @@ impl<S: Scalar> Composite<'_, S> {
             vectors: [joint.swing.clone()],
         });
         let (earlier, later) = (twists.collect::<Vec<_>>(), acting.collect::<Vec<_>>());
+        let of_base = self.base.as_ref();
+        let of_base = of_base.map(|body| (body, later.clone()));
         self.each_pair(travel, &earlier, later, |[j, i], twists, own| {
             if j == i {
                 slopes.position[i][i] = joints[i].position.0.clone();
@@ -75,60 +78,10 @@ impl<S: Scalar> Composite<'_, S> {
         for (i, link) in self.chain.links.iter().enumerate() {
             slopes.velocity[i][i] = plus(&slopes.velocity[i][i], &link.friction.slope());
         }
-        slopes
-    }
-
-    /// Returns the slopes of the wrench on a base that floats, force over moment, over those of τ,
-    /// by q and q̇, each (6+n)×n, and by ω of the base, (6+n)×3.
-    pub fn floating_slopes(&self, qd: &[S], qdd: &[S], travel: CompositeOrder) -> [Vec<Vec<S>>; 3] {
-        let (chain, n) = (self.chain, qd.len());
-        let Slopes { position, velocity } = self.slopes(qd, qdd, travel);
-        let (joints, arrived) = self.own_slopes_to(qd, qdd);
-        let blank = |k: usize| alloc::vec![alloc::vec![S::zero(); k]; 6];
-        let mut by_position = [blank(n), position].concat();
-        let mut by_velocity = [blank(n), velocity].concat();
-        let mut by_omega = alloc::vec![alloc::vec![S::zero(); 3]; 6 + n];
-        let omega = &chain.spin[0];
-        let unit = |i: usize| -> Vector<S> {
-            core::array::from_fn(|k| if k == i { S::one() } else { S::zero() })
-        };
-        let turns: [Vector<S>; 3] = core::array::from_fn(|i| cross(omega, &unit(i)));
-        for (k, joint) in joints.into_iter().enumerate() {
-            let own = [joint.position.1, joint.velocity.1, joint.push];
-            let (wrenches, swing) = chain.way(k).fold((own, joint.swing), |(own, swing), i| {
-                let swing = chain.links[i].outward(&self.at[i], &swing);
-                (own.map(|own| chain.to_previous(i, self.at, &own)), swing)
-            });
-            let [position, velocity, push] = &wrenches;
-            for (matrix, wrench) in [(&mut by_position, position), (&mut by_velocity, velocity)] {
-                for (row, entry) in chain.on_base(wrench).enumerate() {
-                    matrix[row][k] = chain.rescaled(k, entry);
-                }
-            }
-            for (i, turn) in turns.iter().enumerate() {
-                let slope = plus(&swing[i], &dot(&push.moment, turn));
-                by_omega[6 + k][i] = chain.rescaled(k, slope);
-            }
+        match of_base {
+            None => slopes,
+            Some((body, later)) => self.bordered_slopes((body, &flow), qd, later, slopes),
         }
-        if let (Some(own), Some(body)) = (&chain.base, &self.base) {
-            let at_base = Twist {
-                turn: omega.clone(),
-                ..Twist::rest()
-            };
-            let flow = Flow::of(own, &at_base);
-            let flow = arrived.with(&flow);
-            for (i, turn) in turns.iter().enumerate() {
-                let pushed = Twist {
-                    turn: turn.clone(),
-                    ..Twist::rest()
-                };
-                let slope = flow.of_turn(&unit(i)).with(&inertial(body, &pushed));
-                for (row, entry) in chain.on_base(&slope).enumerate() {
-                    by_omega[row][i] = entry;
-                }
-            }
-        }
-        [by_position, by_velocity, by_omega]
     }
 
     /// Returns each joint's contribution by itself.
@@ -136,10 +89,13 @@ impl<S: Scalar> Composite<'_, S> {
         self.own_slopes_to(qd, qdd).0
     }
 
+    /// Returns the same, and the flow of all bodies where it arrives at the base. That a base moves
+    /// along has no effect but on its acceleration: velocities are those of one that only turns.
     fn own_slopes_to(&self, qd: &[S], qdd: &[S]) -> (Vec<Joint<S>>, Flow<S>) {
         let chain = self.chain;
-        let velocities = chain.velocities(self.at, qd);
-        let motions = chain.motions(self.at, qd, qdd, AccelerationForm::Column);
+        let velocities = chain.velocities(self.at, chain.base_turning(qd), qd);
+        let Motions { links: motions, .. } =
+            chain.motions(self.at, qd, qdd, AccelerationForm::Column);
         let whole = |i: usize, outer: Option<(Flow<S>, Wrench<S>)>| {
             let (flow, load) = outer.unwrap_or_else(|| (Flow::nothing(), Wrench::zero()));
             let (velocity, motion, body) = (&velocities[i], &motions[i], &self.bodies[i]);
@@ -175,9 +131,11 @@ impl<S: Scalar> Composite<'_, S> {
         (joints, arrived.map_or_else(Flow::nothing, |(flow, _)| flow))
     }
 
-    /// Returns C, n×n, by composite momenta.
+    /// Returns C of all coordinates, by composite momenta.
     pub fn coriolis_matrix(&self, qd: &[S], travel: CompositeOrder) -> Vec<Vec<S>> {
-        let (earlier, later) = self.velocity_parts(qd);
+        let (earlier, later, flow) = self.velocity_parts(qd);
+        let of_base = self.base.as_ref();
+        let of_base = of_base.map(|body| (body, later.clone()));
         let mut matrix = zero_matrix(later.len());
         self.each_pair(travel, &earlier, later, |[j, i], [twist, rate], own| {
             let ([felt, push], [swing]) = (&own.wrenches, &own.vectors);
@@ -187,12 +145,15 @@ impl<S: Scalar> Composite<'_, S> {
             }
         });
         self.matrix_in_metres(&mut matrix);
-        matrix
+        match of_base {
+            None => matrix,
+            Some((body, later)) => self.bordered_coriolis((body, &flow), qd, later, matrix),
+        }
     }
 
-    fn velocity_parts(&self, qd: &[S]) -> (Vec<Earlier<S>>, Vec<Later<S>>) {
+    fn velocity_parts(&self, qd: &[S]) -> (Vec<Earlier<S>>, Vec<Later<S>>, Flow<S>) {
         let chain = self.chain;
-        let velocities = chain.velocities(self.at, qd);
+        let velocities = chain.velocities(self.at, chain.base_turning(qd), qd);
         let whole = |i: usize, outer: Option<Flow<S>>| {
             let link = &chain.links[i];
             let flow = outer.unwrap_or_else(Flow::nothing);
@@ -209,8 +170,9 @@ impl<S: Scalar> Composite<'_, S> {
             (flow, ([twist, rate], acting))
         };
         let back = |i: usize, flow: Flow<S>| flow.carried(&chain.links[i], &self.at[i]);
-        let (joints, _) = chain.inward(whole, back, Flow::with);
-        joints.into_iter().unzip()
+        let (joints, arrived) = chain.inward(whole, back, Flow::with);
+        let (earlier, later) = joints.into_iter().unzip();
+        (earlier, later, arrived.unwrap_or_else(Flow::nothing))
     }
 }
 
@@ -315,7 +277,7 @@ impl<S: Scalar> Flow<S> {
     }
 
     /// Returns 2 ∫ (α × V) dm = 2 α × ∫ V dm, and its moment 2 (tr(M) α − M α), M = ∫ V rᵀ dm.
-    fn of_turn(&self, turn: &Vector<S>) -> Wrench<S> {
+    pub(super) fn of_turn(&self, turn: &Vector<S>) -> Wrench<S> {
         self.half_of_turn(&turn.each_ref().map(twice))
     }
 

@@ -1,84 +1,311 @@
-//! Forward dynamics of a tree on a floating base: D (a − a₀) = (W, τ) − (W, τ)(a₀) at accelerations
-//! a₀ that shorten the recursion. The base falls freely and ω̇ makes U_12, U_23 and U_31 vanish;
-//! joints are eliminated from the tips inward, so that nothing fills in between branches.
+//! A base that floats: its coordinates come before those of the joints, linear over angular in its
+//! own axes, of velocities, accelerations and loads alike.
 
 use alloc::vec::Vec;
 
-use super::composite::{Composite, CompositeOrder};
-use super::parallel::solved_in_pairs;
-use super::recursion::{AccelerationForm, MomentForm, ReferenceMotion};
-use super::{Chain, Displacement, Unknowns};
+use super::composite::{Acting, Composite};
+use super::derivatives::{Flow, Slopes, inertial};
+use super::recursion::Motion;
+use super::{Body, Chain};
+use crate::equations::BASE_COORDINATES;
 use crate::equations::matrix::*;
-use crate::scalar::Divide;
+use crate::equations::screws::{Twist, Wrench};
+use crate::scalar::{Divide, Scalar};
 
-/// The system that is solved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Solving {
-    /// The base's linear acceleration is eliminated before its angular one.
-    pub angular_last: bool,
-    /// The unknowns that stand for q̈.
-    pub unknowns: Unknowns,
-    /// From accelerations that shorten the recursion, or from rest.
-    pub reference: bool,
+impl<S> Chain<S> {
+    /// Returns how many coordinates are those of a base that floats: six, or none.
+    pub fn base_coordinates(&self) -> usize {
+        match self.base {
+            Some(_) => BASE_COORDINATES,
+            None => 0,
+        }
+    }
+
+    /// Returns the number of coordinates of a velocity.
+    pub fn coordinates(&self) -> usize {
+        self.base_coordinates() + self.links.len()
+    }
+
+    /// Returns the entries of the joints among those of all coordinates.
+    pub fn of_joints<'v, T>(&self, values: &'v [T]) -> &'v [T] {
+        &values[self.base_coordinates()..]
+    }
+}
+
+fn parts<S: Scalar>(values: &[S]) -> [Vector<S>; 2] {
+    [0, 3].map(|from| three(|i| values[from + i].clone()))
+}
+
+/// Returns the linear, then the angular units.
+pub(super) fn unit_twists<S: Scalar>() -> [Twist<S>; BASE_COORDINATES] {
+    core::array::from_fn(|k| {
+        let unit = three(|i| if i == k % 3 { S::one() } else { S::zero() });
+        match k < 3 {
+            true => Twist {
+                shift: unit,
+                ..Twist::rest()
+            },
+            false => Twist {
+                turn: unit,
+                ..Twist::rest()
+            },
+        }
+    })
+}
+
+impl<S: Scalar> Chain<S> {
+    /// Returns the twist of the base, at rest if it is fixed.
+    pub(super) fn base_twist(&self, qd: &[S]) -> Twist<S> {
+        if self.base.is_none() {
+            return Twist::rest();
+        }
+        let [linear, turn] = parts(qd);
+        let shift = scaled(&self.per_unit, &linear);
+        Twist { turn, shift }
+    }
+
+    /// Returns the twist of a base that turns as this one does, and stays where it is.
+    pub(super) fn base_turning(&self, qd: &[S]) -> Twist<S> {
+        Twist {
+            shift: zero_vector(),
+            ..self.base_twist(qd)
+        }
+    }
+
+    /// Returns the motion of the base, which rises instead of being pulled down. The velocity of
+    /// its origin turns with its axes: the acceleration is v̇ + ω × v.
+    pub(super) fn base_motion(&self, [qd, qdd]: [&[S]; 2], gravity: &Vector<S>) -> Motion<S> {
+        if self.base.is_none() {
+            return Motion::base([zero_vector(), zero_vector()], opposite(gravity));
+        }
+        let ([v, omega], [v_dot, omega_dot]) = (parts(qd), parts(qdd));
+        let acceleration = scaled(&self.per_unit, &sum(&v_dot, &cross(&omega, &v)));
+        let rising = difference(&acceleration, gravity);
+        Motion::base([omega, omega_dot], rising)
+    }
+
+    /// Returns a load of a coordinate, or a slope by it, in metres.
+    pub(super) fn coordinate_in_metres(&self, coordinate: usize, value: S) -> S {
+        match coordinate.checked_sub(self.base_coordinates()) {
+            Some(joint) => self.rescaled(joint, value),
+            None if coordinate < 3 => times(&self.per_unit, &value),
+            None => value,
+        }
+    }
+
+    /// Returns a wrench on the base in metres.
+    pub(super) fn on_base(&self, wrench: &Wrench<S>) -> [S; BASE_COORDINATES] {
+        let [x, y, z] = scaled(&self.per_unit, &wrench.force);
+        let [a, b, c] = wrench.moment.clone();
+        [x, y, z, a, b, c]
+    }
+
+    /// Returns the loads of all coordinates: what arrives at a base that floats with what its own
+    /// body takes, then those of the joints.
+    pub(super) fn with_base(
+        &self,
+        (joints, arrived): (Vec<S>, Wrench<S>),
+        own: impl FnOnce(&Body<S>) -> Wrench<S>,
+    ) -> Vec<S> {
+        let Some(body) = &self.base else {
+            return joints;
+        };
+        let base = self.on_base(&arrived.with(&own(body)));
+        base.into_iter().chain(joints).collect()
+    }
+
+    /// Returns the loads of its weight on a base that floats with all that it carries.
+    pub(super) fn weight(&self, body: &Body<S>) -> [S; BASE_COORDINATES] {
+        let force = opposite(&scaled(&body.mass, &self.gravity));
+        let moment = opposite(&cross(&body.first, &self.gravity));
+        self.on_base(&Wrench { force, moment })
+    }
 }
 
 impl<S: Divide> Chain<S> {
-    /// Returns the linear acceleration of the base's origin, ω̇ and q̈ under a wrench on the base
-    /// (force over moment) and τ; the chain's gravity is gravity alone, and its ω̇ is not read.
-    pub fn floating_forward(
-        &self,
-        at: &[Displacement<S>],
-        qd: &[S],
-        loads: &[S],
-        (spin, couple, travel): (AccelerationForm, MomentForm, CompositeOrder),
-        how: Solving,
-    ) -> Vec<S> {
-        let moves = alloc::vec![true; qd.len()];
-        let omega = self.spin[0].clone();
+    /// Returns accelerations of a base that floats which shorten the recursion, and the motion that
+    /// they give: it falls freely, and ω̇ makes U_12, U_23 and U_31 vanish.
+    pub(super) fn falling(&self, qd: &[S]) -> ([S; BASE_COORDINATES], Motion<S>) {
+        let [v, omega] = parts(qd);
         let [x, y, z] = &omega;
-        let (fall, omega_dot) = match how.reference {
-            true => (
-                (self.gravity.each_ref()).map(|g| g.div(&self.per_unit)),
-                [times(y, z), times(x, z), times(x, y)],
-            ),
-            false => (zero_vector(), zero_vector()),
-        };
-        let mut chain = self.clone();
-        chain.spin[1] = omega_dot.clone();
-        let motion = if how.reference {
-            chain.gravity = zero_vector();
-            chain.reference_motion(at, qd, &moves, spin)
-        } else {
-            let accelerations = zeros(qd.len());
-            let links = chain.motions(at, qd, &accelerations, spin);
-            ReferenceMotion {
-                accelerations,
-                links,
-            }
-        };
-        let taken = chain.floating_loads(at, &motion.links, [qd, &motion.accelerations], couple);
-        let d = Composite::new(&chain, at).floating_inertia(travel);
-        // Unknowns are eliminated from the last on; the first six change places in halves.
-        let order: Vec<usize> = match how.angular_last {
-            true => [3, 4, 5, 0, 1, 2].into_iter().chain(6..d.len()).collect(),
-            false => (0..d.len()).collect(),
-        };
-        let ordered = |values: &[S]| order.iter().map(|&i| values[i].clone()).collect::<Vec<S>>();
-        let d: Vec<Vec<S>> = order.iter().map(|&i| ordered(&d[i])).collect();
-        let mut pairs = match how.unknowns {
-            Unknowns::Joints => Vec::new(),
-            Unknowns::AgainstBase => chain.pairs(&moves),
-        };
-        for pair in &mut pairs {
-            (pair.before, pair.after) = (6 + pair.before, 6 + pair.after);
+        let omega_dot = [times(y, z), times(x, z), times(x, y)];
+        let fall = self.gravity.each_ref().map(|g| g.div(&self.per_unit));
+        let [a, b, c] = difference(&fall, &cross(&omega, &v));
+        let [d, e, f] = omega_dot.clone();
+        let motion = Motion::base([omega, omega_dot], zero_vector());
+        ([a, b, c, d, e, f], motion)
+    }
+}
+
+/// A matrix over the coordinates of a base, and those of the joints.
+pub(super) struct Borders<S> {
+    /// 6×6
+    pub(super) base: Vec<Vec<S>>,
+    /// 6×n
+    pub(super) rows: Vec<Vec<S>>,
+    /// n×6
+    pub(super) columns: Vec<Vec<S>>,
+}
+
+impl<S: Scalar> Borders<S> {
+    /// Returns the matrix of all coordinates, from that of the joints.
+    pub(super) fn around(self, joints: Vec<Vec<S>>) -> Vec<Vec<S>> {
+        let base = self.base.into_iter().zip(self.rows);
+        let below = self.columns.into_iter().zip(joints);
+        base.chain(below)
+            .map(|(left, right)| [left, right].concat())
+            .collect()
+    }
+}
+
+impl<S: Scalar> Composite<'_, S> {
+    /// Carries what joint k does to the base.
+    pub(super) fn seen_from_base<const WRENCHES: usize, const VECTORS: usize>(
+        &self,
+        k: usize,
+        mut acting: Acting<S, WRENCHES, VECTORS>,
+    ) -> Acting<S, WRENCHES, VECTORS> {
+        for i in self.chain.way(k) {
+            let link = &self.chain.links[i];
+            acting.wrenches = (acting.wrenches).map(|own| self.chain.to_previous(i, self.at, &own));
+            acting.vectors = acting.vectors.map(|own| link.outward(&self.at[i], &own));
         }
-        let moves = alloc::vec![true; d.len()];
-        let known = [&ordered(&taken)[..], &ordered(loads)];
-        let found = solved_in_pairs(&pairs, &d, known, &moves);
-        let reference = fall
-            .into_iter()
-            .chain(omega_dot)
-            .chain(motion.accelerations);
-        sums(&ordered(&found), &reference.collect::<Vec<S>>())
+        acting
+    }
+
+    /// Returns what the base and the joints do to each other: `felt` has the wrenches on the base by
+    /// each joint, and by unit twists of the base `base` returns that on itself, `to_joint` the load
+    /// of a joint.
+    fn borders(
+        &self,
+        base: impl Fn(&Twist<S>) -> Wrench<S>,
+        felt: &[Wrench<S>],
+        to_joint: impl Fn(usize, usize, &Twist<S>) -> S,
+    ) -> Borders<S> {
+        let chain = self.chain;
+        let n = felt.len();
+        let units = unit_twists();
+        let in_metres = |k: usize, value: S| chain.coordinate_in_metres(k, value);
+        let own: Vec<Vec<S>> = (units.iter().enumerate())
+            .map(|(k, unit)| chain.on_base(&base(unit)).map(|x| in_metres(k, x)).to_vec())
+            .collect();
+        let arrived: Vec<Vec<S>> = (felt.iter().enumerate())
+            .map(|(k, wrench)| chain.on_base(wrench).map(|x| chain.rescaled(k, x)).to_vec())
+            .collect();
+        let rows = match n {
+            0 => alloc::vec![Vec::new(); BASE_COORDINATES],
+            _ => columns_of(&arrived),
+        };
+        Borders {
+            base: columns_of(&own),
+            rows,
+            columns: matrix(n, BASE_COORDINATES, |i, k| {
+                let load = chain.rescaled(i, to_joint(i, k, &units[k]));
+                in_metres(k, load)
+            }),
+        }
+    }
+
+    /// Returns D of all coordinates, from that of the joints.
+    pub(super) fn bordered_inertia(&self, body: &Body<S>, joints: Vec<Vec<S>>) -> Vec<Vec<S>> {
+        let pushes: Vec<Wrench<S>> = (0..joints.len()).map(|k| self.push_on_base(k)).collect();
+        let base = |unit: &Twist<S>| inertial(body, unit);
+        let along = |i: usize, k: usize, _: &Twist<S>| {
+            let Wrench { force, moment } = &pushes[i];
+            [force, moment][k / 3][k % 3].clone()
+        };
+        self.borders(base, &pushes, along).around(joints)
+    }
+
+    /// Returns the wrench of a unit acceleration of joint k about the base's origin.
+    fn push_on_base(&self, k: usize) -> Wrench<S> {
+        let wrenches = [self.momentum(k)];
+        let vectors = [];
+        let [push] = self
+            .seen_from_base(k, Acting { wrenches, vectors })
+            .wrenches;
+        push
+    }
+
+    /// Returns slopes of all coordinates, from those of the joints. With a = v̇ + ω × v − g nothing else
+    /// depends on v or g: of a unit twist (e, t) of the base a has the slopes ω × t + e × v by
+    /// velocity, and e × g as the base turns.
+    pub(super) fn bordered_slopes(
+        &self,
+        (body, flow): (&Body<S>, &Flow<S>),
+        qd: &[S],
+        later: Vec<Acting<S, 3, 1>>,
+        joints: Slopes<S>,
+    ) -> Slopes<S> {
+        let later = self.all_seen_from_base(later);
+        let (chain, flow) = (self.chain, self.with_flow_of_base(flow, qd));
+        let Twist { turn, shift } = chain.base_twist(qd);
+        let changed = |unit: &Twist<S>| Twist {
+            turn: cross(&turn, &unit.turn),
+            shift: sum(&cross(&turn, &unit.shift), &cross(&unit.turn, &shift)),
+        };
+        let lifted = |unit: &Twist<S>| Twist {
+            shift: cross(&unit.turn, &chain.gravity),
+            ..Twist::rest()
+        };
+        let felt = |of: usize| -> Vec<Wrench<S>> {
+            later.iter().map(|own| own.wrenches[of].clone()).collect()
+        };
+        let position = self.borders(
+            |unit| inertial(body, &lifted(unit)),
+            &felt(0),
+            |i, _, unit| later[i].wrenches[2].along(&lifted(unit)),
+        );
+        let velocity = self.borders(
+            |unit| (flow.of_turn(&unit.turn)).with(&inertial(body, &changed(unit))),
+            &felt(1),
+            |i, _, unit| {
+                let ([_, _, push], [swing]) = (&later[i].wrenches, &later[i].vectors);
+                plus(&dot(swing, &unit.turn), &push.along(&changed(unit)))
+            },
+        );
+        Slopes {
+            position: position.around(joints.position),
+            velocity: velocity.around(joints.velocity),
+        }
+    }
+
+    /// Returns C of all coordinates, from that of the joints and from what each does to its composite:
+    /// a unit twist of the base turns with its axes.
+    pub(super) fn bordered_coriolis(
+        &self,
+        (body, flow): (&Body<S>, &Flow<S>),
+        qd: &[S],
+        later: Vec<Acting<S, 2, 1>>,
+        joints: Vec<Vec<S>>,
+    ) -> Vec<Vec<S>> {
+        let later = self.all_seen_from_base(later);
+        let flow = self.with_flow_of_base(flow, qd);
+        let velocity = self.chain.base_turning(qd);
+        let base = |unit: &Twist<S>| {
+            let felt = flow.half_of_turn(&unit.turn);
+            felt.with(&inertial(body, &velocity.cross(unit)))
+        };
+        let felt: Vec<Wrench<S>> = later.iter().map(|own| own.wrenches[0].clone()).collect();
+        let along = |i: usize, _: usize, unit: &Twist<S>| {
+            let ([_, push], [swing]) = (&later[i].wrenches, &later[i].vectors);
+            plus(&dot(swing, &unit.turn), &push.along(&velocity.cross(unit)))
+        };
+        self.borders(base, &felt, along).around(joints)
+    }
+
+    fn all_seen_from_base<const WRENCHES: usize, const VECTORS: usize>(
+        &self,
+        later: Vec<Acting<S, WRENCHES, VECTORS>>,
+    ) -> Vec<Acting<S, WRENCHES, VECTORS>> {
+        let later = later.into_iter().enumerate();
+        later.map(|(k, own)| self.seen_from_base(k, own)).collect()
+    }
+
+    fn with_flow_of_base(&self, flow: &Flow<S>, qd: &[S]) -> Flow<S> {
+        match &self.chain.base {
+            None => flow.clone(),
+            Some(own) => flow.with(&Flow::of(own, &self.chain.base_turning(qd))),
+        }
     }
 }

@@ -41,16 +41,16 @@ use crate::scalar::Scalar;
 /// A constant rotation, row by row.
 pub type Rotation<S> = [Vector<S>; 3];
 
-/// A serial chain. Frame i of a revolute joint turns about its own z axis;
+/// A chain of links, or a tree. Frame i of a revolute joint turns about its own z axis;
 /// that of a prismatic joint keeps the axes of the frame before it.
 #[derive(Clone, Debug)]
 pub struct Chain<S> {
     /// Acceleration of gravity in base axes.
     pub gravity: Vector<S>,
-    /// ω and ω̇ of a base that moves, in its own axes; gravity is then less its acceleration.
-    pub spin: [Vector<S>; 2],
     /// The body of a base that floats, about the origin of the base.
     pub base: Option<Body<S>>,
+    /// The probes that are fixed to it.
+    pub base_probes: Vec<Probe<S>>,
     /// Links, each after the one that carries it.
     pub links: Vec<ChainLink<S>>,
     /// 1 / the unit of length.
@@ -159,8 +159,10 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
+    /// Returns the rates of the joints in the chain's unit.
     fn rates(&self, rates: &[S]) -> Vec<S> {
-        let rates = rates.iter().take(self.links.len()).cloned().enumerate();
+        let joints = self.of_joints(rates).iter().take(self.links.len());
+        let rates = joints.cloned().enumerate();
         rates.map(|(i, rate)| self.rescaled(i, rate)).collect()
     }
 }
@@ -173,8 +175,6 @@ impl<S> Chain<S> {
 
     fn with_each<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Chain<T> {
         let gravity = self.gravity.each_ref().map(&mut *f);
-        let vectors = self.spin.each_ref();
-        let spin = vectors.map(|vector| vector.each_ref().map(&mut *f));
         let base = self.base.as_ref().map(|body| body.map(&mut *f));
         let links = self.links.iter().map(|link| ChainLink {
             parent: link.parent,
@@ -197,8 +197,8 @@ impl<S> Chain<S> {
         let links = links.collect();
         Chain {
             gravity,
-            spin,
             base,
+            base_probes: Probe::each(&self.base_probes, |body| body.map(&mut *f)),
             links,
             per_unit: f(&self.per_unit),
             columns: self.columns,

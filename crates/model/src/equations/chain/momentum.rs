@@ -2,7 +2,8 @@
 
 use alloc::vec::Vec;
 
-use super::{Chain, ChainLink, Displacement};
+use super::derivatives::inertial;
+use super::{Body, Chain, ChainLink, Displacement};
 use crate::equations::matrix::*;
 use crate::equations::screws::{Twist, Wrench};
 use crate::robot::JointKind;
@@ -21,55 +22,65 @@ impl<S: Scalar> Twist<S> {
     }
 }
 
+/// Returns ½ m v·v + v·(ω × ∫ r dm) + ½ ω·(I ω)
+fn energy_of<S: Scalar>(body: &Body<S>, velocity: &Twist<S>) -> S {
+    let (omega, origin) = (&velocity.turn, &velocity.shift);
+    let half = body.tensor().map(halved);
+    let spin = tensor_times(&half, omega);
+    let slide = scaled(&halved(&body.mass), origin);
+    let slide = sum(&slide, &cross(omega, &body.first));
+    plus(&dot(omega, &spin), &dot(origin, &slide))
+}
+
 impl<S: Scalar> Chain<S> {
-    pub(super) fn velocities(&self, at: &[Displacement<S>], qd: &[S]) -> Vec<Twist<S>> {
+    /// Returns the velocities of the links, from that of the base.
+    pub(super) fn velocities(
+        &self,
+        at: &[Displacement<S>],
+        base: Twist<S>,
+        qd: &[S],
+    ) -> Vec<Twist<S>> {
         let rates = self.rates(qd);
-        let base = Twist {
-            turn: self.spin[0].clone(),
-            ..Twist::rest()
-        };
         self.outward(base, |i, before: &Twist<S>| {
             before.next(&self.links[i], &at[i], &rates[i])
         })
     }
 
-    /// Returns T, link by link: ½ m v·v + v·(ω × ∫ r dm) + ½ ω·(I ω), and what the rotors have.
+    /// Returns T, link by link, and what the rotors have.
     pub fn kinetic_energy(&self, at: &[Displacement<S>], qd: &[S]) -> S {
-        let velocities = self.velocities(at, qd);
-        let mut energy = S::zero();
-        for ((link, velocity), rate) in self.links.iter().zip(&velocities).zip(qd) {
-            let (omega, origin) = (&velocity.turn, &velocity.shift);
-            let body = &link.body;
-            let half = body.tensor().map(halved);
-            let spin = tensor_times(&half, omega);
-            let slide = scaled(&halved(&body.mass), origin);
-            let slide = sum(&slide, &cross(omega, &body.first));
-            energy = plus(&energy, &plus(&dot(omega, &spin), &dot(origin, &slide)));
+        let base = self.base_twist(qd);
+        let mut energy = match &self.base {
+            None => S::zero(),
+            Some(body) => energy_of(body, &base),
+        };
+        let velocities = self.velocities(at, base, qd);
+        let joints = self.links.iter().zip(&velocities);
+        for ((link, velocity), rate) in joints.zip(self.of_joints(qd)) {
+            energy = plus(&energy, &energy_of(&link.body, velocity));
             let rotor = times(&halved(&link.armature), rate);
             energy = plus(&energy, &times(&rotor, rate));
         }
         energy
     }
 
-    /// Returns D q̇ and ∂T/∂q, each of length n.
+    /// Returns D q̇ and ∂T/∂q, each an entry a coordinate.
     ///
     /// Turning all that follows joint k by itself leaves it as it is but for
     /// what arrives from before: its velocity changes by V × Δ_k, V being that
-    /// of the joint's frame, and T by the composite momentum along that.
+    /// of the joint's frame, and T by the composite momentum along that. The momentum of the whole
+    /// stands still in the world, and turns the other way in the axes of a base that floats.
     pub fn momentum(&self, at: &[Displacement<S>], qd: &[S]) -> [Vec<S>; 2] {
-        let velocities = self.velocities(at, qd);
+        let base = self.base_twist(qd);
+        let velocities = self.velocities(at, base.clone(), qd);
+        let joint_rates = self.of_joints(qd);
         let whole = |i: usize, outer: Option<Wrench<S>>| {
             let mut wrench = outer.unwrap_or_else(Wrench::zero);
             let (omega, origin) = (&velocities[i].turn, &velocities[i].shift);
             let link = &self.links[i];
-            let body = &link.body;
-            let own = sum(&scaled(&body.mass, origin), &cross(omega, &body.first));
-            wrench.force = sum(&wrench.force, &own);
-            let own = tensor_times(&body.tensor(), omega);
-            wrench.moment = sum(&wrench.moment, &sum(&own, &cross(&body.first, origin)));
+            wrench = wrench.with(&inertial(&link.body, &velocities[i]));
             let load = self.load(i, &wrench);
             let (push, spin) = (&wrench.force, &wrench.moment);
-            let momentum = plus(&load, &times(&link.armature, &qd[i]));
+            let momentum = plus(&load, &times(&link.armature, &joint_rates[i]));
             let slope = match link.kind {
                 // (a × z)·b = a_y b_x − a_x b_y
                 JointKind::Revolute => plus(
@@ -83,8 +94,15 @@ impl<S: Scalar> Chain<S> {
             (wrench, (momentum, slope))
         };
         let back = |i: usize, wrench: Wrench<S>| self.to_previous(i, at, &wrench);
-        let (joints, _) = self.inward(whole, back, Wrench::with);
-        let (momenta, slopes) = joints.into_iter().unzip();
+        let (joints, arrived) = self.inward(whole, back, Wrench::with);
+        let (mut momenta, mut slopes): (Vec<S>, Vec<S>) = joints.into_iter().unzip();
+        if let Some(body) = &self.base {
+            let arrived = arrived.unwrap_or_else(Wrench::zero);
+            let momentum = arrived.with(&inertial(body, &base));
+            let turned = momentum.turned(&base).in_axes(opposite);
+            momenta.splice(..0, self.on_base(&momentum));
+            slopes.splice(..0, self.on_base(&turned));
+        }
         [momenta, slopes]
     }
 }

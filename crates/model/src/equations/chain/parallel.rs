@@ -92,7 +92,7 @@ impl<S: Divide> Chain<S> {
         let motion = self.reference_motion(at, qd, moves, form.spin);
         let reference = &motion.accelerations;
         let drive = |i: usize| self.drive(i, qd, reference);
-        let taken = self.torques(at, &motion.links, form.couple, &zero_vector(), drive);
+        let taken = self.torques(at, &motion.motions, form.couple, &zero_vector(), drive);
         let rest = self.accelerations(d, [&taken, tau], moves, unknowns);
         sums(&rest, reference)
     }
@@ -101,12 +101,13 @@ impl<S: Divide> Chain<S> {
 impl<S: Scalar> Chain<S> {
     pub(super) fn pairs(&self, moves: &[bool]) -> Vec<Pair> {
         let mut pairs = Vec::new();
+        let (first, moves) = (self.base_coordinates(), self.of_joints(moves));
         for group in self.parallel() {
             let moving = group.into_iter().filter(|(link, _)| moves[*link]);
             let moving: Vec<(usize, bool)> = moving.collect();
             pairs.extend(moving.windows(2).map(|two| Pair {
-                before: two[0].0,
-                after: two[1].0,
+                before: first + two[0].0,
+                after: first + two[1].0,
                 opposite: two[0].1 != two[1].1,
             }));
         }

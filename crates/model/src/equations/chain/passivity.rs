@@ -4,7 +4,7 @@
 
 use alloc::vec::Vec;
 
-use super::recursion::{MomentForm, Motion, from_column};
+use super::recursion::{MomentForm, Motion, Motions, from_column, from_rates};
 use super::{Chain, ChainLink, Displacement};
 use crate::equations::matrix::*;
 use crate::robot::JointKind;
@@ -48,14 +48,7 @@ impl<S: Scalar> Mixed<S> {
         let axis = link.axis_before();
         let along = plus(&dot(&axis, &motion.omega_dot), acceleration);
         let column = link.inward(at, &motion.u_times(&axis));
-        let product = |i: usize, j: usize| match i == j {
-            true => twice(&times(&omega[i], &half_nu[i])),
-            false => plus(
-                &times(&omega[i], &half_nu[j]),
-                &times(&omega[j], &half_nu[i]),
-            ),
-        };
-        let (omega_dot, u) = from_column(product, &along, column);
+        let (omega_dot, u) = from_column(mixed(&omega, &half_nu), &along, column);
         Mixed {
             motion: Motion {
                 omega: zero_vector(),
@@ -69,8 +62,19 @@ impl<S: Scalar> Mixed<S> {
     }
 }
 
+/// Returns the symmetric products of ω and ν, from ν / 2.
+fn mixed<S: Scalar>(omega: &Vector<S>, half_nu: &Vector<S>) -> impl Fn(usize, usize) -> S {
+    |i, j| match i == j {
+        true => twice(&times(&omega[i], &half_nu[i])),
+        false => plus(
+            &times(&omega[i], &half_nu[j]),
+            &times(&omega[j], &half_nu[i]),
+        ),
+    }
+}
+
 impl<S: Scalar> Chain<S> {
-    /// Returns D a + C v + c + (b + F∘r)∘v, length n.
+    /// Returns D a + C v + c + (b + F∘r)∘v, an entry a coordinate.
     pub fn passivity(&self, at: &[Displacement<S>], qd: &[S], v: &[S], a: &[S]) -> Vec<S> {
         let motions = self.mixed_motions(at, qd, [v, a]);
         let drive = |i: usize| self.drive(i, v, a);
@@ -84,18 +88,44 @@ impl<S: Scalar> Chain<S> {
         at: &[Displacement<S>],
         qd: &[S],
         [v, a]: [&[S]; 2],
-    ) -> Vec<Motion<S>> {
+    ) -> Motions<S> {
         let halves: Vec<S> = v.iter().map(halved).collect();
-        let [rates, halves, accelerations] = [qd, &halves, a].map(|rates| self.rates(rates));
-        let base = Mixed {
-            omega: zero_vector(),
-            half_nu: zero_vector(),
-            motion: Motion::base(&[zero_vector(), zero_vector()], &self.gravity),
-        };
-        let motions = self.outward(base, |i, before: &Mixed<S>| {
-            let rates = [&rates[i], &halves[i], &accelerations[i]];
+        let [rates, halved_rates, accelerations] = [qd, &halves, a].map(|rates| self.rates(rates));
+        let base = self.mixed_base([qd, &halves, v, a]);
+        let links = self.outward(base.clone(), |i, before: &Mixed<S>| {
+            let rates = [&rates[i], &halved_rates[i], &accelerations[i]];
             before.next(&self.links[i], &at[i], rates)
         });
-        motions.into_iter().map(|mixed| mixed.motion).collect()
+        Motions {
+            base: base.motion,
+            links: links.into_iter().map(|mixed| mixed.motion).collect(),
+        }
+    }
+
+    /// Of a base that floats C v has ω × v of the linear velocity wished for, and ω × ν / 2 beside
+    /// the symmetric products.
+    fn mixed_base(&self, [qd, halves, v, a]: [&[S]; 4]) -> Mixed<S> {
+        let rates: Vec<S> = match self.base_coordinates() {
+            0 => Vec::new(),
+            _ => [&v[..3], &qd[3..6]].concat(),
+        };
+        let Motion {
+            omega,
+            omega_dot,
+            acceleration,
+            ..
+        } = self.base_motion([&rates, a], &self.gravity);
+        let half_nu = self.base_twist(halves).turn;
+        let omega_dot = sum(&omega_dot, &cross(&omega, &half_nu));
+        Mixed {
+            motion: Motion {
+                omega: zero_vector(),
+                u: from_rates(mixed(&omega, &half_nu), &omega_dot),
+                omega_dot,
+                acceleration,
+            },
+            omega,
+            half_nu,
+        }
     }
 }

@@ -7,7 +7,7 @@ use super::{Body, Chain, ChainLink, Displacement};
 use crate::equations::matrix::*;
 use crate::equations::screws::Wrench;
 use crate::robot::JointKind;
-use crate::scalar::Scalar;
+use crate::scalar::{Divide, Scalar};
 
 /// The form of a link's U; the values are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -39,13 +39,12 @@ pub(super) struct Motion<S> {
 }
 
 impl<S: Scalar> Motion<S> {
-    /// Returns the base, accelerated upwards instead of being pulled down.
-    pub(super) fn base([omega, omega_dot]: &[Vector<S>; 2], gravity: &Vector<S>) -> Self {
+    pub(super) fn base([omega, omega_dot]: [Vector<S>; 2], acceleration: Vector<S>) -> Self {
         Motion {
-            omega: omega.clone(),
-            omega_dot: omega_dot.clone(),
-            u: from_rates(omega, omega_dot),
-            acceleration: opposite(gravity),
+            u: from_rates(squares(&omega), &omega_dot),
+            omega,
+            omega_dot,
+            acceleration,
         }
     }
 
@@ -93,7 +92,7 @@ impl<S: Scalar> Motion<S> {
         let (omega_dot, u) = match spin {
             AccelerationForm::Column => {
                 let column = link.inward(at, &self.u_times(&link.axis_before()));
-                from_column(|i, j| times(&omega[i], &omega[j]), along, column)
+                from_column(squares(&omega), along, column)
             }
             AccelerationForm::Rates => {
                 let turned_dot = link.inward(at, &self.omega_dot);
@@ -102,7 +101,7 @@ impl<S: Scalar> Motion<S> {
                     minus(&turned_dot[1], &times(&omega[0], rate)),
                     along.clone(),
                 ];
-                let u = from_rates(&omega, &omega_dot);
+                let u = from_rates(squares(&omega), &omega_dot);
                 (omega_dot, u)
             }
         };
@@ -179,12 +178,14 @@ pub(super) fn from_column<S: Scalar>(
     (omega_dot, u)
 }
 
-/// U r = ω̇ × r + ω × (ω × r), column by column.
-fn from_rates<S: Scalar>(omega: &Vector<S>, omega_dot: &Vector<S>) -> [Vector<S>; 3] {
-    let [x, y, z] = omega;
+/// Returns U of ω̇ and of the products of ω, column by column; see [`from_column`].
+pub(super) fn from_rates<S: Scalar>(
+    product: impl Fn(usize, usize) -> S,
+    omega_dot: &Vector<S>,
+) -> [Vector<S>; 3] {
     let [dx, dy, dz] = omega_dot;
-    let (xx, yy, zz) = (times(x, x), times(y, y), times(z, z));
-    let (xy, yz, xz) = (times(x, y), times(y, z), times(x, z));
+    let (xx, yy, zz) = (product(0, 0), product(1, 1), product(2, 2));
+    let (xy, yz, xz) = (product(0, 1), product(1, 2), product(0, 2));
     [
         [negative(&plus(&yy, &zz)), plus(&xy, dz), minus(&xz, dy)],
         [minus(&xy, dz), negative(&plus(&xx, &zz)), plus(&yz, dx)],
@@ -192,8 +193,18 @@ fn from_rates<S: Scalar>(omega: &Vector<S>, omega_dot: &Vector<S>) -> [Vector<S>
     ]
 }
 
+fn squares<S: Scalar>(omega: &Vector<S>) -> impl Fn(usize, usize) -> S + '_ {
+    |i, j| times(&omega[i], &omega[j])
+}
+
+/// The motion of the base, and those of the links.
+pub(super) struct Motions<S> {
+    pub(super) base: Motion<S>,
+    pub(super) links: Vec<Motion<S>>,
+}
+
 impl<S: Scalar> Chain<S> {
-    /// Returns τ, length n.
+    /// Returns τ, an entry a coordinate: of a base that floats the wrench on it comes first.
     pub fn inverse_dynamics(
         &self,
         at: &[Displacement<S>],
@@ -207,52 +218,18 @@ impl<S: Scalar> Chain<S> {
         self.torques(at, &motions, couple, &zero_vector(), drive)
     }
 
-    /// Returns the wrench on a base that floats, force over moment in its axes and about its
-    /// origin, then τ.
-    pub fn floating_dynamics(
-        &self,
-        at: &[Displacement<S>],
-        qd: &[S],
-        qdd: &[S],
-        spin: AccelerationForm,
-        couple: MomentForm,
-    ) -> Vec<S> {
-        let motions = self.motions(at, qd, qdd, spin);
-        self.floating_loads(at, &motions, [qd, qdd], couple)
-    }
-
-    pub(super) fn floating_loads(
-        &self,
-        at: &[Displacement<S>],
-        motions: &[Motion<S>],
-        [qd, qdd]: [&[S]; 2],
-        couple: MomentForm,
-    ) -> Vec<S> {
-        let wrench = |i: usize| motions[i].wrench(&self.links[i].body, couple);
-        let drive = |i: usize| self.drive(i, qd, qdd);
-        let (torques, arrived) = self.loads(at, wrench, &zero_vector(), drive);
-        let body = self.base.clone().unwrap_or_else(Body::zero);
-        let base = Motion::base(&self.spin, &self.gravity).wrench(&body, couple);
-        self.on_base(&arrived.with(&base)).chain(torques).collect()
-    }
-
-    /// Returns a wrench on the base in metres.
-    pub(super) fn on_base(&self, wrench: &Wrench<S>) -> impl Iterator<Item = S> + use<S> {
-        let force = scaled(&self.per_unit, &wrench.force);
-        force.into_iter().chain(wrench.moment.clone())
-    }
-
     /// The last link exerts a moment on something else; `drive` is added for each joint.
     pub(super) fn torques(
         &self,
         at: &[Displacement<S>],
-        motions: &[Motion<S>],
+        motions: &Motions<S>,
         couple: MomentForm,
         exerted: &Vector<S>,
         drive: impl Fn(usize) -> S,
     ) -> Vec<S> {
-        let wrench = |i: usize| motions[i].wrench(&self.links[i].body, couple);
-        self.loads(at, wrench, exerted, drive).0
+        let wrench = |i: usize| motions.links[i].wrench(&self.links[i].body, couple);
+        let loads = self.loads(at, wrench, exerted, drive);
+        self.with_base(loads, |body| motions.base.wrench(body, couple))
     }
 
     /// Returns the torques of each link's wrench, and the wrench that arrives at the base.
@@ -284,12 +261,13 @@ impl<S: Scalar> Chain<S> {
         qd: &[S],
         qdd: &[S],
         spin: AccelerationForm,
-    ) -> Vec<Motion<S>> {
+    ) -> Motions<S> {
         let (rates, accelerations) = (self.rates(qd), self.rates(qdd));
-        let base = Motion::base(&self.spin, &self.gravity);
-        self.outward(base, |i, before: &Motion<S>| {
+        let base = self.base_motion([qd, qdd], &self.gravity);
+        let links = self.outward(base.clone(), |i, before: &Motion<S>| {
             before.next(&self.links[i], &at[i], &rates[i], &accelerations[i], spin)
-        })
+        });
+        Motions { base, links }
     }
 
     pub(super) fn load(&self, i: usize, wrench: &Wrench<S>) -> S {
@@ -314,10 +292,10 @@ impl<S: Scalar> Chain<S> {
 /// A motion with the accelerations a that make U_12 = ω_x ω_y − ω̇_z vanish: D (q̈ − a) = τ − τ(a).
 pub(super) struct ReferenceMotion<S> {
     pub(super) accelerations: Vec<S>,
-    pub(super) links: Vec<Motion<S>>,
+    pub(super) motions: Motions<S>,
 }
 
-impl<S: Scalar> Chain<S> {
+impl<S: Divide> Chain<S> {
     /// a is zero of joints that slide, and of those that do not move.
     pub(super) fn reference_motion(
         &self,
@@ -326,15 +304,19 @@ impl<S: Scalar> Chain<S> {
         moves: &[bool],
         spin: AccelerationForm,
     ) -> ReferenceMotion<S> {
-        let rates = self.rates(qd);
-        let n = self.links.len();
-        let mut motion: ReferenceMotion<S> = ReferenceMotion {
-            accelerations: Vec::with_capacity(n),
-            links: Vec::with_capacity(n),
+        let (rates, moves) = (self.rates(qd), self.of_joints(moves));
+        let mut accelerations = Vec::with_capacity(self.coordinates());
+        let base = match self.base {
+            None => self.base_motion([qd, qd], &self.gravity),
+            Some(_) => {
+                let (fall, base) = self.falling(qd);
+                accelerations.extend(fall);
+                base
+            }
         };
-        let base = Motion::base(&self.spin, &self.gravity);
+        let mut links: Vec<Motion<S>> = Vec::with_capacity(self.links.len());
         for (i, link) in self.links.iter().enumerate() {
-            let before = link.parent.map_or(&base, |parent| &motion.links[parent]);
+            let before = link.parent.map_or(&base, |parent| &links[parent]);
             let (next, acceleration) = match link.kind {
                 JointKind::Revolute if moves[i] => {
                     let [x, y, _] = link.inward(&at[i], &before.omega);
@@ -349,15 +331,32 @@ impl<S: Scalar> Chain<S> {
                     (before.next(link, &at[i], &rates[i], &rest, spin), rest)
                 }
             };
-            motion.links.push(next);
-            motion.accelerations.push(acceleration);
+            links.push(next);
+            accelerations.push(acceleration);
         }
-        motion
+        ReferenceMotion {
+            accelerations,
+            motions: Motions { base, links },
+        }
+    }
+}
+
+impl<S: Scalar> Chain<S> {
+    /// Returns loads with what rotors and friction take of each joint.
+    pub fn driven(&self, loads: Vec<S>, qd: &[S], accelerations: &[S]) -> Vec<S> {
+        let first = self.base_coordinates();
+        let loads = loads.into_iter().enumerate();
+        let driven = loads.map(|(k, load)| match k.checked_sub(first) {
+            None => load,
+            Some(joint) => plus(&load, &self.drive(joint, qd, accelerations)),
+        });
+        driven.collect()
     }
 
     pub(crate) fn drive(&self, joint: usize, qd: &[S], accelerations: &[S]) -> S {
         let link = &self.links[joint];
-        let inertial = times(&link.armature, &accelerations[joint]);
-        plus(&inertial, &link.friction.torque(&qd[joint]))
+        let [rate, acceleration] = [qd, accelerations].map(|values| &self.of_joints(values)[joint]);
+        let inertial = times(&link.armature, acceleration);
+        plus(&inertial, &link.friction.torque(rate))
     }
 }

@@ -5,7 +5,8 @@
 use alloc::vec::Vec;
 
 use super::composite::CompositeOrder;
-use super::recursion::{AccelerationForm, MomentForm, Motion};
+use super::floating::unit_twists;
+use super::recursion::{AccelerationForm, MomentForm, Motion, Motions};
 use super::{Body, Chain, Displacement, Rotation, Segment, Skeleton};
 use crate::equations::matrix::{Vector, cross, difference, dot, sum, times, zero_vector, zeros};
 use crate::equations::screws::Twist;
@@ -95,10 +96,13 @@ impl<S: Scalar> Skeleton<S> {
     /// Returns the skeleton whose bodies have its columns, times these values, and no columns.
     #[must_use]
     pub fn with_values(mut self, values: &[S]) -> Skeleton<S> {
-        for Segment { link, .. } in &mut self.links {
-            for probe in core::mem::take(&mut link.probes) {
+        let links = self.links.iter_mut();
+        let links = links.map(|Segment { link, .. }| (&mut link.body, &mut link.probes));
+        let base = self.base.as_mut().map(|body| (body, &mut self.base_probes));
+        for (body, probes) in links.chain(base) {
+            for probe in core::mem::take(probes) {
                 if let (Probed::Body(unit), Some(value)) = (&probe.of, values.get(probe.column)) {
-                    link.body = link.body.with(&unit.map(|x| times(value, x)));
+                    *body = body.with(&unit.map(|x| times(value, x)));
                 }
             }
         }
@@ -130,7 +134,7 @@ struct Centre<S> {
 }
 
 impl<S: Scalar> Chain<S> {
-    /// Returns the columns that the probes are, a row a joint; by twists that travel
+    /// Returns the columns that the probes are, a row a coordinate; by twists that travel
     /// outward alone, or by wrenches about points where axes meet.
     pub fn regressor(
         &self,
@@ -158,21 +162,46 @@ impl<S: Scalar> Chain<S> {
     fn powers(
         &self,
         at: &[Displacement<S>],
-        motions: &[Motion<S>],
+        motions: &Motions<S>,
         [rates, accelerations]: [&[S]; 2],
         travel: CompositeOrder,
     ) -> Vec<Vec<S>> {
-        let n = self.links.len();
-        let mut rows: Vec<Vec<S>> = (0..n).map(|_| zeros(self.columns)).collect();
-        let mut ways: Vec<Way<S>> = Vec::with_capacity(n);
+        let first = self.base_coordinates();
+        let coordinates = self.coordinates();
+        let mut rows: Vec<Vec<S>> = (0..coordinates).map(|_| zeros(self.columns)).collect();
+        let mut base = Way::default();
+        if self.base.is_some() {
+            base.twists.extend(unit_twists().into_iter().enumerate());
+            if travel == CompositeOrder::Inward {
+                base.centres.extend(meeting(&base.twists));
+            }
+        }
+        let enter = |rows: &mut Vec<Vec<S>>, way: &Way<S>, motion: &Motion<S>, probe: &Probe<S>| {
+            let Probed::Body(body) = &probe.of else {
+                return;
+            };
+            let wrench = motion.wrench(body, MomentForm::SecondMoments);
+            let about = |own: &Centre<S>| sum(&wrench.moment, &cross(&wrench.force, &own.at));
+            let moments: Vec<Vector<S>> = way.centres.iter().map(about).collect();
+            for (k, twist) in &way.twists {
+                let power = match widest(&way.centres, *k) {
+                    Some(centre) => dot(&twist.turn, &moments[centre]),
+                    None => wrench.along(twist),
+                };
+                rows[*k][probe.column] = self.coordinate_in_metres(*k, power);
+            }
+        };
+        for probe in &self.base_probes {
+            enter(&mut rows, &base, &motions.base, probe);
+        }
+        let [rates, accelerations] = [rates, accelerations].map(|rates| self.of_joints(rates));
+        let mut ways: Vec<Way<S>> = Vec::with_capacity(self.links.len());
         for (i, link) in self.links.iter().enumerate() {
-            let mut way = link
-                .parent
-                .map_or_else(Way::default, |parent| ways[parent].clone());
+            let mut way = link.parent.map_or(&base, |parent| &ways[parent]).clone();
             for (_, twist) in &mut way.twists {
                 *twist = link.twist_outward(&at[i], twist);
             }
-            way.twists.push((i, link.twist()));
+            way.twists.push((first + i, link.twist()));
             for centre in &mut way.centres {
                 let lever = link.lever(&at[i]);
                 centre.at = link.inward(&at[i], &difference(&centre.at, &lever));
@@ -180,28 +209,11 @@ impl<S: Scalar> Chain<S> {
             if travel == CompositeOrder::Inward {
                 way.centres.extend(meeting(&way.twists));
             }
-            let Way { twists, centres } = &way;
             for probe in &link.probes {
-                let body = match &probe.of {
-                    Probed::Armature => {
-                        rows[i][probe.column] = accelerations[i].clone();
-                        continue;
-                    }
-                    Probed::Viscous => {
-                        rows[i][probe.column] = rates[i].clone();
-                        continue;
-                    }
-                    Probed::Body(body) => body,
-                };
-                let wrench = motions[i].wrench(body, MomentForm::SecondMoments);
-                let about = |own: &Centre<S>| sum(&wrench.moment, &cross(&wrench.force, &own.at));
-                let moments: Vec<Vector<S>> = centres.iter().map(about).collect();
-                for (k, twist) in twists {
-                    let power = match widest(centres, *k) {
-                        Some(centre) => dot(&twist.turn, &moments[centre]),
-                        None => wrench.along(twist),
-                    };
-                    rows[*k][probe.column] = self.rescaled(*k, power);
+                match &probe.of {
+                    Probed::Armature => rows[first + i][probe.column] = accelerations[i].clone(),
+                    Probed::Viscous => rows[first + i][probe.column] = rates[i].clone(),
+                    Probed::Body(_) => enter(&mut rows, &way, &motions.links[i], probe),
                 }
             }
             ways.push(way);

@@ -127,8 +127,8 @@ impl<S: Scalar> MetricChain<S> {
         });
         let mut chain = Chain {
             gravity: skeleton.gravity.clone(),
-            spin: [zero_vector(), zero_vector()],
             base: skeleton.base.clone(),
+            base_probes: skeleton.base_probes.clone(),
             links: links.collect(),
             per_unit: S::one(),
             columns: skeleton.columns,
@@ -160,6 +160,7 @@ impl<S: Scalar> MetricChain<S> {
         }
         chain.gravity = scaled(per_unit, &chain.gravity);
         chain.base = chain.base.as_ref().map(|body| body.in_unit(unit));
+        chain.base_probes = Probe::each(&chain.base_probes, |body| body.in_unit(unit));
         for link in &mut chain.links {
             link.offset = scaled(per_unit, &link.offset);
             link.body = link.body.in_unit(unit);

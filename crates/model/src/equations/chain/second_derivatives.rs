@@ -63,8 +63,8 @@ impl<S: Scalar> Composite<'_, S> {
     fn pairs(&self, [qd, qdd, multiplier]: [&[S]; 3]) -> (Vec<Earlier<S>>, Vec<Later<S>>) {
         let chain = self.chain;
         let joints = self.own_slopes(qd, qdd);
-        let velocities = chain.velocities(self.at, qd);
-        let displacements = chain.velocities(self.at, multiplier);
+        let velocities = chain.velocities(self.at, Twist::rest(), qd);
+        let displacements = chain.velocities(self.at, Twist::rest(), multiplier);
         let whole = |i: usize, outer: Option<(Flow<S>, Vector<S>)>| {
             let (link, joint, displacement) = (&chain.links[i], &joints[i], &displacements[i]);
             let (flow, couple) = outer.unwrap_or_else(|| (Flow::nothing(), zero_vector()));

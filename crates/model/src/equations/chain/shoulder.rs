@@ -107,7 +107,8 @@ impl<S: Divide> Composite<'_, S> {
         let (first, n) = (heights.len(), chain.links.len());
         let lever = chain.lever_beyond(heights, self.at);
         let drive = |i: usize| chain.drive(i, qd, &reference.accelerations);
-        let wrench = |i: usize| reference.links[i].wrench(&chain.links[i].body, form.couple);
+        let wrench =
+            |i: usize| reference.motions.links[i].wrench(&chain.links[i].body, form.couple);
 
         let mut felt = Wrench::couple(exerted.clone());
         let mut left = zeros(n);

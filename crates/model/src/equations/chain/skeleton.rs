@@ -18,7 +18,9 @@ pub struct Skeleton<S> {
     pub gravity: Vector<S>,
     /// The body of a base that floats.
     pub base: Option<Body<S>>,
-    /// The joints that move, each after the one that carries it.
+    /// The probes that are fixed to it, a column of a regressor each.
+    pub base_probes: Vec<Probe<S>>,
+    /// The joints that move, each after the one that carries it; none of them are those of a base.
     pub links: Vec<Segment<S>>,
     /// The number of columns of a regressor that the links' probes are.
     pub columns: usize,
@@ -56,7 +58,16 @@ impl<S: Scalar> Skeleton<S> {
             moved: zero_vector(),
             merged: false,
         };
+        let floating = arm.base_joints().checked_sub(1);
+        let mut base_body = floating.map(|body| Body::of(&arm.links[body]));
+        let mut base_probes = Vec::new();
+        if let Some(body) = floating {
+            base_probes.extend(probes(columns, body, &identity(), &zero_vector()));
+        }
         arm.outward(&base, |joint, before: &Held<S>| {
+            if Some(joint) <= floating {
+                return base.clone();
+            }
             let link = &arm.links[joint];
             let Held {
                 carrier,
@@ -87,12 +98,18 @@ impl<S: Scalar> Skeleton<S> {
                 turned = product(&turned, &turn(&theta, ABOUT_Z));
                 moved = sum(&moved, &apply(&turned, &reach));
                 turned = product(&turned, &rest);
-                if let Some(carrier) = carrier {
-                    let carrier = &mut links[carrier].link;
-                    carrier.body = carrier.body.with(&body.carried(&turned, &moved));
+                let carrying = match carrier {
+                    None => base_body.as_mut().map(|body| (body, &mut base_probes)),
+                    Some(carrier) => {
+                        let ChainLink { body, probes, .. } = &mut links[carrier].link;
+                        Some((body, probes))
+                    }
+                };
+                if let Some((carrying, others)) = carrying {
+                    *carrying = carrying.with(&body.carried(&turned, &moved));
                     // A drive that is locked feels nothing.
                     let own = probes(columns, joint, &turned, &moved);
-                    carrier.probes.extend(own.filter(Probe::is_body));
+                    others.extend(own.filter(Probe::is_body));
                 }
                 return Held {
                     carrier,
@@ -152,7 +169,8 @@ impl<S: Scalar> Skeleton<S> {
         });
         Skeleton {
             gravity: arm.gravity.clone(),
-            base: None,
+            base: base_body,
+            base_probes,
             links,
             columns: columns.len(),
         }

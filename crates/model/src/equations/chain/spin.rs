@@ -127,11 +127,11 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
             false => chain.reference_motion(at, before, moves, form.spin),
             true => ReferenceMotion {
                 accelerations: zeros(last),
-                links: chain.motions(at, before, &zeros(last), form.spin),
+                motions: chain.motions(at, before, &zeros(last), form.spin),
             },
         };
-        let (motions, reference) = (&motion.links, &motion.accelerations);
-        let tip = &motions[last - 1];
+        let (motions, reference) = (&motion.motions, &motion.accelerations);
+        let tip = &motions.links[last - 1];
         let unturned = Displacement::Turn(SinCosPair::straight());
         let omega = link.inward(&unturned, &tip.omega);
         let left = minus(&tau[last], &link.friction.torque(&qd[last]));

@@ -1,5 +1,7 @@
 //! Arms, regroupings and states drawn at random.
 
+use core::ops::Range;
+
 use super::*;
 
 pub(super) struct Draw(pub(super) Points);
@@ -134,6 +136,7 @@ impl Draw {
             gravity: self.vector(),
             base: (self.below(2) == 0).then(|| self.placement()),
             tool: None,
+            floats: false,
             links,
             following: Vec::new(),
             frames: Frames {
@@ -143,9 +146,58 @@ impl Draw {
         }
     }
 
+    /// The same on a base that floats, with a frame on that or on a link.
+    pub(super) fn floating(&mut self, count: usize) -> Arm<S> {
+        let limbs = self.arm(count);
+        let trunk = Link {
+            armature: S::zero(),
+            friction: Friction::none(),
+            theta: SinCosPair::straight(),
+            d: S::zero(),
+            ..self.link(0)
+        };
+        self.on(Link::of_base(trunk), limbs)
+    }
+
+    /// Puts links on six others, of which the last carries them.
+    pub(super) fn on(&mut self, base: Vec<Link<S>>, limbs: Arm<S>) -> Arm<S> {
+        let last = base.len() - 1;
+        let carriers: Vec<usize> = (0..limbs.links.len())
+            .map(|i| {
+                limbs
+                    .carrier(i)
+                    .map_or(last, |carrier| base.len() + carrier)
+            })
+            .collect();
+        let mut arm = Arm {
+            base: None,
+            floats: true,
+            links: base,
+            ..limbs.clone()
+        };
+        for (link, carrier) in limbs.links.into_iter().zip(carriers) {
+            let parent = (carrier + 1 != arm.links.len()).then_some(Parent::Row(carrier));
+            arm.links.push(Link { parent, ..link });
+        }
+        for frame in &mut arm.frames.named {
+            frame.joint = match self.below(3) {
+                0 => last,
+                _ => arm.links.len() - 1,
+            };
+        }
+        arm
+    }
+
+    /// Where an arm's joints are: those of a base that floats at zero.
+    pub(super) fn position_of(&mut self, arm: &Arm<S>) -> Position {
+        let (base, joints) = arm.links.split_at(arm.base_joints());
+        let zero = base_position::<S>().into_iter().take(base.len());
+        zero.chain(self.position(joints)).collect()
+    }
+
     /// Columns of a regressor: bodies on half of the links.
-    pub(super) fn columns(&mut self, count: usize) -> Vec<Column<S>> {
-        let joints: Vec<usize> = (0..count).filter(|_| self.below(2) == 0).collect();
+    pub(super) fn columns(&mut self, links: Range<usize>) -> Vec<Column<S>> {
+        let joints: Vec<usize> = links.filter(|_| self.below(2) == 0).collect();
         let columns = joints.into_iter().map(|joint| Column {
             joint,
             of: Probed::Body(self.body()),

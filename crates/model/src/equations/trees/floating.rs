@@ -1,21 +1,19 @@
-//! Trees on a base that floats: six joints on links without mass, but for the last.
+//! A base that floats, wherever it is: the six joints that it is are at position zero, and that is
+//! no loss.
 
 use super::*;
 
 #[test]
-fn floating_trees_move_as_lagrange_and_euler_say() {
-    let mut draw = Draw(Points::new(0xf10a7));
+fn a_floating_base_is_six_joints_anywhere() {
+    let mut draw = Draw(Points::new(0x6a5e));
     for round in 0..20 {
-        let arm = Arm {
-            base: None,
-            ..draw.arm(round % 5)
-        };
-        floating(&arm, &mut draw, round);
+        let arm = draw.floating(round % 5);
+        anywhere(&arm, &mut draw, round);
     }
 }
 
-/// The base as six joints on links without mass, but for the last: slides along x, y and z, turns
-/// about z, x and y.
+/// The base as six joints on links without mass, but for the last, in another order than that of
+/// the coordinates: slides along x, y and z, turns about z, x and y.
 fn carriers(body: &Link<S>) -> Vec<Link<S>> {
     let link = |k: usize| Link {
         kind: match k < 3 {
@@ -31,12 +29,13 @@ fn carriers(body: &Link<S>) -> Vec<Link<S>> {
 
 /// The motion of a base in its axes.
 struct Base {
-    omega: Vector<S>,
-    omega_dot: Vector<S>,
-    /// The acceleration of its origin.
-    acceleration: Vector<S>,
+    /// Gravity in its axes.
     gravity: Vector<S>,
-    /// The twists of the six joints, linear over angular.
+    /// (v, ω)
+    velocity: Vec<S>,
+    /// Their rates.
+    acceleration: Vec<S>,
+    /// The columns of E, by which rates of the six joints give (v, ω).
     twists: Vec<Vec<S>>,
 }
 
@@ -63,12 +62,14 @@ impl Base {
         let rate = Columns::combination(qd.iter().cloned().zip(&first));
         let terms = second.iter().map(|(by, own)| (*by, own));
         let bend = Columns::combination(qdd.iter().cloned().zip(&first).chain(terms));
-        let twist = |m: &Columns<S>| back(&m.origin).into_iter().chain(turn(m)).collect();
+        let twist = |m: &Columns<S>| -> Vec<S> { [back(&m.origin), turn(m)].concat() };
+        // Components of v in axes that turn: its rate is the acceleration less ω × v.
+        let (v, omega) = (back(&rate.origin), turn(&rate));
+        let linear = difference(&back(&bend.origin), &cross(&omega, &v));
         Base {
-            omega: turn(&rate),
-            omega_dot: turn(&bend),
-            acceleration: back(&bend.origin),
             gravity: back(&arm.gravity),
+            velocity: [v, omega].concat(),
+            acceleration: [linear, turn(&bend)].concat(),
             twists: first.iter().map(twist).collect(),
         }
     }
@@ -80,111 +81,44 @@ impl Base {
     }
 }
 
-fn floating(limbs: &Arm<S>, draw: &mut Draw, round: usize) {
-    let n = limbs.links.len();
-    let trunk = Link {
-        parent: None,
-        armature: S::zero(),
-        friction: Friction::none(),
-        theta: SinCosPair::straight(),
-        d: S::zero(),
-        kind: JointKind::Revolute,
-        ..draw.link(0)
+fn anywhere(arm: &Arm<S>, draw: &mut Draw, round: usize) {
+    let mut elsewhere = arm.clone();
+    elsewhere.floats = false;
+    elsewhere.links.splice(..6, carriers(&arm.links[5]));
+    let position = draw.position(&elsewhere.links);
+    let dh = elsewhere.at(&position);
+    let [qd, qdd] = [(); 2].map(|()| draw.values(dh.len()));
+    let written = LagrangeEuler::new(&elsewhere, &dh);
+    let base = Base::of(&elsewhere, &dh, [&qd, &qdd]);
+    let floating = Arm {
+        gravity: base.gravity,
+        ..arm.clone()
     };
-    let mut whole = limbs.clone();
-    whole.links = carriers(&trunk);
-    for (i, link) in limbs.links.iter().enumerate() {
-        let carrier = limbs.carrier(i).map_or(5, |carrier| 6 + carrier);
-        let parent = (carrier + 1 != 6 + i).then_some(Parent::Row(carrier));
-        whole.links.push(Link {
-            parent,
-            ..link.clone()
-        });
-    }
-    let position = draw.position(&whole.links);
-    let joints = position[6..].to_vec();
-    let dh = whole.at(&position);
-    let [qd, qdd] = [(); 2].map(|()| draw.values(6 + n));
-    let written = LagrangeEuler::new(&whole, &dh);
+    let position = [&draw.position_of(arm)[..6], &position[6..]].concat();
+    let at = floating.at(&position);
+    let with_joints = |base: &[S], joints: &[S]| [base, &joints[6..]].concat();
+    let velocity = with_joints(&base.velocity, &qd);
+    let rates = with_joints(&base.acceleration, &qdd);
+    let by = Formulation::LagrangeEuler;
+    let found = by.inverse_dynamics(&floating, &at, &velocity, &rates);
     let expected = written.inverse_dynamics(&qd, &qdd);
-    let base = Base::of(&whole, &dh, [&qd, &qdd]);
-    let skeleton = &Skeleton {
-        base: Some(Body::of(&trunk)),
-        ..Skeleton::new(limbs, &vec![None; n])
-    };
-    let regrouping = draw.regrouping(skeleton);
-    let chain = |gravity: Vector<S>| {
-        let base_gravity = Skeleton {
-            gravity,
-            ..skeleton.clone()
-        };
-        let mut chain = Chain::new(&base_gravity, &regrouping);
-        chain.spin = [base.omega, base.omega_dot];
-        chain
-    };
-    let moved = chain(difference(&base.gravity, &base.acceleration));
-    let (posed, at) = moved.posed(&joints);
-    let (rates, accelerations) = (&qd[6..], &qdd[6..]);
-    for spin in SPINS {
-        for couple in COUPLES {
-            let found = posed.floating_dynamics(&at, rates, accelerations, spin, couple);
-            assert_eq!(
-                fields(&base.felt(&found)),
-                fields(&expected),
-                "{round} {spin:?}"
-            );
+    assert_eq!(fields(&base.felt(&found)), fields(&expected), "{round} τ");
+    let half: Vec<Vec<S>> = (by.inertia(&floating, &at).iter())
+        .map(|row| base.felt(row))
+        .collect();
+    let full: Vec<Vec<S>> = columns_of(&half).iter().map(|row| base.felt(row)).collect();
+    assert_eq!(flat(&full), flat(&written.inertia()), "{round} D");
+    // The symbols are those of any coordinates: C of these is Eᵀ (C E + D Ė), which is skew beside
+    // half of Ḋ, as it has to be, and gives h.
+    let c = by.coriolis_matrix(&floating, &at, &velocity);
+    let h = by.velocity_terms(&floating, &at, &velocity);
+    assert_eq!(fields(&products(&c, &velocity)), fields(&h), "{round} h");
+    let (moving_arm, moving_at) = floating.bending(&at, &velocity);
+    let grown = by.inertia(&moving_arm, &moving_at);
+    for (i, row) in grown.iter().enumerate() {
+        for (k, entry) in row.iter().enumerate() {
+            let both = plus(&c[i][k], &c[k][i]);
+            assert_eq!(field(&entry.rate), field(&both), "{round} Ḋ_{i}{k}");
         }
-    }
-    let composite = Composite::new(&posed, &at);
-    for travel in TRAVELS {
-        let d = composite.floating_inertia(travel);
-        let half: Vec<Vec<S>> = d.iter().map(|row| base.felt(row)).collect();
-        let full: Vec<Vec<S>> = columns_of(&half).iter().map(|row| base.felt(row)).collect();
-        assert_eq!(flat(&full), flat(&written.inertia()), "{round} D");
-    }
-    let (spin, couple) = (SPINS[0], COUPLES[0]);
-    let loads = posed.floating_dynamics(&at, rates, accelerations, spin, couple);
-    let still = chain(base.gravity);
-    let (still, at_rest) = still.posed(&joints);
-    let found_of = |how: Solving| {
-        let form = (spin, couple, TRAVELS[0]);
-        still.floating_forward(&at_rest, rates, &loads, form, how)
-    };
-    let wanted = base.acceleration.iter().chain(&base.omega_dot);
-    let wanted: Vec<S> = wanted.chain(accelerations).cloned().collect();
-    for how in 0..8 {
-        let how = Solving {
-            angular_last: how & 1 > 0,
-            unknowns: [Unknowns::Joints, Unknowns::AgainstBase][how >> 1 & 1],
-            reference: how & 4 > 0,
-        };
-        assert_eq!(fields(&found_of(how)), fields(&wanted), "{round} {how:?}");
-    }
-    floating_slopes(&moved, &joints, [rates, accelerations], round);
-}
-
-fn floating_slopes(chain: &Chain<S>, position: &Position, [qd, qdd]: [&[S]; 2], round: usize) {
-    let n = qd.len();
-    let (posed, at) = chain.posed(position);
-    let chain = dual(chain);
-    let (spin, couple) = (SPINS[0], COUPLES[0]);
-    let loads = |chain: &Chain<Dual<S>>, position: &[JointPosition<Dual<S>>], qd: &[Dual<S>]| {
-        let (posed, at) = chain.posed(position);
-        rates(posed.floating_dynamics(&at, qd, &constants(qdd), spin, couple))
-    };
-    let rest = moving(position, None);
-    for travel in TRAVELS {
-        let found = Composite::new(&posed, &at).floating_slopes(qd, qdd, travel);
-        let by_position = |k: usize| loads(&chain, &moving(position, Some(k)), &constants(qd));
-        let by_velocity = |k: usize| loads(&chain, &rest, &growing(qd, k));
-        let by_omega = |k: usize| {
-            let mut turning = chain.clone();
-            turning.spin[0][k].rate = S::one();
-            loads(&turning, &rest, &constants(qd))
-        };
-        let [position, velocity, omega] = found.each_ref().map(|slopes| flat(slopes));
-        assert_eq!(position, columns(n, by_position), "{round} by q");
-        assert_eq!(velocity, columns(n, by_velocity), "{round} by q̇");
-        assert_eq!(omega, columns(3, by_omega), "{round} by ω");
     }
 }

@@ -2,8 +2,8 @@
 //! any regrouping and on a base that is fixed or floats, against Lagrange–Euler as written
 //! (eqs. 2.2–2.15); slopes against dual numbers.
 
+mod chains;
 mod draw;
-mod fixed;
 mod floating;
 mod textbook;
 
@@ -11,7 +11,6 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::chain::composite::{Composite, CompositeOrder};
-use super::chain::floating::Solving;
 use super::chain::recursion::{AccelerationForm, MomentForm};
 use super::chain::{
     Body, Chain, Column, Displacement, EliminatedTip, Form, HandChoice, LinkRegrouping,
@@ -21,7 +20,7 @@ use super::frames::{Frames, NamedFrame};
 use super::friction::Friction;
 use super::lagrange_euler::LagrangeEuler;
 use super::matrix::*;
-use super::{Arm, DhVariables, Formulation, JointPosition, Link, SinCosPair};
+use super::{Arm, DhVariables, Formulation, JointPosition, Link, SinCosPair, base_position};
 use crate::robot::{Convention, Inertia, JointKind, Parent};
 use crate::scalar::dual::Dual;
 use crate::scalar::field::{Field, Points};

@@ -10,9 +10,12 @@ use crate::robot::HAND;
 #[test]
 fn formulations_agree_on_random_trees() {
     let mut draw = Draw(Points::new(0x70b5));
-    for round in 0..40 {
-        let arm = draw.arm(1 + round % 6);
-        let at = arm.at(&draw.position(&arm.links));
+    for round in 0..60 {
+        let arm = match round < 40 {
+            true => draw.arm(1 + round % 6),
+            false => draw.floating(round % 5),
+        };
+        let at = arm.at(&draw.position_of(&arm));
         dynamics(&arm, &at, &mut draw, round);
         for axes in [Axes::Mixed, Axes::Local, Axes::World] {
             for frame in ["tip", HAND] {
@@ -53,8 +56,12 @@ fn dynamics(arm: &Arm<S>, at: &[DhVariables<S>], draw: &mut Draw, round: usize) 
             by.passivity(arm, at, &qd, [&v, &a]),
             by.torque_by_position(arm, at, &qd, &qdd).concat(),
             by.torque_by_velocity(arm, at, &qd).concat(),
-            by.torque_by_positions(arm, at, [&qd, &qdd, &multiplier])
-                .concat(),
+            match arm.floats {
+                true => Vec::new(),
+                false => by
+                    .torque_by_positions(arm, at, [&qd, &qdd, &multiplier])
+                    .concat(),
+            },
             wrenches.collect::<Vec<_>>().concat(),
             rotation,
             translation,

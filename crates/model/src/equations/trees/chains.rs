@@ -1,4 +1,4 @@
-//! Trees on a base that stands still.
+//! Chains, in any regrouping, against Lagrange–Euler.
 
 use super::*;
 
@@ -7,21 +7,32 @@ fn random_trees_move_as_lagrange_and_euler_say() {
     let mut draw = Draw(Points::new(0x7ee5));
     for round in 0..40 {
         let arm = draw.arm(2 + round % 5);
-        fixed(&arm, &mut draw, round);
+        compare(&arm, &mut draw, round);
     }
 }
 
-fn fixed(arm: &Arm<S>, draw: &mut Draw, round: usize) {
-    let n = arm.links.len();
-    let position = draw.position(&arm.links);
-    let dh = arm.at(&position);
+#[test]
+fn random_floating_trees_move_as_lagrange_and_euler_say() {
+    let mut draw = Draw(Points::new(0xf10a7));
+    for round in 0..30 {
+        let arm = draw.floating(round % 5);
+        compare(&arm, &mut draw, round);
+    }
+}
+
+fn compare(arm: &Arm<S>, draw: &mut Draw, round: usize) {
+    let (n, first) = (arm.links.len(), arm.base_joints());
+    let whole_position = draw.position_of(arm);
+    let dh = arm.at(&whole_position);
+    let position = &whole_position[first..].to_vec();
     let [qd, qdd, v, a] = [(); 4].map(|()| draw.values(n));
-    let written = LagrangeEuler::new(arm, &dh);
-    let (d, c, h) = (written.inertia(), written.gravity(), written.christoffel());
-    let torques = written.inverse_dynamics(&qd, &qdd);
-    let skeleton = &Skeleton::with_columns(arm, &vec![None; n], &draw.columns(n));
+    let written = Formulation::LagrangeEuler;
+    let (d, c) = (written.inertia(arm, &dh), written.gravity(arm, &dh));
+    let torques = written.inverse_dynamics(arm, &dh, &qd, &qdd);
+    let columns = draw.columns(arm.first_body()..n);
+    let skeleton = &Skeleton::with_columns(arm, &vec![None; n], &columns);
     let chain = draw.chain(skeleton);
-    let (posed, at) = chain.posed(&position);
+    let (posed, at) = chain.posed(position);
     let composite = Composite::new(&posed, &at);
     for spin in SPINS {
         for couple in COUPLES {
@@ -33,16 +44,13 @@ fn fixed(arm: &Arm<S>, draw: &mut Draw, round: usize) {
             );
         }
         let found = composite.torques(&posed.gravity, &qd, &qdd, spin, &zero_vector());
-        let drives = (0..n)
-            .map(|i| posed.drive(i, &qd, &qdd))
-            .collect::<Vec<S>>();
         assert_eq!(
-            fields(&sums(&found, &drives)),
+            fields(&posed.driven(found, &qd, &qdd)),
             fields(&torques),
             "{round} composite"
         );
     }
-    let coriolis: Vec<Vec<S>> = h.iter().map(|h| products(h, &qd)).collect();
+    let coriolis = written.coriolis_matrix(arm, &dh, &qd);
     for travel in TRAVELS {
         assert_eq!(flat(&composite.inertia(travel)), flat(&d), "{round} D");
         assert_eq!(fields(&composite.gravity(travel)), fields(&c), "{round} c");
@@ -52,8 +60,11 @@ fn fixed(arm: &Arm<S>, draw: &mut Draw, round: usize) {
             "{round} C"
         );
     }
-    for (found, expected) in composite.christoffel().iter().zip(&h) {
-        assert_eq!(flat(found), flat(expected), "{round} h");
+    if !arm.floats {
+        let expected = written.christoffel(arm, &dh);
+        for (found, expected) in composite.christoffel().iter().zip(&expected) {
+            assert_eq!(flat(found), flat(expected), "{round} h");
+        }
     }
     let momentum = products(&d, &qd);
     let energy = total(momentum.iter().zip(&qd).map(|(p, q)| times(p, q))).half();
@@ -75,21 +86,23 @@ fn fixed(arm: &Arm<S>, draw: &mut Draw, round: usize) {
         "{round}"
     );
     forward(&posed, &at, [&qd, &qdd, &torques], &d, round);
-    derivatives(&chain, &position, [&qd, &qdd, &v], round);
-    regressors(skeleton, &chain, &position, [&qd, &qdd, &v, &a], round);
-    locked(arm, draw, &position, &d, round);
+    derivatives(&chain, position, [&qd, &qdd, &v], round);
+    regressors(skeleton, &chain, position, [&qd, &qdd, &v, &a], round);
+    if !position.is_empty() {
+        locked(arm, draw, &whole_position, &d, round);
+    }
 }
 
 /// A locked link is a part of the one that carries it: D loses a row and a column.
 fn locked(arm: &Arm<S>, draw: &mut Draw, position: &Position, d: &[Vec<S>], round: usize) {
-    let n = position.len();
-    let joint = round % n;
+    let (n, first) = (position.len(), arm.base_joints());
+    let joint = first + round % (n - first);
     let mut locks: Vec<Option<JointPosition<S>>> = vec![None; n];
     locks[joint] = Some(position[joint].clone());
     let skeleton = Skeleton::new(arm, &locks);
     let chain = draw.chain(&skeleton);
-    let mut moving = position.clone();
-    moving.remove(joint);
+    let mut moving = position[first..].to_vec();
+    moving.remove(joint - first);
     let (posed, at) = chain.posed(&moving);
     let rest: Vec<usize> = (0..n).filter(|own| *own != joint).collect();
     let expected = flat(&super::super::factor::submatrix(d, &rest));
@@ -124,8 +137,21 @@ fn derivatives(chain: &Chain<S>, position: &Position, [qd, qdd, v]: [&[S]; 3], r
     let composite = Composite::new(&posed, &at);
     let chain = dual(chain);
     let (spin, couple) = (SPINS[0], COUPLES[0]);
+    let displaced = |k: usize| {
+        let mut chain = chain.clone();
+        let joint = k.checked_sub(chain.base_coordinates());
+        if let (None, Some(axis)) = (joint, k.checked_sub(3)) {
+            // The base turns, and gravity the other way.
+            let unit = three(|i| if i == axis { Dual::one() } else { Dual::zero() });
+            let turning = cross(&chain.gravity, &unit);
+            for (own, turning) in chain.gravity.iter_mut().zip(turning) {
+                own.rate = turning.value;
+            }
+        }
+        chain.posed(&moving(position, joint))
+    };
     let by_position = |k: usize| {
-        let (chain, at) = chain.posed(&moving(position, Some(k)));
+        let (chain, at) = displaced(k);
         rates(chain.inverse_dynamics(&at, &constants(qd), &constants(qdd), spin, couple))
     };
     let (still, at_rest) = chain.posed(&moving(position, None));
@@ -150,6 +176,9 @@ fn derivatives(chain: &Chain<S>, position: &Position, [qd, qdd, v]: [&[S]; 3], r
             columns(n, by_velocity),
             "{round} ∂τ/∂q̇"
         );
+        if chain.base.is_some() {
+            continue;
+        }
         let second = composite.second_derivatives([qd, qdd, v], travel);
         let of = |k: usize| {
             let (chain, at) = chain.posed(&moving(position, Some(k)));

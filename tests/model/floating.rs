@@ -1,0 +1,182 @@
+//! Robots whose base floats: what their files say, and their values.
+
+use crate::support::{data, errors, has, only, reading, refused, replaced, written};
+use dalembert_model::equations::frames::{Axes, Rows, View};
+use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair, base_position};
+use dalembert_model::number::Rounded;
+use dalembert_model::outputs::{Quantity, Sizes};
+use dalembert_model::reference::Reference;
+use dalembert_model::robot::{JointKind, Parent};
+use nalgebra::DVector;
+use serde_json::Value;
+
+fn two_legs() -> String {
+    data("two_legs.toml")
+}
+
+#[test]
+fn a_base_is_read_and_written() {
+    let robot = reading(&two_legs()).robot;
+    let base = robot.floating.as_ref().unwrap();
+    assert_eq!(base.name.as_deref(), Some("trunk"));
+    assert_eq!((robot.joints.len(), robot.coordinates()), (4, 10));
+    let carriers: Vec<Option<usize>> = (0..4).map(|row| robot.carrier(row)).collect();
+    assert_eq!(carriers, [None, Some(0), None, Some(2)]);
+    assert!(robot.is_tree() && robot.branches());
+    let rows: Vec<Option<usize>> = robot.frames.iter().map(|frame| frame.row).collect();
+    assert_eq!(rows, [Some(1), Some(3), None]);
+    let text = written(&robot);
+    assert_eq!(text.matches("kind = \"floating\"").count(), 1, "{text}");
+    assert_eq!(text.matches("\"base\"").count(), 2, "{text}");
+    assert_eq!(reading(&text).robot.input_hash(), robot.input_hash());
+    // The base by its name, by the word for it, or unsaid for the first joint.
+    let by_word = two_legs().replace("parent = \"trunk\"", "parent = \"base\"");
+    assert_eq!(reading(&by_word).robot, robot);
+    assert_eq!(robot.joints[2].parent, Some(Parent::Base));
+    // A base that floats is another robot than one that stands still.
+    let still = two_legs().replace("parent = \"trunk\"", "parent = \"base\"");
+    let (_, limbs) = still.split_once("[[joint]]\nname = \"left_hip\"").unwrap();
+    let limbs = limbs.replace("link = \"trunk\"", "link = \"left_hip\"");
+    let head = "name = \"two_legs\"\ngravity = [0, 0, -9.81]\n[[joint]]\nname = \"left_hip\"";
+    let fixed = reading(&format!("{head}{limbs}")).robot;
+    assert_ne!(fixed.input_hash(), robot.input_hash());
+    assert_eq!(fixed.joints.len(), robot.joints.len());
+    // One leg is no branch, and placed all the same.
+    let (body, _) = two_legs()
+        .split_once("\n[[joint]]\nname = \"right_hip\"")
+        .map(|(a, b)| (a.to_owned(), b.to_owned()))
+        .unwrap();
+    let hopper = reading(&body).robot;
+    assert!(!hopper.branches() && hopper.is_tree());
+    assert!(hopper.joints.iter().all(|joint| joint.place.is_some()));
+}
+
+/// Pieces of the file, what they are replaced by, and of the error that is said then: its line,
+/// its message and its help.
+#[rustfmt::skip]
+const ROWS: &[(&str, &str, usize, &str, &str)] = &[
+    ("kind = \"floating\"\n", "kind = \"floating\"\naxis = [0, 0, 1]\n", 8, "`axis` of a base that floats", "leave it out"),
+    ("kind = \"floating\"\n", "kind = \"floating\"\nviscous = 1\n", 8, "`viscous` of a base that floats", "no friction holds it"),
+    ("kind = \"floating\"\n", "kind = \"floating\"\nparent = \"base\"\n", 8, "`parent` of a base that floats", "leave it out"),
+    ("kind = \"prismatic\"", "kind = \"floating\"", 45, "a joint that floats is the first", "before the others"),
+    ("velocity = [2, 2, 1, 4, 4, 4]", "velocity = 2", 11, "expected an array of 6", "of (v, ω) in the base's axes"),
+    ("velocity = [2, 2, 1, 4, 4, 4]", "velocity = [2, 2, 1, 4, 4, -4]", 11, "velocity is negative", "zero or more"),
+    ("velocity = [2, 2, 1, 4, 4, 4]", "position = [0, 1]", 11, "`position` of a base that floats", "has no effect"),
+    ("com = [0.03, -0.01, 0.12]\n", "", 5, "the base has no `com`", "the base's frame"),
+    ("mass = 9\n", "mass = -9\n", 8, "mass is negative", "in kg"),
+    ("inertia = [0.2, 0.15, 0.09, 0.004, -0.003, 0.01]", "inertia = [-0.2, 0.15, 0.09, 0, 0, 0]", 10, "moment", "Ixx"),
+    ("name = \"left_hip\"", "name = \"trunk\"", 14, "the base is called \"trunk\" already", "a name of its own"),
+    ("gravity = [0, 0, -9.81]", "gravity = [0, 0, -9.81]\nbase = { xyz = [0, 0, 0.1] }", 4, "`base` of a robot whose base floats", "a [[frame]]"),
+    ("gravity = [0, 0, -9.81]", "gravity = [0, 0, -9.81]\nconvention = \"modified\"", 4, "joints that are placed", "leave `convention` out"),
+    ("placement = { xyz = [0, 0, 0.2] }\naxis = [1, 1, 0]", "offset = 0.2", 43, "joint 4 is not placed, and the base floats", "a base that is fixed"),
+    ("parent = \"trunk\"", "parent = \"torso\"", 35, "there is no link `torso`", "counted from 1 to 4"),
+];
+
+#[test]
+fn mistakes_are_said_at_their_lines() {
+    for (piece, by, line, message, help) in ROWS {
+        let text = replaced(&two_legs(), piece, by);
+        let all = errors(&text);
+        let error = only(&all);
+        has(error, message, help);
+        let found = text[..error.span.start].matches('\n').count() + 1;
+        assert_eq!(found, *line, "{}", refused(&text));
+    }
+}
+
+/// All values are those of Pinocchio, by every formulation.
+#[test]
+fn values_are_those_of_another_library() {
+    let robot = reading(&two_legs()).robot;
+    let golden: Value = serde_json::from_str(&data("golden/two_legs.json")).unwrap();
+    let arm = Arm::from_robot(&robot, &mut f64::nearest);
+    let view = View {
+        frame: "left_foot",
+        axes: Axes::Mixed,
+        rows: Rows::ALL,
+    };
+    let list = |value: &Value| -> Vec<f64> {
+        let numbers = value.as_array().unwrap().iter();
+        numbers.map(|number| number.as_f64().unwrap()).collect()
+    };
+    for state in golden["states"].as_array().unwrap() {
+        let [q, qd, qdd, effort, g] =
+            ["q", "qd", "qdd", "effort", "g"].map(|key| list(&state[key]));
+        let arm = arm.clone().with_gravity(&[g[0], g[1], g[2]]);
+        let seen = arm.seen(&view).unwrap();
+        let joints = robot.joints.iter().zip(&q);
+        let joints = joints.map(|(joint, q)| match joint.kind {
+            JointKind::Revolute => JointPosition::Revolute(SinCosPair {
+                sin: q.sin(),
+                cos: q.cos(),
+            }),
+            JointKind::Prismatic => JointPosition::Prismatic(*q),
+        });
+        let position = base_position().into_iter().chain(joints);
+        let at = arm.at(&position.collect::<Vec<_>>());
+        let moves = vec![true; qd.len()];
+        for by in Formulation::ALL {
+            let found = [
+                ("tau", by.inverse_dynamics(&arm, &at, &qd, &qdd)),
+                ("gravity", by.gravity(&arm, &at)),
+                ("bias", by.velocity_terms(&arm, &at, &qd)),
+                ("inertia", by.inertia(&arm, &at).concat()),
+                (
+                    "accelerations",
+                    by.forward_dynamics(&arm, &at, &qd, &effort, &moves),
+                ),
+                (
+                    "dtau_dq",
+                    by.torque_by_position(&arm, &at, &qd, &qdd).concat(),
+                ),
+                ("dtau_dqd", by.torque_by_velocity(&arm, &at, &qd).concat()),
+                ("kinetic", vec![by.kinetic_energy(&arm, &at, &qd)]),
+                ("jacobian", by.jacobian(&seen, &at).concat()),
+                ("drift", by.jacobian_rate(&seen, &at, &qd).concat()),
+                ("frame", by.hand(&seen, &at).rows()),
+            ];
+            for (key, found) in found {
+                let expected = list(&state[key]);
+                let size = expected.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+                assert_eq!(found.len(), expected.len(), "{key}");
+                for (found, expected) in found.iter().zip(&expected) {
+                    let off = (found - expected).abs();
+                    assert!(off <= 1e-14 * size, "{by:?} {key}: {off:e} of {size}");
+                }
+            }
+        }
+        // C of Pinocchio has another skew part where links turn; both give h.
+        let c = Formulation::LagrangeEuler.coriolis_matrix(&arm, &at, &qd);
+        let [own, other] = [c.concat(), list(&state["coriolis"])].map(|c| {
+            let rows = c.chunks(qd.len());
+            let rows = rows.map(|row| row.iter().zip(&qd).map(|(c, v)| c * v).sum::<f64>());
+            rows.collect::<Vec<f64>>()
+        });
+        for (own, other) in own.iter().zip(&other) {
+            assert!((own - other).abs() < 1e-12, "{own} {other}");
+        }
+    }
+}
+
+#[test]
+fn the_runtime_has_six_coordinates_more() {
+    let robot = reading(&two_legs()).robot;
+    let runtime = Reference::from_robot(&robot);
+    assert_eq!((runtime.joints(), runtime.coordinates()), (4, 10));
+    let vector = |n: usize| DVector::from_fn(n, |i, _| 0.1 + 0.2 * i as f64);
+    let (q, qd) = (vector(4), vector(10));
+    let tau = runtime.inverse_dynamics(&q, &qd, &qd).unwrap();
+    assert_eq!(tau.len(), 10);
+    let back = runtime.forward_dynamics(&q, &qd, &tau).unwrap();
+    assert!((back - &qd).amax() < 1e-12);
+    let error = runtime.inverse_dynamics(&q, &q, &qd).unwrap_err();
+    assert_eq!((error.argument, error.expected, error.found), ("qd", 10, 4));
+    // The base in free fall feels nothing of gravity.
+    let sizes = Sizes::of(&robot);
+    let rows: Vec<usize> = (0..10).collect();
+    let unit = |index| Quantity::Torque.unit(index, &rows, sizes, &robot);
+    assert_eq!([0, 3, 6, 9].map(unit), ["N", "N·m", "N·m", "N"]);
+    assert_eq!(Quantity::LinkPoses.len(sizes), 4 * 12);
+    assert_eq!(Quantity::LinkRegressor.len(sizes), 10 * 50);
+    assert_eq!(Quantity::Wrench.entry(6, &rows, sizes), "w_2,1");
+}
