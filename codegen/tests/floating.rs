@@ -3,7 +3,7 @@
 use dalembert_codegen::{Function, Request, generate};
 
 use crate::certified::Certified;
-use crate::support::{read_robot, source};
+use crate::support::{changes, read_robot, source};
 
 /// What is refused where the base floats, with a word of the reason.
 const REFUSED: [(&str, &str); 4] = [
@@ -49,5 +49,45 @@ fn what_is_of_a_fixed_base_is_refused_with_the_reason() {
             error.contains("the base floats") && error.contains(reason),
             "{error}"
         );
+    }
+}
+
+/// Constants say where the base and the joints are; a file that says otherwise is refused.
+#[test]
+fn places_are_those_of_the_robot_file() {
+    let robot = source("two_legs", "");
+    let cases = [
+        (
+            "rust",
+            "
+pub const BASE: usize = 0; → pub const BASE: usize = 4;
+pub const LEFT_KNEE: usize = 7; → pub const LEFT_KNEE: usize = 9;
+pub const Q_LEFT_KNEE: usize = 1; → pub const Q_LEFT_KNEE: usize = 7;
+pub const NV: usize = 10; → pub const NV: usize = 4;
+\"left_knee\",↵    \"right_hip\", → \"right_hip\",↵    \"left_knee\",
+\"left_knee\", → \"left_kn{e\",
+\"left_knee\", → \"left_knee\\\",
+",
+        ),
+        (
+            "c",
+            "
+TWO_LEGS_BASE = 0 → TWO_LEGS_BASE = 4
+TWO_LEGS_RIGHT_HIP = 8 → TWO_LEGS_RIGHT_HIP = 6
+TWO_LEGS_Q_RIGHT_HIP = 2 → TWO_LEGS_Q_RIGHT_HIP = 8
+\"left_hip\", \"left_knee\" → \"left_knee\", \"left_hip\"
+TWO_LEGS_JOINT_NAMES { → TWO_LEGS_RESTRICT {
+",
+        ),
+    ];
+    for (language, table) in cases {
+        let asked = format!("outputs: gravity; scalar: f64; language: {language}");
+        let file = Certified::of(&robot, None, &asked).remove(0);
+        file.is_shown(1, language);
+        for [from, to] in changes(table) {
+            assert!(file.text.contains(&from), "{from}: {}", file.text);
+            let other = file.with(&file.text.replacen(&from, &to, 1));
+            assert!(other.refusal().is_some(), "{to}");
+        }
     }
 }

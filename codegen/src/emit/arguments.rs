@@ -2,12 +2,13 @@
 //! of its load, and where gravity comes from.
 
 use dalembert_checker::payload as checked;
-use dalembert_model::outputs::RuntimeParameter;
+use dalembert_checker::places::Places;
+use dalembert_model::outputs::{Axis, RuntimeParameter};
 use dalembert_model::robot::Robot;
 
 use super::say;
 use crate::figures::{decimal, placed};
-use crate::function::{Argument, Function};
+use crate::function::{Argument, Function, Quantity};
 use crate::language::c99::Names;
 use crate::language::function::{GRAVITY, LOAD, PAYLOAD};
 use crate::language::{comment, list};
@@ -21,6 +22,101 @@ pub(super) fn gravity(robot: &Robot, setup: &Setup) -> String {
         true => {
             format!("gravity is the argument `g` in m/s² and base axes ({file} in the robot file).")
         }
+    }
+}
+
+fn placed_names(robot: &Robot) -> Option<Places> {
+    let names = robot.joints.iter().map(|joint| joint.name.as_deref());
+    let names: Vec<Option<&str>> = names.collect();
+    (robot.is_tree()).then(|| Places::new(&names, robot.floating.is_some()))
+}
+
+/// Returns the constants for the places of the base and of joints in arguments.
+pub(super) fn places(robot: &Robot) -> String {
+    let Some(places) = placed_names(robot) else {
+        return String::new();
+    };
+    let [_, coordinates] = places.counts;
+    let mut text = String::new();
+    let mut say = |doc: &str, name: &str, place: usize| {
+        text += &format!("/// {doc}\npub const {name}: usize = {place};\n");
+    };
+    let (what, of) = match robot.floating {
+        None => ("The number of entries of a velocity.", "arguments"),
+        Some(_) => (
+            "The number of entries of velocities, accelerations and torques.",
+            "velocities",
+        ),
+    };
+    say(what, "NV", coordinates);
+    for (name, place) in &places.velocities {
+        let doc = match robot.joint_of(*place) {
+            None => {
+                "The base's first place in them: linear x, y, z, then angular x, y, z.".to_owned()
+            }
+            Some(joint) => format!("The place of joint {} in {of}.", joint + 1),
+        };
+        say(&doc, name, *place);
+    }
+    for (name, place) in &places.positions {
+        let doc = format!("The place of joint {} in positions.", place + 1);
+        say(&doc, name, *place);
+    }
+    let named = "/// The joints' names, in the order of positions.\n";
+    format!("{text}{named}{}\n", places.array())
+}
+
+/// Returns the lines of [`places`] for a header.
+pub(super) fn places_c(robot: &Robot, names: &Names) -> String {
+    let Some(places) = placed_names(robot) else {
+        return String::new();
+    };
+    let of = match robot.floating {
+        None => " * in arguments.",
+        Some(_) => {
+            " * in velocities, accelerations and torques; behind a Q, in positions. The base has six\n \
+             * places: linear x, y, z, then angular x, y, z."
+        }
+    };
+    let header = places.header(&names.macros());
+    format!(
+        "\n/* The number of joints, and of entries of a velocity; the places of the base and of joints\n\
+         {of} NAMES begins an array of strings. */\n{header}\n"
+    )
+}
+
+/// Returns the layout of vectors if the base floats.
+pub(super) fn layout(function: Function, setup: &Setup) -> Vec<String> {
+    let mut lines = Vec::new();
+    if setup.robot().floating.is_none() {
+        return lines;
+    }
+    let coordinates = setup.robot().coordinates();
+    let of = |own: &Argument| own.length(setup.sizes(function)) == coordinates;
+    let of_results = |own: &Quantity| own.shape().0.contains(&Axis::Coordinates);
+    if function.arguments().iter().any(of) || function.quantities().iter().any(of_results) {
+        let layout = [
+            "",
+            "Velocities, accelerations and torques have six entries of the base first, in the base's axes:",
+            "linear x, y, z (m/s, m/s², N), angular x, y, z (rad/s, rad/s², N·m). Positions have none.",
+        ];
+        say(&mut lines, layout);
+    }
+    if function.quantities().contains(&Quantity::Gravity) {
+        let flight = [
+            "",
+            "The joints' entries hold the joints only while something holds the base with its six.",
+            "In flight nothing does: there these torques alone turn the base.",
+        ];
+        say(&mut lines, flight);
+    }
+    lines
+}
+
+pub(super) fn meaning(argument: Argument, robot: &Robot) -> &'static str {
+    match (argument, &robot.floating) {
+        (Argument::Gravity, Some(_)) => "Acceleration of gravity in the base's axes, m/s².",
+        _ => argument.meaning(),
     }
 }
 
@@ -107,7 +203,14 @@ fn newtype(text: &mut String, name: &str, public: &str, scalar: ScalarType, leng
 
 pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
     let mut lines = Vec::new();
-    if setup.takes(function, RuntimeParameter::Gravity) {
+    if setup.takes(function, RuntimeParameter::Gravity) && setup.robot().floating.is_some() {
+        let gravity = [
+            "",
+            "`g` is the acceleration of gravity, m/s², turned into the axes that the base has now; the same",
+            "however the base moves.",
+        ];
+        say(&mut lines, gravity);
+    } else if setup.takes(function, RuntimeParameter::Gravity) {
         let gravity = [
             "",
             "`g` is the acceleration of gravity in base axes, m/s². Where the base is tilted, turn it into",

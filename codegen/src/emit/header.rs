@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use dalembert_model::outputs::RuntimeParameter;
 
-use super::arguments::payload_c;
+use super::arguments::{meaning, payload_c, places_c};
 use super::module::{function_doc, header};
 use super::state_box::StateBox;
 use super::{GeneratedFunction, c_sines, parameters, said};
@@ -137,6 +137,7 @@ pub(crate) fn write(
              #else\n#define {simd}\n#endif\n"
         );
     }
+    text += &places_c(robot, &names);
     for &(scalar, ref codes) in codes {
         let names = Names::new(&name, request.language, scalar);
         let mut lines = header(robot, setup, functions, scalar);
@@ -181,7 +182,7 @@ pub(crate) fn write(
             }
             doc.push(String::new());
             for argument in &program.arguments {
-                let (name, meaning) = (argument.name(), argument.meaning());
+                let (name, meaning) = (argument.name(), meaning(*argument, robot));
                 let length = match c99::argument_structure(*argument, &names) {
                     Some(_) => String::new(),
                     None => format!("[{}]", argument.length(sizes)),

@@ -33,6 +33,7 @@ pub(crate) fn write(
     // Only this way of telling it so is stable as an inner attribute.
     text += &format!("#![cfg_attr(rustfmt, rustfmt_skip)]\n#![allow({ALLOWED})]\n\n");
     text += &format!("/// The number of joints.\npub const N: usize = {n};\n");
+    text += &arguments::places(robot);
     let rows = setup.rows();
     if setup.scene().is_some() {
         let (over, what) = match robot.floating {
@@ -129,6 +130,14 @@ pub(super) fn header(
     };
     say(&mut lines, [""]);
     say(&mut lines, heads);
+    if let Some(base) = &robot.floating {
+        let named = |name: &String| format!(" {}", escaped(name));
+        let name = base.name.as_ref().map(named).unwrap_or_default();
+        lines.push(format!(
+            "| base{name} | floating | | | | | {} |",
+            decimal(&base.mass)
+        ));
+    }
     for (row, joint) in robot.rows().into_iter().enumerate() {
         let mut followers = robot.followers.iter();
         let own = followers.find(|own| own.row == row);
@@ -276,6 +285,7 @@ pub(super) fn function_doc(
         say(&mut lines, why);
     }
     lines.extend(said::friction(generated, setup));
+    lines.extend(arguments::layout(generated.function, setup));
     lines.extend(arguments::doc(generated.function, setup));
     lines.extend(parameters::doc(generated.function, setup));
     lines.extend(said::sines(generated.sines(scalar), scalar));

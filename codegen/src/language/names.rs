@@ -111,7 +111,7 @@ impl Names {
     pub(crate) fn symbols(&self, function: Function) -> Symbols {
         let infix = self.scalar.of("", "_f32");
         Symbols {
-            macros: self.base.to_uppercase(),
+            macros: self.macros(),
             prefix: format!("{}{infix}", self.base),
             single: self.of(function.name()),
             any: self.of(&format!("{function}_any")),
@@ -121,8 +121,12 @@ impl Names {
         }
     }
 
+    pub(crate) fn macros(&self) -> String {
+        self.base.to_uppercase()
+    }
+
     pub(crate) fn constant(&self, word: &str) -> String {
-        format!("{}_{word}", self.base.to_uppercase())
+        format!("{}_{word}", self.macros())
     }
 }
 

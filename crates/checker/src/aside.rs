@@ -63,6 +63,13 @@ impl<'k> Known<'k> {
             format!("pub const N: usize = {joints};"),
             format!("pub const {over}: [usize; {count}] = {rows:?};"),
         ]);
+        if let Some(places) = setting.places() {
+            let [_, coordinates] = places.counts;
+            let all = places.velocities.iter().chain(&places.positions);
+            let line = |name: &str, place: usize| format!("pub const {name}: usize = {place};");
+            items.extend(all.map(|(name, place)| line(name, *place)));
+            items.extend([line("NV", coordinates), untabbed(&places.array())]);
+        }
         for (name, public, count) in [
             ("Gravity", "pub ", 3),
             ("Payload", "", 10),
@@ -237,6 +244,10 @@ pub(crate) fn is_payload(item: &Found) -> bool {
 fn trimmed<'t>(item: &'t Found) -> Vec<&'t str> {
     let lines = item.text.lines().map(str::trim);
     lines.filter(|line| !line.is_empty()).collect()
+}
+
+pub(crate) fn untabbed(text: &str) -> String {
+    text.lines().map(str::trim).collect::<Vec<_>>().join("\n")
 }
 
 fn ends(lines: &[&str], is_single: bool) -> Option<Ends> {

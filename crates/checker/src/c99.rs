@@ -5,11 +5,13 @@
 //! own. Sines of the header's own are those of `together`. A function's text begins with its
 //! struct, if it has one.
 
+use crate::aside::untabbed;
 use crate::compare::is_literal;
 use crate::fault::Fault;
 use crate::file::{Found, Lines, between, fault, item};
 use crate::identity::exact::Exact;
 use crate::identity::table;
+use crate::places::Places;
 use crate::read::{self, has_only};
 use crate::together;
 
@@ -76,7 +78,10 @@ fn take(lines: &mut Lines, expected: &str) -> Result<(), Fault> {
     Ok(())
 }
 
-pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
+pub(crate) fn functions<'t>(
+    source: &'t str,
+    places: Option<&Places>,
+) -> Result<Vec<Found<'t>>, Fault> {
     let lines = read::lines(source, true).map_err(|own| Fault::Text(own.line, own.reason))?;
     let mut lines = lines.as_slice();
     let guard = lines.first().map_or("", |own| own.1);
@@ -102,6 +107,9 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
         text.replace("ARM", name)
     };
     take(&mut lines, &known(&format!("{BEFORE}{loops}")))?;
+    if let Some(places) = places.filter(|_| lines.first().is_some_and(|own| own.1 == "enum {")) {
+        take(&mut lines, &untabbed(&places.header(name)))?;
+    }
     let behind = known(BEHIND);
     let mut all: Vec<Found> = Vec::new();
     while let Some(&first) = lines.first() {

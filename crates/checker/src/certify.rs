@@ -102,7 +102,7 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     let setting = file.setting(scene).map_err(of_robot)?;
     let is_c = source.starts_with(c99::HEAD);
     let items = match is_c {
-        true => c99::functions(source)?,
+        true => c99::functions(source, setting.places().as_ref())?,
         false => file::functions(source)?,
     };
     if items.len() > MOST_ITEMS {

@@ -48,6 +48,7 @@ pub mod interval;
 mod load;
 mod maximum;
 pub mod payload;
+pub mod places;
 #[cfg(feature = "certify")]
 pub mod polynomial;
 pub mod program;

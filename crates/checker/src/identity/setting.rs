@@ -10,6 +10,7 @@ use super::exact::{Angle, Exact, number};
 use super::robot::{File, OneOrEach, Row, Scene, number_of};
 use super::table::{Sizes, length};
 use crate::payload::Body;
+use crate::places::Places;
 use crate::program::{ARGUMENTS, Operand};
 
 const MOST_JOINTS: usize = 64;
@@ -150,6 +151,17 @@ impl Setting<'_> {
     /// Returns how many joints move by themselves, locked ones too.
     pub fn joints(&self) -> usize {
         self.movers.len()
+    }
+
+    /// Returns what generated code calls the places of joints, if the robot is a tree.
+    pub(crate) fn places(&self) -> Option<Places> {
+        let names = self
+            .movers
+            .iter()
+            .map(|&row| self.file.joint[row].name.as_deref());
+        let names: Vec<Option<&str>> = names.collect();
+        let floats = self.file.floating.is_some();
+        self.file.is_tree().then(|| Places::new(&names, floats))
     }
 
     /// Returns how many coordinates come before those of the joints.

@@ -23,10 +23,11 @@ use self::tokens::Token;
 use crate::program::Program;
 
 pub use self::c::Symbols;
+pub(crate) use self::tokens::{is_letter, is_plain_sign};
 #[cfg(feature = "certify")]
 pub(crate) use self::{
     reader::number,
-    tokens::{has_only, is_letter, lines},
+    tokens::{has_only, lines},
 };
 
 /// A text that is not what it should be.

@@ -36,6 +36,19 @@ pub(crate) fn has_only(text: &str, signs: &str) -> bool {
     text.chars().all(known) && !text.contains("//") && !text.contains("/*")
 }
 
+/// Returns true for a character that stands in a string for itself, in Rust and in C.
+pub(crate) fn is_plain_sign(c: char) -> bool {
+    c.is_alphanumeric() || "_-./ ".contains(c)
+}
+
+/// A string of an array, alone on its line.
+fn is_name(words: &str) -> bool {
+    let name = words
+        .strip_prefix('"')
+        .and_then(|rest| rest.strip_suffix("\","));
+    name.is_some_and(|name| name.chars().all(is_plain_sign))
+}
+
 /// Refuses a line that is not of generated code: a compiler might read it otherwise.
 pub(crate) fn lines(source: &str, is_c: bool) -> Result<Vec<(usize, &str)>, TextError> {
     let (mut all, mut is_comment) = (Vec::new(), false);
@@ -59,7 +72,7 @@ pub(crate) fn lines(source: &str, is_c: bool) -> Result<Vec<(usize, &str)>, Text
                     let has_other = DIGRAPHS.iter().any(|own| words.contains(own));
                     words.starts_with('#') || has_only(words, SIGNS) && !has_other
                 }
-                false => has_only(words, RUST_SIGNS),
+                false => has_only(words, RUST_SIGNS) || is_name(words),
             };
             all.push((number, words));
             is_good &= all.len() <= MOST_LINES;

@@ -1,0 +1,144 @@
+//! Names in generated code for the places that the joints of a tree have in arguments, and the base
+//! where it floats.
+
+use std::collections::BTreeSet;
+
+use crate::read::{is_letter, is_plain_sign};
+
+/// Names that generated code has for something else, in Rust or in C behind the header's name.
+const TAKEN: &str = "N NV BASE JOINT_NAMES JOINTS COORDINATES BOX H CUH RESTRICT UNFUSED SIMD";
+/// The end of the names of constants that hold parameters.
+const PARAMETERS: &str = "PARAMETERS";
+/// The longest name of a joint: with a header's name, compilers tell it from others.
+const LONGEST: usize = 40;
+/// Coordinates of a base that floats.
+const BASE: usize = 6;
+
+/// The places of joints.
+#[derive(Clone, Debug)]
+pub struct Places {
+    names: Vec<String>,
+    /// The constants of velocities.
+    pub velocities: Vec<(String, usize)>,
+    /// The constants of positions; empty where places in velocities are the same.
+    pub positions: Vec<(String, usize)>,
+    /// The number of joints, and of entries of a velocity.
+    pub counts: [usize; 2],
+}
+
+impl Places {
+    /// Returns the places of joints, in order, by their names in the robot file.
+    pub fn new(names: &[Option<&str>], floats: bool) -> Places {
+        let mut seen: BTreeSet<String> = TAKEN.split(' ').map(str::to_owned).collect();
+        let mut constants = Vec::new();
+        for (number, name) in (1..).zip(names) {
+            let mut own = constant(name.unwrap_or(""), number);
+            if seen.contains(&own) || own.ends_with(PARAMETERS) {
+                own = format!("JOINT_{own}");
+            }
+            while [&own, &format!("Q_{own}")]
+                .into_iter()
+                .any(|own| seen.contains(own))
+            {
+                own += &format!("_{number}");
+            }
+            seen.extend([format!("Q_{own}"), own.clone()]);
+            constants.push(own);
+        }
+        let base = if floats { BASE } else { 0 };
+        let own = constants.iter().cloned().zip(base..);
+        let positions = constants.iter().map(|own| format!("Q_{own}")).zip(0..);
+        Places {
+            names: (1..)
+                .zip(names)
+                .map(|(number, name)| plain(*name, number))
+                .collect(),
+            velocities: floats
+                .then(|| ("BASE".into(), 0))
+                .into_iter()
+                .chain(own)
+                .collect(),
+            positions: positions.filter(|_| floats).collect(),
+            counts: [names.len(), base + names.len()],
+        }
+    }
+
+    /// Returns the array of joint names in Rust, a line each.
+    pub fn array(&self) -> String {
+        let lines = self.names.iter().map(|name| format!("    \"{name}\",\n"));
+        let (count, lines) = (self.names.len(), lines.collect::<String>());
+        format!("pub const JOINT_NAMES: [&str; {count}] = [\n{lines}];")
+    }
+
+    /// Returns the lines of a header: an enum, and the names as a macro that begins an array.
+    pub fn header(&self, name: &str) -> String {
+        let counts = ["N", "NV"].map(str::to_owned).into_iter().zip(self.counts);
+        let all = counts.chain(self.velocities.iter().cloned());
+        let all = all.chain(self.positions.iter().cloned());
+        let lines = all.map(|(own, place)| format!("    {name}_{own} = {place}"));
+        let lines = lines.collect::<Vec<String>>().join(",\n");
+        let names = self.names.iter().map(|name| format!("\"{name}\""));
+        let names = names.collect::<Vec<String>>().join(", ");
+        format!("enum {{\n{lines}\n}};\n#define {name}_JOINT_NAMES {{{names}}}")
+    }
+}
+
+/// Returns a name in capital letters, digits and `_`, which a letter begins.
+fn constant(name: &str, number: usize) -> String {
+    let letter = |c: char| {
+        if is_letter(c) {
+            c.to_ascii_uppercase()
+        } else {
+            '_'
+        }
+    };
+    let own: String = name.chars().map(letter).take(LONGEST).collect();
+    match own.trim_matches('_') {
+        "" => format!("JOINT_{number}"),
+        short if short.starts_with(|c: char| c.is_ascii_digit()) => format!("JOINT_{short}"),
+        short => short.to_owned(),
+    }
+}
+
+fn plain(name: Option<&str>, number: usize) -> String {
+    let same = |c: char| if is_plain_sign(c) { c } else { '_' };
+    match name {
+        Some(name) => name.chars().map(same).collect(),
+        None => format!("joint {number}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_told_apart() {
+        let names = [
+            "FL hip", "FL_hip", "N", "", "2nd", "q_a", "a", "\"é\"", "base",
+        ]
+        .map(Some);
+        let places = Places::new(&names, true);
+        let own = |(name, place): &(String, usize)| format!("{name} {place}");
+        let all: Vec<String> = places.velocities.iter().map(own).collect();
+        assert_eq!(
+            all.join(", "),
+            "BASE 0, FL_HIP 6, JOINT_FL_HIP 7, JOINT_N 8, JOINT_4 9, JOINT_2ND 10, Q_A 11, A_7 12, \
+             JOINT_8 13, JOINT_BASE 14"
+        );
+        let all: Vec<String> = places.positions.iter().map(own).collect();
+        assert_eq!(all[5..7], ["Q_Q_A 5", "Q_A_7 6"]);
+        assert!(places.array().contains("    \"_é_\",\n"));
+        assert!(
+            places
+                .header("ARM")
+                .ends_with("\"q_a\", \"a\", \"_é_\", \"base\"}")
+        );
+        let fixed = Places::new(&[None, Some("elbow")], false);
+        assert_eq!(
+            fixed.header("ARM"),
+            "enum {\n    ARM_N = 2,\n    ARM_NV = 2,\n    ARM_JOINT_1 = 0,\n    ARM_ELBOW = 1\n};\n\
+             #define ARM_JOINT_NAMES {\"joint 1\", \"elbow\"}"
+        );
+    }
+}
