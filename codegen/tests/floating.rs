@@ -32,7 +32,7 @@ fn every_output_is_shown() {
     for language in ["rust", "c"] {
         let asked = format!("{asked}; language: {language}");
         let file = Certified::of(&robot, None, &asked).remove(0);
-        file.is_shown(31, language);
+        file.is_shown(35, language);
     }
 }
 

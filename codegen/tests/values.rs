@@ -248,8 +248,8 @@ fn followers_beside_the_truth(is_tried: fn(usize) -> bool) {
     let (runtime, setup) = (Runtime::new(&robot), Setup::whole(&robot));
     let truth = Reference::new(&setup);
     // Of base parameters there are none: its axes are turned against each other anyhow.
-    let is_own = |own: &Function| own.takes_followers() && own.columns() == Columns::None;
-    let functions = Function::ALL.into_iter().filter(is_own).enumerate();
+    let is_own = |own: &Function| own.columns() == Columns::None;
+    let functions = Function::of(&robot).into_iter().filter(is_own).enumerate();
     for (_, function) in functions.filter(|(place, _)| is_tried(*place)) {
         let generated = Case::in_scene("wafer", "", function.name()).generated();
         assert_eq!(generated.functions[0].program.joints, 4);

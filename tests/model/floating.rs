@@ -134,6 +134,16 @@ fn values_are_those_of_another_library() {
                 ("jacobian", by.jacobian(&seen, &at).concat()),
                 ("drift", by.jacobian_rate(&seen, &at, &qd).concat()),
                 ("frame", by.hand(&seen, &at).rows()),
+                ("com", by.centre_of_mass(&arm, &at).to_vec()),
+                (
+                    "centroidal",
+                    by.centroidal_momentum_matrix(&arm, &at).concat(),
+                ),
+                (
+                    "centroidal_bias",
+                    by.centroidal_bias(&arm, &at, &qd).to_vec(),
+                ),
+                ("base_free", by.free_base(&arm, &at, [&qd, &qdd])),
             ];
             for (key, found) in found {
                 let expected = list(&state[key]);

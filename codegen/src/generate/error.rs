@@ -109,6 +109,14 @@ impl GenerateError {
         GenerateError::refused(function, message, help)
     }
 
+    pub(super) fn is_fixed(function: Function) -> GenerateError {
+        let message =
+            format!("`{function}` is not there where the base is fixed: something holds it");
+        let help =
+            "a base floats whose first `[[joint]]` is of kind `floating`; `import --floating`";
+        GenerateError::refused(function, message, help)
+    }
+
     /// Returns the function that it is about, if it is about one.
     pub fn function(&self) -> Option<Function> {
         match self {

@@ -228,6 +228,9 @@ fn check(robot: &Robot, request: &Request) -> Outcome<()> {
         if robot.floating.is_some() && !function.takes_floating_base() {
             return Err(GenerateError::floats(function));
         }
+        if robot.floating.is_none() && !function.takes_fixed_base() {
+            return Err(GenerateError::is_fixed(function));
+        }
     }
     language::check(robot, request, &functions)?;
     if let Some(plan) = &request.plan

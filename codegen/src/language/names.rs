@@ -34,7 +34,7 @@ const SHORT: [(&str, &str); 19] = [
 ];
 
 /// For names that are still too long; `id` and `fd` are the inverse and the forward dynamics.
-const SHORTER: [(&str, &str); 12] = [
+const SHORTER: [(&str, &str); 16] = [
     ("inv_dyn_", "id_"),
     ("fwd_dyn_", "fd_"),
     ("sec_deriv", "deriv2"),
@@ -47,6 +47,10 @@ const SHORTER: [(&str, &str); 12] = [
     ("null_space", "null"),
     ("linear", "lin"),
     ("angular", "ang"),
+    ("centroidal_mom_matrix", "cmm"),
+    ("centroidal", "cent"),
+    ("centre_of_mass", "com"),
+    ("joint_torques", "jt"),
 ];
 
 /// With a word and a scalar of at most these letters, there is room for the name of a module.

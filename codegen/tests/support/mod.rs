@@ -205,7 +205,8 @@ pub fn one(robot: &Robot, function: Function) -> GeneratedFunction {
 }
 
 pub fn every_output() -> String {
-    Function::ALL.map(|function| function.name()).join(", ")
+    let functions = Function::of(&robot("planar2r")).into_iter();
+    functions.map(Function::name).collect::<Vec<_>>().join(", ")
 }
 
 /// Returns the text of a robot file with a scene that has these lines, which `;` parts, and outputs

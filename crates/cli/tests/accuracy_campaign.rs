@@ -21,9 +21,8 @@ type Worst = BTreeMap<(Quantity, ScalarType), (f64, usize)>;
 /// Runs `each` outputs per robot in turn, so that each output meets robots of every length.
 fn campaign(places: Range<usize>, each: usize, longest: usize) -> Worst {
     let mut worst = Worst::new();
-    // `Load` only serves functions that take a load.
     let all = Function::ALL.into_iter();
-    let outputs: Vec<Function> = all.filter(|f| *f != Function::Load).collect();
+    let outputs: Vec<Function> = all.filter(|own| own.takes_fixed_base()).collect();
     let mut next = 0;
     for (place, (seed, robot, _)) in robots(places.end, 0xacc0).enumerate() {
         let n = robot.joints.len();

@@ -72,7 +72,8 @@ fn the_search_finds_where_two_rods_are_nearest_to_singular() {
     let expected = (1.0 + r) / (1.0 - r);
     assert!((condition / expected - 1.0).abs() < 1e-9, "{condition}");
     assert!(q[1].abs() < 1e-4, "{q:?}");
-    all_good(&divided(&robot, &Request::new(&Function::ALL), STATES).unwrap());
+    let request = Request::new(&Function::of(&robot));
+    all_good(&divided(&robot, &request, STATES).unwrap());
 }
 
 support::daily_and_campaign! {
@@ -126,8 +127,9 @@ fn points(masses: [&str; 2]) -> Robot {
 /// of it, adds little. As many digits are lost as the condition number says, and no more.
 #[test]
 fn what_is_lost_next_to_singular_is_the_condition() {
-    let request = Request::new(&Function::ALL);
-    let rows = divided(&points(["1e-4", "1"]), &request, STATES).unwrap();
+    let robot = points(["1e-4", "1"]);
+    let request = Request::new(&Function::of(&robot));
+    let rows = divided(&robot, &request, STATES).unwrap();
     all_good(&rows);
     let worst = rows.iter().flat_map(|row| &row.worst);
     let lost = worst.map(|worst| worst.vector * worst.condition);

@@ -15,7 +15,7 @@ fn scenes_select_along_axes_over_joints() {
         ..Scene::default()
     };
     let request = Request {
-        functions: Function::ALL[6..].to_vec(),
+        functions: Function::of(&robot)[6..].to_vec(),
         scene: Some(scene),
         ..Request::default()
     };

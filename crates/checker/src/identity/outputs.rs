@@ -248,6 +248,32 @@ impl<'a> At<'a> {
         self.driven(vec![rest]).concat()
     }
 
+    fn centre(&self) -> Vector {
+        let base = self.base.unwrap_or_default();
+        let whole = self.bodies.iter().fold(base, |all, own| all.plus(own));
+        whole.first.map(|moment| moment / whole.mass)
+    }
+
+    /// Returns the rate of momentum about the centre of mass, without gravity, linear over angular.
+    fn about_centre(&self, qd: &[Number], qdd: &[Number]) -> Vec<Number> {
+        let (Screw(moment, force), _) = self.wrenches(qd, qdd, Vector::default());
+        [force, sum(moment, cross(force, self.centre()))].concat()
+    }
+
+    /// Returns accelerations at which nothing holds the base; those of the joints are given.
+    fn in_flight(&self) -> Vec<Number> {
+        let first = self.first();
+        let mut qdd = self.given("qdd").to_vec();
+        qdd[..first].fill(0.into());
+        let taken = self.torques(&qdd)[..first].to_vec();
+        let rows = self.inertia().into_iter().take(first);
+        let own = rows.map(|row| row[..first].to_vec()).collect();
+        let base = solve(own, vec![taken]).concat();
+        let base: Vec<Number> = base.into_iter().map(|own| -own).collect();
+        qdd[..first].copy_from_slice(&base);
+        qdd
+    }
+
     fn hand(&self) -> Option<(Option<usize>, Pose)> {
         let name = match self.view.frame.as_str() {
             "" => HAND,
@@ -484,6 +510,20 @@ impl<'a> At<'a> {
                 };
                 wrenches.into_iter().enumerate().flat_map(about).collect()
             }
+            "com" => self.centre().to_vec(),
+            "centroidal_momentum_matrix" => {
+                let rest = self.zeros();
+                let units = units(n).into_iter();
+                let columns = units.map(|unit| self.about_centre(&rest, &unit));
+                transposed(&columns.collect()).concat()
+            }
+            "centroidal_bias" => self.about_centre(qd, &self.zeros()),
+            "tau_free" => {
+                let mut torques = self.torques(&self.in_flight());
+                torques[..self.first()].fill(0.into());
+                torques
+            }
+            "base_acceleration" => self.in_flight()[..self.first()].to_vec(),
             "passivity" => self.passivity(),
             "qdd" => self.accelerations(self.given("tau")),
             "d_inv" => self.driven(units(n)).concat(),
@@ -551,7 +591,7 @@ fn parts(values: Vec<Number>, part: usize) -> Vec<Number> {
 /// `d2tau_dq_dqd` those of λᵀτ by q and q̇. None of a field that has no formula.
 pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
     let own = At::new(arm, state, &field.view);
-    if arm.base.is_some() && field.is_of_fixed_base() {
+    if field.is_of_base(arm.base.is_none()) {
         return None;
     }
     // A frame that is not there has no results, of which others would be short.

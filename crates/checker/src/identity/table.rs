@@ -1,4 +1,4 @@
-//! The 35 outputs: what each reads and returns.
+//! The 39 outputs: what each reads and returns.
 
 use std::sync::LazyLock;
 
@@ -42,6 +42,10 @@ const TABLE: &str = "
     consistent_inverse: q damping -> consistent_inverse[n6]
     operational_bias: q qd damping -> operational_bias[6]
     null_space_projector: q damping -> null_space[nn]
+    centre_of_mass: q -> com[3]
+    centroidal_momentum_matrix: q -> centroidal_momentum_matrix[6n]
+    centroidal_bias: q qd -> centroidal_bias[6]
+    joint_torques_free: q qd qdd -> tau=tau_free[n] base_acceleration[6]
     inverse_dynamics_second_derivatives: q qd qdd multiplier ->
         d2tau_dq_dq[nn] d2tau_dq_dqd[nn] d2tau_dqd_dqd[nn] d2tau_dqdd_dq[nn]
     forward_dynamics_second_derivatives: q qd tau multiplier ->
@@ -166,15 +170,20 @@ impl Field {
     /// Returns true if it is by the inverse of a matrix: of others, no state is without.
     pub(crate) fn divides(&self) -> bool {
         const INVERSES: &str = "qdd d_inv dqdd_dq dqdd_dqd qdd_wrench contact_wrench mobility \
-            operational_inertia consistent_inverse operational_bias null_space d2qdd_dq_dq \
-            d2qdd_dq_dqd d2qdd_dqd_dqd d2qdd_dtau_dq";
+            operational_inertia consistent_inverse operational_bias null_space tau_free \
+            base_acceleration d2qdd_dq_dq d2qdd_dq_dqd d2qdd_dqd_dqd d2qdd_dtau_dq";
         INVERSES.split_whitespace().any(|word| word == self.is)
     }
 
-    /// Returns true if it is of a fixed base alone.
-    pub(super) fn is_of_fixed_base(&self) -> bool {
-        const WORDS: &str = "symbols d_rot d_tran h_rot h_tran";
-        self.is.starts_with("d2") || WORDS.split(' ').any(|own| own == self.is)
+    /// Returns true if it is of a fixed base alone, or of one that floats alone.
+    pub(super) fn is_of_base(&self, floats: bool) -> bool {
+        const FIXED: &str = "symbols d_rot d_tran h_rot h_tran";
+        let words = if floats {
+            "tau_free base_acceleration"
+        } else {
+            FIXED
+        };
+        !floats && self.is.starts_with("d2") || words.split(' ').any(|own| own == self.is)
     }
 
     /// A torque of each joint, D of each two, or a coefficient of each three.

@@ -1,16 +1,16 @@
 //! To the last bit.
 
 use dalembert_codegen::workspace::Operation;
-use dalembert_jit::{Arm, Output, Scalar};
+use dalembert_jit::{Arm, Scalar};
 
 use crate::support::{
     OTHERS, STATES, all_outputs_in_both, asking, called, compare, compare_all, drawn, is_same,
-    path, robot,
+    of_fixed_bases, path, robot,
 };
 
 fn all_outputs(name: &str, states: usize) {
     let arm = robot(name, &asking(&all_outputs_in_both()));
-    assert_eq!(arm.functions().len(), 2 * Output::ALL.len());
+    assert_eq!(arm.functions().len(), 2 * of_fixed_bases().len());
     compare_all(name, &arm, states);
 }
 

@@ -30,8 +30,12 @@ pub fn asking(asked: &str) -> Load {
 }
 
 pub fn all_outputs_in_both() -> String {
-    let outputs = Output::ALL.map(Output::name).join(", ");
-    format!("outputs: {outputs}; scalar: f64, f32")
+    format!("outputs: {}; scalar: f64, f32", of_fixed_bases().join(", "))
+}
+
+pub fn of_fixed_bases() -> Vec<&'static str> {
+    let outputs = Output::ALL.into_iter().filter(|own| own.takes_fixed_base());
+    outputs.map(Output::name).collect()
 }
 
 pub struct Folder(pub PathBuf);

@@ -56,14 +56,23 @@ impl Formulation {
         qdd: &[S],
     ) -> Vec<S> {
         let qdd = &*arm.accelerations(qd, qdd);
-        let in_link_axes = |moment| table2::inverse_dynamics(arm, at, [qd, qdd], moment);
+        if let Some(moment) = self.moment() {
+            return table2::inverse_dynamics(arm, at, [qd, qdd], moment);
+        }
         match self {
             Self::LagrangeEuler => LagrangeEuler::new(arm, at).inverse_dynamics(qd, qdd),
             Self::Dalembert => Dalembert::new(arm, at).inverse_dynamics(qd, qdd),
-            Self::NewtonEulerBase => table1::inverse_dynamics(arm, at, qd, qdd),
-            Self::NewtonEulerLinkAsPrinted => in_link_axes(Moment::AsPrinted),
-            Self::NewtonEulerLink => in_link_axes(Moment::RotateFirst),
-            Self::NewtonEulerLinkDifferences => in_link_axes(Moment::Differences),
+            _ => table1::inverse_dynamics(arm, at, qd, qdd),
+        }
+    }
+
+    /// Returns the form of a recursion in link axes, if it is one.
+    pub(super) fn moment(self) -> Option<Moment> {
+        match self {
+            Self::NewtonEulerLinkAsPrinted => Some(Moment::AsPrinted),
+            Self::NewtonEulerLink => Some(Moment::RotateFirst),
+            Self::NewtonEulerLinkDifferences => Some(Moment::Differences),
+            Self::LagrangeEuler | Self::Dalembert | Self::NewtonEulerBase => None,
         }
     }
 

@@ -20,6 +20,7 @@
 //! | [`link_axes`] | the hand's velocity in the axes of links |
 //! | [`operational`] | Λ, J̄, bias force and null space at the hand |
 //! | [`contact`] | Jᵀw of a wrench at the hand, and the wrench of torques |
+//! | `centroidal` | the centre of mass, momentum about it, and a base that nothing holds |
 //! | [`Formulation`] | every output from every formulation, by name |
 //! | [`Arm::from_robot`], [`pose_of`], [`exact_pose`], [`Arm::fold_base`] | exact parameters in any scalar; what a fixed base cannot feel |
 //! | [`regressor`] | Y in τ = Y π of every formulation, the parameters that its columns are of |
@@ -37,6 +38,7 @@
 
 mod arm;
 pub mod articulated;
+mod centroidal;
 pub mod chain;
 pub mod contact;
 pub mod dalembert;

@@ -17,6 +17,7 @@ use super::{
 use crate::equations::chain::{Form, HandChoice};
 use crate::equations::regressor::Column;
 use crate::equations::{Arm, Formulation};
+use crate::robot::Robot;
 use crate::scalar::Divide;
 
 #[derive(Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -100,6 +101,18 @@ impl Function {
         Function::ALL.into_iter().filter(wanted).collect()
     }
 
+    /// Returns every function that a robot has by its name alone, in the order of files.
+    pub fn of(robot: &Robot) -> Vec<Function> {
+        let has = |own: &Function| match robot.floating {
+            Some(_) => own.takes_floating_base(),
+            None => own.takes_fixed_base(),
+        };
+        let follows = !robot.followers.is_empty();
+        let all = Function::ALL.into_iter().filter(has);
+        all.filter(|own| !follows || own.takes_followers())
+            .collect()
+    }
+
     /// Returns its name in generated code, on the command line and in the macro.
     pub fn name(self) -> &'static str {
         self.definition().name
@@ -140,6 +153,12 @@ impl Function {
             && !quantities
                 .clone()
                 .any(|quantity| quantity.facts().on_fixed_base)
+    }
+
+    /// Returns true if robots whose base is fixed have it.
+    pub fn takes_fixed_base(self) -> bool {
+        let mut quantities = self.quantities().iter();
+        !quantities.any(|quantity| quantity.facts().on_floating_base)
     }
 
     /// Returns what it has to do with a payload: as much as any of its results.

@@ -27,6 +27,7 @@ mod registry;
 mod runtime;
 mod shape;
 
+mod centroidal;
 mod contact;
 mod derivatives;
 mod energies;
@@ -139,6 +140,15 @@ registry! {
         "Bias force of the hand: μ = Λ (J D⁻¹ (h + c) - J̇q̇), without friction.";
     null_space_projector: NullSpaceProjector { operational: NullSpace }
         "Null-space projector N = 1 - J̄ J of velocities; Nᵀ is that of torques.";
+    centre_of_mass: CentreOfMass { centroidal: CentreOfMass }
+        "Centre of mass of all links in base axes, from the base's origin, in metres.";
+    centroidal_momentum_matrix: CentroidalMomentumMatrix { centroidal: CentroidalMomentumMatrix }
+        "Momentum about the centre of mass is A q̇: A(q) in base axes, 6×n, linear over angular.";
+    centroidal_bias: CentroidalBias { centroidal: CentroidalBias }
+        "Ȧ q̇, the rate of the momentum about the centre of mass that velocities alone give, linear over angular.";
+    joint_torques_free: JointTorquesFree { centroidal: FreeTorque, BaseAcceleration }
+        "Torques that give the joints q̈ while nothing holds the base, and the base's accelerations then; those in q̈ are not read.",
+        structure: Some("JointTorquesFree");
     inverse_dynamics_second_derivatives: InverseDynamicsSecondDerivatives {
         second_derivatives:
         TorqueByPositions, TorqueByPositionAndVelocity, TorqueByVelocities,

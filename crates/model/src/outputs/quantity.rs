@@ -66,6 +66,8 @@ pub struct Facts {
     pub(super) frame: FrameChoice,
     /// True if it is there on a fixed base alone: what it is made of belongs to joints' own rates.
     pub on_fixed_base: bool,
+    /// True if it is there on a base that floats alone.
+    pub on_floating_base: bool,
     /// True if an entry is of the link by itself, of which there are more than coordinates.
     pub of_links: bool,
 }
@@ -94,6 +96,7 @@ impl Facts {
         has_shoulder: false,
         frame: FrameChoice::None,
         on_fixed_base: false,
+        on_floating_base: false,
         of_links: false,
     };
 

@@ -218,7 +218,7 @@ impl<S: Scalar> Composite<'_, S> {
     }
 
     /// Returns the wrench of a unit acceleration of joint k about the base's origin.
-    fn push_on_base(&self, k: usize) -> Wrench<S> {
+    pub(super) fn push_on_base(&self, k: usize) -> Wrench<S> {
         let wrenches = [self.momentum(k)];
         let vectors = [];
         let [push] = self

@@ -4,6 +4,7 @@
 //! sections with the modules' names.
 
 pub mod body;
+mod centroidal;
 pub mod composite;
 pub mod derivatives;
 pub mod floating;

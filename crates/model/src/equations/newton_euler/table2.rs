@@ -51,9 +51,42 @@ fn gyroscopic<S: Scalar>(tensor: &Inertia<S>, omega: &Vector<S>) -> Vector<S> {
 pub fn inverse_dynamics<S: Scalar>(
     arm: &Arm<S>,
     at: &At<S>,
-    [qd, qdd]: [&[S]; 2],
+    rates: [&[S]; 2],
     moment: Moment,
 ) -> Vec<S> {
+    let loads = loads(arm, at, rates, moment).into_iter();
+    loads.map(|(torque, _)| torque).collect()
+}
+
+/// Returns the wrench that the ground exerts on the base, in the axes of frame 0 about its origin.
+pub fn wrench_on_base<S: Scalar>(
+    arm: &Arm<S>,
+    at: &At<S>,
+    rates: [&[S]; 2],
+    moment: Moment,
+) -> Wrench<S> {
+    let loads = loads(arm, at, rates, moment);
+    let steps = arm.steps(at).zip(loads);
+    steps.fold(Wrench::zero(), |all, (step, (_, on_base))| {
+        let Some(wrench) = on_base else {
+            return all;
+        };
+        let lever = match arm.convention {
+            Convention::Standard => zero_vector(),
+            Convention::Modified => step.lever_before(),
+        };
+        all.with(&wrench.carried(|v| step.to_previous(v), &lever))
+    })
+}
+
+/// Returns the torque of each link, and of those that the base carries the wrench on them in their
+/// axes: about the origin of frame 0 in standard DH, of their frames in modified DH.
+fn loads<S: Scalar>(
+    arm: &Arm<S>,
+    at: &At<S>,
+    [qd, qdd]: [&[S]; 2],
+    moment: Moment,
+) -> Vec<(S, Option<Wrench<S>>)> {
     let motions = motions(arm, at, qd, qdd);
     let steps: Vec<Step<'_, S>> = arm.steps(at).collect();
     arm.inward(|i, arrived: Vec<(usize, Wrench<S>)>| {
@@ -104,7 +137,8 @@ pub fn inverse_dynamics<S: Scalar>(
             Convention::Modified => load[2].clone(),
         };
         let torque = with_drive(link, &along, &qd[i], &qdd[i]);
-        (wrench, torque)
+        let on_base = arm.carrier(i).is_none().then(|| wrench.clone());
+        (wrench, (torque, on_base))
     })
 }
 

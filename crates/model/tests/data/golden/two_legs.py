@@ -78,10 +78,18 @@ for _ in range(6):
     pin.computeJointJacobians(model, data, q)
     J = pin.getFrameJacobian(model, data, foot, aligned)
     pose = data.oMf[foot]
+    com = pin.centerOfMass(model, data, q)
+    A = np.array(pin.ccrba(model, data, q, v))
+    pin.dccrba(model, data, q, v)
+    rate = data.dAg @ v
+    free = np.linalg.solve(D[:6, :6], -(bias + gravity + D @ np.concatenate([np.zeros(6), a[6:]]))[:6])
+    tau_free = pin.rnea(model, data, q, v, np.concatenate([free, a[6:]])) + viscous * v
+    tau_free[:6] = 0
     state = {"q": joints, "qd": v, "qdd": a, "g": g, "effort": effort, "tau": tau, "gravity": gravity, "bias": bias}
     state |= {"inertia": D, "accelerations": qdd, "dtau_dq": dq, "dtau_dqd": dv + np.diag(viscous), "coriolis": C}
     state |= {"kinetic": np.array([kinetic]), "jacobian": J, "drift": drift}
     state |= {"frame": np.hstack([pose.rotation, pose.translation[:, None]])}
+    state |= {"com": com, "centroidal": A, "centroidal_bias": rate, "base_free": free, "tau_free": tau_free}
     states.append({key: np.ravel(value).tolist() for key, value in state.items()})
 rows = json.dumps({"states": states}).replace('{"q"', '\n{"q"')
 (HERE / "two_legs.json").write_text(rows + "\n")
