@@ -203,7 +203,7 @@ fn every_function_is_shown_in_both_scalars_and_languages(robots: &str) {
     let asked = format!("outputs: {}", every_output());
     for name in robots.split(' ') {
         for (own, scalars) in in_both(&source(name, ""), None, &asked) {
-            own.is_shown(38 * scalars, name);
+            own.is_shown(41 * scalars, name);
         }
     }
 }

@@ -32,7 +32,7 @@ fn every_output_is_shown() {
     for language in ["rust", "c"] {
         let asked = format!("{asked}; language: {language}");
         let file = Certified::of(&robot, None, &asked).remove(0);
-        file.is_shown(35, language);
+        file.is_shown(38, language);
     }
 }
 
@@ -89,5 +89,35 @@ TWO_LEGS_JOINT_NAMES { → TWO_LEGS_RESTRICT {
             let other = file.with(&file.text.replacen(&from, &to, 1));
             assert!(other.refusal().is_some(), "{to}");
         }
+    }
+}
+
+/// Points in contact have the order in which they are named.
+#[test]
+fn points_in_contact_are_told_apart() {
+    let robot = source("two_legs", "");
+    let asked = "outputs: contact_forward_dynamics@left_foot, right_foot, contact_bias@left_foot,right_foot; \
+                 scalar: f64; language: c";
+    let file = Certified::of(&robot, None, asked).remove(0);
+    file.is_shown(2, "c");
+    let mut other = file.clone();
+    other.claim = (file.claim).replace("left_foot,right_foot", "right_foot,left_foot");
+    let why = other.refusal().unwrap();
+    assert!(why.contains("has other results"), "{why}");
+    let robot = read_robot(&robot);
+    for (text, words) in [
+        ("contact_bias@left_foot,left_foot", "there twice"),
+        ("contact_bias@left_foot:local", "no choice of `:local`"),
+        ("jacobian@left_foot,right_foot", "is of one frame"),
+        ("contact_bias@left_foot,left_fot", "no frame `left_fot`"),
+    ] {
+        let refusal = match Function::parse(text) {
+            Err(error) => error.message,
+            Ok(function) => {
+                let request = Request::new(&[function]);
+                generate(&robot, &request).unwrap_err().to_string()
+            }
+        };
+        assert!(refusal.contains(words), "{refusal}");
     }
 }

@@ -104,6 +104,11 @@ fn values_are_those_of_another_library() {
             ["q", "qd", "qdd", "effort", "g"].map(|key| list(&state[key]));
         let arm = arm.clone().with_gravity(&[g[0], g[1], g[2]]);
         let seen = arm.seen(&view).unwrap();
+        let held = arm.seen(&View {
+            frame: "left_foot,right_foot",
+            ..view
+        });
+        let held = held.unwrap();
         let joints = robot.joints.iter().zip(&q);
         let joints = joints.map(|(joint, q)| match joint.kind {
             JointKind::Revolute => JointPosition::Revolute(SinCosPair {
@@ -116,6 +121,8 @@ fn values_are_those_of_another_library() {
         let at = arm.at(&position.collect::<Vec<_>>());
         let moves = vec![true; qd.len()];
         for by in Formulation::ALL {
+            let given = [&qd[..], &effort, &[0.01]];
+            let space = by.contact_space(&held, &at, given, &moves);
             let found = [
                 ("tau", by.inverse_dynamics(&arm, &at, &qd, &qdd)),
                 ("gravity", by.gravity(&arm, &at)),
@@ -144,6 +151,13 @@ fn values_are_those_of_another_library() {
                     by.centroidal_bias(&arm, &at, &qd).to_vec(),
                 ),
                 ("base_free", by.free_base(&arm, &at, [&qd, &qdd])),
+                (
+                    "contact_jacobians",
+                    by.contact_jacobians(&held, &at).concat(),
+                ),
+                ("contact_bias", by.contact_bias(&held, &at, &qd)),
+                ("qdd_held", space.accelerations()),
+                ("forces", space.forces()),
             ];
             for (key, found) in found {
                 let expected = list(&state[key]);

@@ -15,7 +15,7 @@ use dalembert_model::scalar::field::{Field, Points};
 use dalembert_model::scalar::{Divide, Scalar};
 
 /// Every function with its arguments, and its results' axes for six joints and 36 base parameters.
-const GOLDEN: [&str; 39] = [
+const GOLDEN: [&str; 42] = [
     "inverse_dynamics(q, qd, qdd) -> tau[6]",
     "gravity(q) -> c[6]",
     "inertia(q) -> d[6][6]",
@@ -53,6 +53,9 @@ const GOLDEN: [&str; 39] = [
     "centroidal_momentum_matrix(q) -> centroidal_momentum_matrix[6][6]",
     "centroidal_bias(q, qd) -> centroidal_bias[6]",
     "joint_torques_free(q, qd, qdd) -> tau[6] base_acceleration[6]",
+    "contact_jacobians(q) -> contact_jacobians[3][6]",
+    "contact_bias(q, qd) -> contact_bias[3]",
+    "contact_forward_dynamics(q, qd, tau, damping) -> qdd[6] forces[3]",
     "inverse_dynamics_second_derivatives(q, qd, qdd, multiplier) -> \
      d2tau_dq_dq[6][6] d2tau_dq_dqd[6][6] d2tau_dqd_dqd[6][6] d2tau_dqdd_dq[6][6]",
     "forward_dynamics_second_derivatives(q, qd, tau, multiplier) -> \

@@ -85,6 +85,12 @@ fn add<T>(
 
 fn output(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
     let outputs = draft.outputs.get_or_insert_default();
+    if let Some(last) = outputs.last_mut()
+        && let Some(longer) = last.with_frame(item)
+    {
+        *last = longer;
+        return Ok(());
+    }
     let function = Function::parse(item).map_err(|error| {
         let error = error.among(outputs);
         Complaint::new(error.message.as_str(), for_bundle(&error))

@@ -1,6 +1,6 @@
 //! The exact proof: the final program equals Lagrange–Euler as written.
 //!
-//! Both are evaluated with their exact constants modulo p = 2⁶¹ − 45 at four to six points that
+//! Both are evaluated with their exact constants modulo p = 2⁶¹ − 45 at four to ten points that
 //! follow from the SHA-256 of robot, scene and program. Above [`WRITTEN_LIMIT`] joints the
 //! reference is the link-frame recursion, itself proved against Lagrange–Euler for every joint
 //! kind and convention at up to that many joints by tests.
@@ -8,8 +8,8 @@
 //! **The chance of a miss.** A difference that does not vanish modulo p is a polynomial of degree
 //! k in the points' parameters ([`points`](super::points)). It vanishes at a random point with
 //! probability at most k/2⁶⁰ (Schwartz–Zippel; a residue is drawn with at most 2⁻⁶⁰), so at four
-//! with at most (2³⁰/2⁶⁰)⁴ < 1e-36. A larger degree takes a fifth or a sixth point, and one beyond
-//! 2⁴⁰ is refused. A difference all of whose coefficients p divides is not seen here, and has to
+//! with at most (2³⁰/2⁶⁰)⁴ < 1e-36. A larger degree takes up to ten points, and one beyond 2⁴⁸
+//! is refused. A difference all of whose coefficients p divides is not seen here, and has to
 //! get past the check of what was generated in 256 bits; constants that p divides are refused. The
 //! search finds equal values modulo another prime, 2⁶¹ − 1: no mistake that it makes there is
 //! hidden here.

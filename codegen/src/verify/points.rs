@@ -94,8 +94,8 @@ pub(super) fn integers(values: &[Residue]) -> Option<Vec<ProofField>> {
     values.iter().map(Sparse::value).collect()
 }
 
-/// A larger degree would take more than six points.
-const MAX_DEGREE: f64 = (1u64 << 40) as f64;
+/// A larger degree would take more than ten points.
+const MAX_DEGREE: f64 = (1u64 << 48) as f64;
 
 #[derive(Debug, Default)]
 pub(super) struct Degrees(RefCell<Vec<Angle>>);
@@ -158,11 +158,19 @@ mod tests {
             let degree = Degree::new(2f64.powi(exponent) / 3.0);
             Degrees::default().points(&[Sparse::Value(degree)], &[Scalar::zero()], 1)
         };
-        let expected = [(1, 4), (30, 4), (31, 5), (36, 5), (37, 6), (40, 6)];
+        let expected = [
+            (1, 4),
+            (30, 4),
+            (31, 5),
+            (36, 5),
+            (37, 6),
+            (40, 6),
+            (48, 10),
+        ];
         for (exponent, count) in expected {
             assert_eq!(points(exponent), Ok(count), "2^{exponent}");
         }
-        for exponent in [41, 2000] {
+        for exponent in [49, 2000] {
             assert_eq!(points(exponent), Err(Disproof::Large), "2^{exponent}");
         }
     }

@@ -5,19 +5,19 @@ use std::collections::BTreeMap;
 use super::arm::Arm;
 use super::exact::{Exact, Point};
 use super::number::{Draws, Number};
-use super::outputs::{result, selected};
+use super::outputs::result;
 use super::setting::Setting;
 use super::state::State;
-use super::table::Function;
+use super::table::{Field, Function};
 use crate::program::{Program, argument};
 
 /// A wrong program passes with a probability below 2 to the power of minus this.
 const CERTAINTY: u32 = 144;
 /// A wrong difference of a degree d passes a point with a probability below d times 2 to the power
 /// of minus this: `mod.rs`.
-const POINT: u32 = 42;
+const POINT: u32 = 104;
 /// The largest degree of a difference.
-const MOST_DEGREE: f64 = (1u64 << 36) as f64;
+const MOST_DEGREE: f64 = (1u128 << 80) as f64;
 
 /// A base parameter: the columns of the parameters that it adds up, each times a constant.
 pub type Combination = Vec<(usize, Exact)>;
@@ -91,17 +91,19 @@ impl<'s> Points<'s> {
 pub fn check(own: Statement, points: &mut Points) -> Result<(), String> {
     // Own formulas are quotients of polynomials of a degree below 200 n²: D's entries are of 4 n,
     // its determinant of 4 n², and what is derived twice or inverted twice of a small multiple of
-    // that. What follows a joint several times as far is of as many times its degree.
+    // that. Points in contact make it three rows and columns larger. What follows a joint several times as far is of as many times its degree.
     let setting = points.setting;
     let n = (setting.links() + setting.base()) as f64;
-    let own_degree = 200.0 * n * n * setting.turns();
+    let held = own.function.fields.iter().map(Field::points).max();
+    let rows = n + 3.0 * held.unwrap_or_default() as f64;
+    let own_degree = 200.0 * n * rows * setting.turns();
     let load_degree = own.load.map_or(1.0, |load| load.degree().max(1.0));
     let degree = (own.program.degree() * load_degree + own_degree) * (2.0 * n + 1.0);
     // No number counts as too large.
     if !(degree <= MOST_DEGREE) {
         return Err("the degree is too large for a few points to decide".into());
     }
-    let bits = (degree.ceil() as u64).next_power_of_two().trailing_zeros();
+    let bits = (degree.ceil() as u128).next_power_of_two().trailing_zeros();
     let mut points = points.with_arms(CERTAINTY.div_ceil(POINT - bits) as usize)?;
     points.try_for_each(|(point, arm)| at_point(own, setting, point, arm.clone()))
 }
@@ -214,4 +216,30 @@ fn spread(
         }
     }
     (found.len() == n * base.len()).then_some(all)
+}
+
+/// Returns those entries of a result that are over the joints that a scene asks for.
+fn selected(field: &Field, setting: &Setting, values: Vec<Number>) -> Vec<Number> {
+    let lengths = field.lengths(setting, 0).into_iter();
+    let mut parts = vec![values];
+    let joint_rows = setting.joint_rows();
+    for (axis, length) in field.axes.chars().zip(lengths) {
+        // Behind these nothing is over joints.
+        if ['l', 'b'].contains(&axis) {
+            break;
+        }
+        let all: Vec<usize> = (0..length).collect();
+        let (count, rows) = match axis {
+            'n' => (setting.sizes().coordinates, &setting.rows),
+            'j' => (setting.joints(), &joint_rows),
+            _ => (length, &all),
+        };
+        let split = parts.iter().flat_map(|part| {
+            let length = part.len() / count.max(1);
+            let pick = move |row: &usize| part[row * length..(row + 1) * length].to_vec();
+            rows.iter().map(pick)
+        });
+        parts = split.collect();
+    }
+    parts.concat()
 }

@@ -423,7 +423,8 @@ impl Point {
     /// Returns the residue of a fraction.
     pub fn number(&self, value: &Rational) -> Number {
         let prime = BigInt::from(self.prime.value());
-        let part = |x: &BigInt| Number::new(x.rem_euclid(&prime).to_u64().unwrap_or(0), self.prime);
+        let part =
+            |x: &BigInt| Number::new(x.rem_euclid(&prime).to_u128().unwrap_or(0), self.prime);
         part(value.numer()) / part(value.denom())
     }
 

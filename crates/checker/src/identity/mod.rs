@@ -2,24 +2,24 @@
 //! fields that a hash draws from text, program and robot.
 //!
 //! A difference is N/M with polynomials N and M in the inputs. N does not vanish at a random point
-//! of a field of more than 2⁶¹ residues but with probability at most its degree over 2⁶¹, unless
+//! of a field of more than 2¹²⁵ residues but with probability at most its degree over 2¹²⁵, unless
 //! the prime divides all its coefficients, and few primes divide a number. Each point has a prime
-//! of its own. Constants count in the degree d, which is at most 2³⁶: so coefficients have at most
-//! d·2¹⁸ bits, and of the 2⁵⁵ primes of 62 bits at most d·2¹³ divide all of them. A wrong program
-//! passes one point with a probability of at most d·2⁻⁴², and there are so many points that it
-//! passes all of them with at most 2⁻¹⁴⁴: six for a degree of 2¹⁷, twelve for 2³⁰, 24 for
-//! 2³⁶.
+//! of its own. Constants count in the degree d, which is at most 2⁸⁰: so coefficients have at most
+//! d·2¹⁸ bits, and of the 2¹¹⁸ primes of 126 bits at most d·2¹² divide all of them. A wrong program
+//! passes one point with a probability of at most d·2⁻¹⁰⁴, and there are so many points that it
+//! passes all of them with at most 2⁻¹⁴⁴: two for a degree of 2³⁰, three for 2⁵⁶, six for 2⁸⁰.
 //!
 //! - `check`: the comparison, [`check`]; `residues`: the values of a program, and its degree
 //! - [`number`]: residues with slopes, and draws from a hash; [`exact`]: constants and angles
 //! - [`robot`]: the robot file as text; [`setting`]: what a scene fixes and asks for
 //! - [`aligned`]: rows that stand for placed joints; [`arm`]: axes and masses in base axes
-//! - [`table`]: the 39 functions; [`state`]: what they are given; [`outputs`]: every result by
-//!   the equations of Newton and Euler, with `screw` and `matrix`
+//! - [`table`]: the 42 functions; [`state`]: what they are given; [`outputs`]: every result by
+//!   the equations of Newton and Euler, with `contact`, `screw` and `matrix`
 
 pub mod aligned;
 pub mod arm;
 mod check;
+mod contact;
 pub mod exact;
 mod matrix;
 pub mod number;

@@ -6,50 +6,92 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use hmac_sha256::Hash;
 
-/// A prime p of 62 bits, with ⌊2¹²⁵/p⌋, so that a remainder takes two products. The value is 0
-/// for a whole number, which every field has, and `LOST` for a result of a division by zero.
+/// A prime p of 126 bits, with −1/p modulo 2¹²⁸ and the remainder of 2²⁵⁶: residues x stand as
+/// 2¹²⁸ x, so that a remainder takes two products (Montgomery 1985). The value is 0 for a whole
+/// number, which every field has, and `LOST` for a result of a division by zero.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Prime {
-    value: u64,
-    reciprocal: u64,
+    value: u128,
+    inverse: u128,
+    square: u128,
 }
 
-const LOST: u64 = u64::MAX;
+const LOST: u128 = u128::MAX;
+
+/// Returns the high and the low half of a product.
+fn wide(a: u128, b: u128) -> [u128; 2] {
+    let half = |x: u128| [x >> 64, x & u128::from(u64::MAX)];
+    let ([a, b], [c, d]) = (half(a), half(b));
+    let middle = a * d + ((b * d) >> 64);
+    let [carry, low] = half(middle);
+    let middle = low + b * c;
+    [
+        a * c + carry + (middle >> 64),
+        (middle << 64) | ((b * d) & u128::from(u64::MAX)),
+    ]
+}
 
 impl Prime {
-    fn new(value: u64) -> Prime {
-        let reciprocal = ((1u128 << 125) / u128::from(value)) as u64;
-        Prime { value, reciprocal }
+    fn new(value: u128) -> Prime {
+        // Each step doubles the digits that are right (Newton).
+        let step = |x: u128, _| x.wrapping_mul(2u128.wrapping_sub(value.wrapping_mul(x)));
+        let inverse = (0..7).fold(1, step).wrapping_neg();
+        let square = (0..256).fold(1 % value, |x: u128, _| (2 * x) % value);
+        Prime {
+            value,
+            inverse,
+            square,
+        }
     }
 
     /// Returns the prime as a number.
-    pub fn value(self) -> u64 {
+    pub fn value(self) -> u128 {
         self.value
     }
 
-    /// Returns the sum of two products of residues: modulo the prime, of whole numbers wrapped.
-    fn products(self, [a, b]: [u64; 2], [c, d]: [u64; 2]) -> u64 {
-        let Prime { value, reciprocal } = self;
-        if value == 0 || value == LOST {
-            return a.wrapping_mul(b).wrapping_add(c.wrapping_mul(d));
-        }
-        let sum = u128::from(a) * u128::from(b) + u128::from(c) * u128::from(d);
-        // The quotient of less than 2¹²⁵ is at most two too small (Barrett 1986).
-        let high = u128::from((sum >> 61) as u64);
-        let quotient = ((high * u128::from(reciprocal)) >> 64) as u64;
-        let rest = (sum as u64).wrapping_sub(quotient.wrapping_mul(value));
-        let reduced = |rest: u64, by: u64| if rest >= by { rest - by } else { rest };
-        reduced(reduced(rest, 2 * value), value)
+    fn is_field(self) -> bool {
+        self.value != 0 && self.value != LOST
     }
 
-    fn sum(self, a: u64, b: u64) -> u64 {
+    /// Returns the sum of two products of residues: modulo the prime, of whole numbers wrapped.
+    fn products(self, [a, b]: [u128; 2], [c, d]: [u128; 2]) -> u128 {
+        if !self.is_field() {
+            return a.wrapping_mul(b).wrapping_add(c.wrapping_mul(d));
+        }
+        let ([high, low], [other_high, other_low]) = (wide(a, b), wide(c, d));
+        let (low, carry) = low.overflowing_add(other_low);
+        // Below 2 p², and with the multiple of p below 2¹²⁸ (p + 2 p²/2¹²⁸).
+        let high = high + other_high + u128::from(carry);
+        let [more, _] = wide(low.wrapping_mul(self.inverse), self.value);
+        // The low halves add up to 2¹²⁸, or both are nothing.
+        let sum = high + more + u128::from(low != 0);
+        if sum >= self.value {
+            sum - self.value
+        } else {
+            sum
+        }
+    }
+
+    /// Returns a number as residues stand.
+    fn inward(self, value: u128) -> u128 {
+        match value {
+            0 => 0,
+            value => self.products([value, self.square], [0, 0]),
+        }
+    }
+
+    fn outward(self, residue: u128) -> u128 {
+        self.products([residue, 1], [0, 0])
+    }
+
+    fn sum(self, a: u128, b: u128) -> u128 {
         let sum = a.wrapping_add(b);
         let is_over = self.value > 0 && sum >= self.value;
         if is_over { sum - self.value } else { sum }
     }
 
-    fn power(self, mut square: u64, mut exponent: u64) -> u64 {
-        let mut power = 1;
+    fn power(self, mut square: u128, mut exponent: u128) -> u128 {
+        let mut power = self.inward(1);
         while exponent > 0 {
             if exponent & 1 == 1 {
                 power = self.products([power, square], [0, 0]);
@@ -65,13 +107,13 @@ impl Prime {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Number {
     prime: Prime,
-    parts: [u64; 4],
+    parts: [u128; 4],
 }
 
 impl Number {
     /// Creates a residue.
-    pub fn new(value: u64, prime: Prime) -> Number {
-        let parts = [value % prime.value, 0, 0, 0];
+    pub fn new(value: u128, prime: Prime) -> Number {
+        let parts = [prime.inward(value % prime.value), 0, 0, 0];
         Number { prime, parts }
     }
 
@@ -82,16 +124,19 @@ impl Number {
         step
     }
 
-    fn entry(self, part: usize, prime: Prime) -> u64 {
+    fn entry(self, part: usize, prime: Prime) -> u128 {
         match self.prime.value {
-            0 if prime.value > 0 => (self.parts[part] as i64).rem_euclid(prime.value as i64) as u64,
+            0 if prime.is_field() => {
+                let whole = self.parts[part] as i128;
+                prime.inward(whole.rem_euclid(prime.value as i128) as u128)
+            }
             _ => self.parts[part],
         }
     }
 
     /// Returns the residue modulo a prime; none of a number that is lost.
-    pub fn value(self, prime: Prime) -> Option<u64> {
-        (self.prime.value != LOST).then(|| self.entry(0, prime))
+    pub fn value(self, prime: Prime) -> Option<u128> {
+        (self.prime.value != LOST).then(|| prime.outward(self.entry(0, prime)))
     }
 
     /// Returns true for any number but zero.
@@ -113,7 +158,7 @@ impl Number {
     fn with(
         self,
         other: Number,
-        combine: impl Fn(Prime, [u64; 4], [u64; 4]) -> [u64; 4],
+        combine: impl Fn(Prime, [u128; 4], [u128; 4]) -> [u128; 4],
     ) -> Number {
         let prime = self.common(other);
         let parts = |number: Number| match number.prime.value == prime.value {
@@ -127,12 +172,12 @@ impl Number {
 
 impl From<i64> for Number {
     fn from(whole: i64) -> Number {
-        let (prime, parts) = (Prime::default(), [whole as u64, 0, 0, 0]);
+        let (prime, parts) = (Prime::default(), [i128::from(whole) as u128, 0, 0, 0]);
         Number { prime, parts }
     }
 }
 
-fn has_slopes(parts: [u64; 4]) -> bool {
+fn has_slopes(parts: [u128; 4]) -> bool {
     parts[1] | parts[2] | parts[3] != 0
 }
 
@@ -182,12 +227,13 @@ impl Div for Number {
     fn div(self, other: Number) -> Number {
         let prime = self.common(other);
         let divisor = other.entry(0, prime);
-        if prime.value == 0 || prime.value == LOST || divisor == 0 {
+        if !prime.is_field() || divisor == 0 {
             let (value, parts) = (LOST, [0; 4]);
             let prime = Prime { value, ..prime };
             return Number { prime, parts };
         }
-        let mut inverse = Number::new(prime.power(divisor, prime.value - 2), prime);
+        let parts = [prime.power(divisor, prime.value - 2), 0, 0, 0];
+        let mut inverse = Number { prime, parts };
         if has_slopes(other.parts) {
             // 1/(x + e) is y (2 − (x + e) y), twice, with y = 1/x: squares of slopes vanish.
             for _ in 0..2 {
@@ -251,10 +297,19 @@ impl Draws {
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Returns the next prime of 62 bits.
+    fn pair(&mut self) -> u128 {
+        u128::from(self.next()) << 64 | u128::from(self.next())
+    }
+
+    /// Returns the next prime of 126 bits.
     pub fn prime(&mut self) -> Prime {
         loop {
-            let number = Prime::new(self.next() >> 2 | 1 << 61 | 1);
+            let number = self.pair() >> 2 | 1 << 125 | 1;
+            let is_small = |small: &u128| number.is_multiple_of(*small);
+            if SMALL.iter().any(is_small) {
+                continue;
+            }
+            let number = Prime::new(number);
             if is_prime(number) {
                 return number;
             }
@@ -263,21 +318,24 @@ impl Draws {
 
     /// Returns the next residue.
     pub fn residue(&mut self, prime: Prime) -> Number {
-        Number::new(self.next(), prime)
+        Number::new(self.pair(), prime)
     }
 }
 
-/// Tests an odd number for being prime, by Miller and Rabin; these bases suffice below 2⁶⁴.
+const SMALL: [u128; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
+
+/// Tests an odd number for being prime, by Miller and Rabin: of random numbers of so many bits that
+/// pass, less than one in 2¹⁰⁰ is not prime (Damgård, Landrock and Pomerance 1993).
 fn is_prime(number: Prime) -> bool {
     let minus_one = number.value - 1;
     let twos = minus_one.trailing_zeros();
-    let bases = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
-    bases.into_iter().all(|base| {
-        let mut power = number.power(base, minus_one >> twos);
-        let mut passes = [1, minus_one].contains(&power);
+    let ends = [1, minus_one].map(|end| number.inward(end));
+    SMALL.into_iter().all(|base| {
+        let mut power = number.power(number.inward(base), minus_one >> twos);
+        let mut passes = ends.contains(&power);
         for _ in 1..twos {
             power = number.products([power, power], [0, 0]);
-            passes |= power == minus_one;
+            passes |= power == ends[1];
         }
         passes
     })

@@ -5,21 +5,20 @@ use super::arm::{Arm, HAND, Joint};
 use super::matrix::{Matrix, minus, plus, product, solve, times, transposed, units};
 use super::number::Number;
 use super::screw::{Body, Pose, Screw, Vector, cross, dot, opposite, sum};
-use super::setting::Setting;
 use super::state::State;
 use super::table::{Field, View};
 use crate::program::argument;
 
 /// An arm at a state, and the frame that is its hand.
 #[derive(Clone)]
-struct At<'a> {
+pub(super) struct At<'a> {
     arm: &'a Arm,
     state: &'a State,
-    view: &'a View,
+    pub(super) view: &'a View,
     axes: Vec<Screw>,
     /// That of a base that floats.
-    base: Option<Body>,
-    bodies: Vec<Body>,
+    pub(super) base: Option<Body>,
+    pub(super) bodies: Vec<Body>,
     /// What the base has moved by, and then each link.
     poses: Vec<Pose>,
 }
@@ -44,6 +43,14 @@ impl<'a> At<'a> {
         }
     }
 
+    /// Returns the same with another frame for a hand.
+    pub(super) fn seen_as<'v>(&'v self, view: &'v View) -> At<'v> {
+        At {
+            view,
+            ..self.clone()
+        }
+    }
+
     /// Returns the arm at a state that differs from its state by these arguments.
     fn moved<'b>(&'b self, state: &'b State, by: &[usize]) -> At<'b> {
         match by.contains(&0) {
@@ -60,7 +67,7 @@ impl<'a> At<'a> {
     }
 
     /// Returns how many coordinates come before those of the joints.
-    fn first(&self) -> usize {
+    pub(super) fn first(&self) -> usize {
         self.arm.base_coordinates()
     }
 
@@ -72,17 +79,22 @@ impl<'a> At<'a> {
         }
     }
 
-    fn given(&self, name: &str) -> &'a [Number] {
+    pub(super) fn given(&self, name: &str) -> &'a [Number] {
         argument(name).map_or(&[], |place| &self.state.given[place])
     }
 
-    fn zeros(&self) -> Vec<Number> {
+    pub(super) fn zeros(&self) -> Vec<Number> {
         vec![0.into(); self.count()]
     }
 
     /// Returns the wrench on the base, and the one that each joint passes on, by the equations of
     /// Newton and Euler. Rates of components in axes that turn are those of a motion as such.
-    fn wrenches(&self, qd: &[Number], qdd: &[Number], gravity: Vector) -> (Screw, Vec<Screw>) {
+    pub(super) fn wrenches(
+        &self,
+        qd: &[Number],
+        qdd: &[Number],
+        gravity: Vector,
+    ) -> (Screw, Vec<Screw>) {
         // A base that is accelerated upward feels what one in gravity does.
         let lifted = Screw(Vector::default(), opposite(gravity));
         let base = (self.of_base(qd), self.of_base(qdd).plus(lifted));
@@ -142,7 +154,7 @@ impl<'a> At<'a> {
         self.arm.gathered(drives)
     }
 
-    fn torques(&self, qdd: &[Number]) -> Vec<Number> {
+    pub(super) fn torques(&self, qdd: &[Number]) -> Vec<Number> {
         let qd = self.given("qd");
         self.with_friction(&self.loads(qd, qdd, self.arm.gravity), qd)
     }
@@ -152,7 +164,7 @@ impl<'a> At<'a> {
     }
 
     /// Returns D: if one joint alone moves, all links behind it move as one body.
-    fn inertia(&self) -> Matrix {
+    pub(super) fn inertia(&self) -> Matrix {
         let mut d = vec![self.zeros(); self.count()];
         let (mut behind, first) = (self.bodies.clone(), self.first());
         let mut whole = self.base.unwrap_or_default();
@@ -190,7 +202,7 @@ impl<'a> At<'a> {
         d
     }
 
-    fn moving(&self, mut rows: Matrix) -> Matrix {
+    pub(super) fn moving(&self, mut rows: Matrix) -> Matrix {
         for &joint in &self.arm.locked {
             rows.iter_mut().for_each(|row| row[joint] = 0.into());
         }
@@ -198,7 +210,7 @@ impl<'a> At<'a> {
     }
 
     /// Returns D⁻¹ x of each x; what is locked stands still.
-    fn driven(&self, right: Matrix) -> Matrix {
+    pub(super) fn driven(&self, right: Matrix) -> Matrix {
         let mut d = self.moving(transposed(&self.moving(self.inertia())));
         for &joint in &self.arm.locked {
             // Any number of the field but zero.
@@ -243,38 +255,12 @@ impl<'a> At<'a> {
         times(&self.columns_of_coriolis(), self.given("qd"))
     }
 
-    fn accelerations(&self, tau: &[Number]) -> Vec<Number> {
+    pub(super) fn accelerations(&self, tau: &[Number]) -> Vec<Number> {
         let rest = minus(tau, &self.torques(&self.zeros()));
         self.driven(vec![rest]).concat()
     }
 
-    fn centre(&self) -> Vector {
-        let base = self.base.unwrap_or_default();
-        let whole = self.bodies.iter().fold(base, |all, own| all.plus(own));
-        whole.first.map(|moment| moment / whole.mass)
-    }
-
-    /// Returns the rate of momentum about the centre of mass, without gravity, linear over angular.
-    fn about_centre(&self, qd: &[Number], qdd: &[Number]) -> Vec<Number> {
-        let (Screw(moment, force), _) = self.wrenches(qd, qdd, Vector::default());
-        [force, sum(moment, cross(force, self.centre()))].concat()
-    }
-
-    /// Returns accelerations at which nothing holds the base; those of the joints are given.
-    fn in_flight(&self) -> Vec<Number> {
-        let first = self.first();
-        let mut qdd = self.given("qdd").to_vec();
-        qdd[..first].fill(0.into());
-        let taken = self.torques(&qdd)[..first].to_vec();
-        let rows = self.inertia().into_iter().take(first);
-        let own = rows.map(|row| row[..first].to_vec()).collect();
-        let base = solve(own, vec![taken]).concat();
-        let base: Vec<Number> = base.into_iter().map(|own| -own).collect();
-        qdd[..first].copy_from_slice(&base);
-        qdd
-    }
-
-    fn hand(&self) -> Option<(Option<usize>, Pose)> {
+    pub(super) fn hand(&self) -> Option<(Option<usize>, Pose)> {
         let name = match self.view.frame.as_str() {
             "" => HAND,
             name => name,
@@ -299,7 +285,7 @@ impl<'a> At<'a> {
         }
     }
 
-    fn jacobian(&self) -> Matrix {
+    pub(super) fn jacobian(&self) -> Matrix {
         let Some((last, hand)) = self.hand() else {
             return Vec::new();
         };
@@ -325,10 +311,6 @@ impl<'a> At<'a> {
             row
         };
         rows.enumerate().map(with_base).collect()
-    }
-
-    fn moving_jacobian(&self) -> Matrix {
-        self.moving(self.jacobian())
     }
 
     /// Returns the slopes of numbers by each entry of an argument, a column each.
@@ -357,7 +339,7 @@ impl<'a> At<'a> {
     }
 
     /// Returns J̇q̇: the slope of J q̇ along q̇, in axes that do not turn.
-    fn rate(&self) -> Vec<Number> {
+    pub(super) fn rate(&self) -> Vec<Number> {
         let qd = self.given("qd");
         let rate = times(&self.slopes(0, |own| times(&own.jacobian(), qd)), qd);
         let (Some(_), Some((last, hand))) = (self.base, self.hand()) else {
@@ -380,33 +362,6 @@ impl<'a> At<'a> {
             }
         };
         plus(&rate, &self.seen(turned, &hand))
-    }
-
-    /// Returns Jᵀw.
-    fn of_wrench(&self) -> Vec<Number> {
-        times(&transposed(&self.jacobian()), self.given("wrench"))
-    }
-
-    /// Returns M + λ² 1.
-    fn damped(&self, mut matrix: Matrix) -> Matrix {
-        for (k, row) in matrix.iter_mut().enumerate() {
-            row[k] = row[k] + self.given("damping")[0];
-        }
-        matrix
-    }
-
-    /// Returns J D⁻¹ and Λ⁻¹ = J D⁻¹ Jᵀ.
-    fn mobility(&self) -> [Matrix; 2] {
-        let j = self.moving_jacobian();
-        let driven = self.driven(j.clone());
-        let mobility = driven.iter().map(|row| times(&j, row)).collect();
-        [driven, mobility]
-    }
-
-    /// Returns J̄ = D⁻¹ Jᵀ Λ.
-    fn consistent(&self) -> Matrix {
-        let [driven, mobility] = self.mobility();
-        solve(self.damped(mobility), transposed(&driven))
     }
 
     /// Ten columns a link, then armature and viscous friction of the rows that have some.
@@ -524,6 +479,16 @@ impl<'a> At<'a> {
                 torques
             }
             "base_acceleration" => self.in_flight()[..self.first()].to_vec(),
+            "contact_jacobians" => self.contact_jacobians().concat(),
+            "contact_bias" => self.contact_bias(),
+            "qdd_held" => {
+                let [accelerations, _] = self.held();
+                accelerations
+            }
+            "forces" => {
+                let [_, forces] = self.held();
+                forces
+            }
             "passivity" => self.passivity(),
             "qdd" => self.accelerations(self.given("tau")),
             "d_inv" => self.driven(units(n)).concat(),
@@ -596,7 +561,7 @@ pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
     }
     // A frame that is not there has no results, of which others would be short.
     if field.is_of_frame() {
-        own.hand()?;
+        own.of_points(|_| Matrix::new())?;
     }
     let n = arm.movers.len();
     let mut words = field.is.split('_');
@@ -627,30 +592,4 @@ pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
         }
         _ => own.value(field.is),
     })
-}
-
-/// Returns those entries of a result that are over the joints that a scene asks for.
-pub fn selected(field: &Field, setting: &Setting, values: Vec<Number>) -> Vec<Number> {
-    let lengths = field.lengths(setting, 0).into_iter();
-    let mut parts = vec![values];
-    let joint_rows = setting.joint_rows();
-    for (axis, length) in field.axes.chars().zip(lengths) {
-        // Behind these nothing is over joints.
-        if ['l', 'b'].contains(&axis) {
-            break;
-        }
-        let all: Vec<usize> = (0..length).collect();
-        let (count, rows) = match axis {
-            'n' => (setting.sizes().coordinates, &setting.rows),
-            'j' => (setting.joints(), &joint_rows),
-            _ => (length, &all),
-        };
-        let split = parts.iter().flat_map(|part| {
-            let length = part.len() / count.max(1);
-            let pick = move |row: &usize| part[row * length..(row + 1) * length].to_vec();
-            rows.iter().map(pick)
-        });
-        parts = split.collect();
-    }
-    parts.concat()
 }

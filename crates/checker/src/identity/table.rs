@@ -1,4 +1,4 @@
-//! The 39 outputs: what each reads and returns.
+//! The 42 outputs: what each reads and returns.
 
 use std::sync::LazyLock;
 
@@ -46,6 +46,9 @@ const TABLE: &str = "
     centroidal_momentum_matrix: q -> centroidal_momentum_matrix[6n]
     centroidal_bias: q qd -> centroidal_bias[6]
     joint_torques_free: q qd qdd -> tau=tau_free[n] base_acceleration[6]
+    contact_jacobians: q -> contact_jacobians[3n]
+    contact_bias: q qd -> contact_bias[3]
+    contact_forward_dynamics: q qd tau damping -> qdd=qdd_held[n] forces[3]
     inverse_dynamics_second_derivatives: q qd qdd multiplier ->
         d2tau_dq_dq[nn] d2tau_dq_dqd[nn] d2tau_dqd_dqd[nn] d2tau_dqdd_dq[nn]
     forward_dynamics_second_derivatives: q qd tau multiplier ->
@@ -68,6 +71,7 @@ pub struct Field {
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct View {
+    /// Its name; of points in contact all names, with commas between.
     pub(super) frame: String,
     /// `local`, `world` or neither.
     pub(super) axes: String,
@@ -145,11 +149,15 @@ impl Field {
         // A pose has no axes of motion, and of what acts at a frame all six components are given.
         let has_rows = self.moves();
         let is_pose = self.is == "pose" && own.axes.is_empty();
-        let is_whole = own.rows.is_empty() && (self.acts() || is_pose);
+        let is_held = self.is_held() && own.axes.is_empty();
+        let is_whole = own.rows.is_empty() && (self.acts() || is_pose || is_held);
         (has_rows || is_whole).then_some(())?;
-        let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        (!own.frame.is_empty() && own.frame.chars().all(is_name)).then_some(())?;
-        self.name = format!("{}_{}", self.name, view.replace(':', "_"));
+        let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let is_name = |name: &str| !name.is_empty() && name.chars().all(is_letter);
+        let mut names = own.frame.split(',');
+        let is_one = !own.frame.contains(',') || self.is_held();
+        (is_one && names.all(is_name)).then_some(())?;
+        self.name = format!("{}_{}", self.name, view.replace([':', ','], "_"));
         self.view = own;
         Some(self)
     }
@@ -162,16 +170,28 @@ impl Field {
         ["tau_wrench", "qdd_wrench"].contains(&self.is)
     }
 
-    /// Returns true if it is of the hand, or of a frame that has a name.
+    /// Returns how many points are in contact.
+    pub(super) fn points(&self) -> usize {
+        match self.is_held() {
+            true => self.view.frame.split(',').count(),
+            false => 0,
+        }
+    }
+
+    fn is_held(&self) -> bool {
+        ["contact_jacobians", "contact_bias", "qdd_held", "forces"].contains(&self.is)
+    }
+
+    /// Returns true if it is of the hand, or of frames that have names.
     pub(super) fn is_of_frame(&self) -> bool {
-        self.moves() || self.acts() || self.is == "pose"
+        self.moves() || self.acts() || self.is_held() || self.is == "pose"
     }
 
     /// Returns true if it is by the inverse of a matrix: of others, no state is without.
     pub(crate) fn divides(&self) -> bool {
         const INVERSES: &str = "qdd d_inv dqdd_dq dqdd_dqd qdd_wrench contact_wrench mobility \
             operational_inertia consistent_inverse operational_bias null_space tau_free \
-            base_acceleration d2qdd_dq_dq d2qdd_dq_dqd d2qdd_dqd_dqd d2qdd_dtau_dq";
+            base_acceleration qdd_held forces d2qdd_dq_dq d2qdd_dq_dqd d2qdd_dqd_dqd d2qdd_dtau_dq";
         INVERSES.split_whitespace().any(|word| word == self.is)
     }
 
@@ -198,6 +218,7 @@ impl Field {
             'n' => setting.rows.len(),
             'j' => setting.joint_rows().len(),
             'b' => base,
+            '3' if self.is_held() => 3 * self.points(),
             '6' if !self.view.rows.is_empty() => self.view.rows.len(),
             axis => length(axis, setting.sizes()),
         };

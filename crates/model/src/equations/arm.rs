@@ -6,7 +6,7 @@ use core::iter::successors;
 
 use super::factor::picked;
 use super::following::Following;
-use super::frames::{Frames, View};
+use super::frames::{Axes, Frames, Rows, View};
 use super::friction::Friction;
 use super::matrix::{ABOUT_X, ABOUT_Y, ABOUT_Z, Columns, Vector, from_hand, plus, zero_vector};
 use crate::robot::{Convention, HAND, Inertia, JointKind, Parent};
@@ -375,10 +375,15 @@ impl<S: Clone> Arm<S> {
         self
     }
 
-    /// Returns the arm with the frame of this name for a hand, seen like this; `None` without it.
+    /// Returns the arm with the frame of this name for a hand, seen like this, or with several in
+    /// contact; `None` without one.
     pub fn seen(&self, view: &View) -> Option<Arm<S>> {
         let mut arm = self.clone();
-        if view.frame != HAND {
+        if view.frames().count() > 1 {
+            let is_named = |name: &str| self.frames.named.iter().any(|frame| frame.name == name);
+            view.frames().all(is_named).then_some(())?;
+            arm.frames.contacts = view.frames().collect();
+        } else if view.frame != HAND {
             let mut named = self.frames.named.iter();
             let frame = named.find(|frame| frame.name == view.frame)?;
             arm.tool = Some(frame.pose.clone());
@@ -386,6 +391,22 @@ impl<S: Clone> Arm<S> {
         }
         (arm.frames.axes, arm.frames.rows) = (view.axes, view.rows);
         Some(arm)
+    }
+
+    /// Returns the arm with each frame in contact for a hand, of which linear components are asked for.
+    pub fn in_contact(&self) -> Vec<Arm<S>> {
+        let own = |mut arm: Arm<S>| {
+            (arm.frames.axes, arm.frames.rows) = (Axes::Mixed, Rows::LINEAR);
+            arm
+        };
+        let seen = |frame: &&'static str| {
+            let (axes, rows) = (Axes::Mixed, Rows::LINEAR);
+            self.seen(&View { frame, axes, rows })
+        };
+        match self.frames.contacts.as_slice() {
+            [] => alloc::vec![own(self.clone())],
+            frames => frames.iter().filter_map(seen).collect(),
+        }
     }
 
     /// Returns the links on the way to the hand, with those of a list.

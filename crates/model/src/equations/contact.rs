@@ -6,8 +6,8 @@
 
 use alloc::vec::Vec;
 
-use super::factor::{Factor, placed};
-use super::forward::hold;
+use super::factor::{Factor, picked, placed, scatter};
+use super::forward::{free, hold};
 use super::frames::Axes;
 use super::matrix::*;
 use super::operational::damped;
@@ -111,4 +111,109 @@ fn from_the_base<S: Scalar>(arm: &Arm<S>, at: &At<S>, wrench: Wrench<S>) -> Vec<
         torque
     });
     torques.collect()
+}
+
+impl Formulation {
+    /// Returns J of the points in contact, 3k×n, in base axes.
+    pub fn contact_jacobians<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
+        let points = arm.in_contact();
+        let rows = points
+            .iter()
+            .flat_map(|arm| self.gathered_jacobian(arm, at));
+        rows.collect()
+    }
+
+    /// Returns J̇q̇ of the points in contact, 3k: their accelerations where those of joints are zero.
+    pub fn contact_bias<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> Vec<S> {
+        let points = arm.in_contact();
+        let rates = points.iter().map(|arm| {
+            let [linear, _] = self.jacobian_rate(arm, at, qd);
+            linear
+        });
+        rates.flatten().collect()
+    }
+
+    /// Returns J D⁻¹ Jᵀ + λ² 1 of the points in contact, J D⁻¹, and what the points would accelerate
+    /// by if nothing held them.
+    pub fn contact_space<S: Divide>(
+        self,
+        arm: &Arm<S>,
+        at: &At<S>,
+        [qd, tau, damping]: [&[S]; 3],
+        moves: &[bool],
+    ) -> ContactSpace<S> {
+        let jacobian = self.contact_jacobians(arm, at);
+        let inverse = self.inertia_inverse(arm, at, moves);
+        let accelerations = self.forward_dynamics(arm, at, qd, tau, moves);
+        let escape = sums(
+            &products(&jacobian, &accelerations),
+            &self.contact_bias(arm, at, qd),
+        );
+        let driven: Vec<Vec<S>> = jacobian.iter().map(|row| products(&inverse, row)).collect();
+        let mobility = symmetric(jacobian.len(), |i, k| product(&driven[i], &jacobian[k]));
+        ContactSpace {
+            matrix: damped(&mobility, &damping[0]),
+            driven,
+            escape,
+            accelerations,
+        }
+    }
+}
+
+/// Points that something holds by forces f: (J D⁻¹ Jᵀ + λ² 1) f = −(J q̈₀ + J̇q̇), with q̈₀ the
+/// accelerations without forces.
+#[derive(Clone, Debug)]
+pub struct ContactSpace<S> {
+    /// J D⁻¹ Jᵀ + λ² 1, 3k×3k.
+    pub matrix: Vec<Vec<S>>,
+    /// J D⁻¹, 3k×n.
+    driven: Vec<Vec<S>>,
+    /// J q̈₀ + J̇q̇
+    pub escape: Vec<S>,
+    /// q̈₀
+    accelerations: Vec<S>,
+}
+
+impl<S: Divide> ContactSpace<S> {
+    /// Returns the forces on the points, 3k.
+    pub fn forces(&self) -> Vec<S> {
+        let forces = Factor::new(&self.matrix).solve(&self.escape);
+        forces.iter().map(negative).collect()
+    }
+
+    /// Returns q̈
+    pub fn accelerations(&self) -> Vec<S> {
+        let more = products(&columns_of(&self.driven), &self.forces());
+        sums(&self.accelerations, &more)
+    }
+}
+
+/// Returns q̈ and the forces on points, from J, J̇q̇ and the factors of D over the joints that move;
+/// `load` drives them from accelerations `reference`. With X = U⁻¹ Jᵀ and y = U⁻¹ b it is one
+/// substitution: D⁻¹ (b + Jᵀ f) = U⁻ᵀ d⁻¹ (y + X f).
+pub fn held<S: Divide>(
+    (jacobian, rate): (&[Vec<S>], &[S]),
+    factor: &Factor<S>,
+    [load, reference]: [&[S]; 2],
+    damping: &S,
+    moves: &[bool],
+) -> [Vec<S>; 2] {
+    let joints = free(moves);
+    let half = |values: &[S]| factor.eliminated(&picked(values, &joints));
+    let halves: Vec<Vec<S>> = jacobian.iter().map(|row| half(row)).collect();
+    let own = half(load);
+    let scaled: Vec<Vec<S>> = halves.iter().map(|half| factor.scaled(half)).collect();
+    let mobility = symmetric(jacobian.len(), |i, k| product(&scaled[i], &halves[k]));
+    let escape = sums(
+        &sums(&products(&scaled, &own), &products(jacobian, reference)),
+        rate,
+    );
+    let forces = Factor::new(&damped(&mobility, damping)).solve(&escape);
+    let forces: Vec<S> = forces.iter().map(negative).collect();
+    let pushed = sums(&own, &products(&columns_of(&halves), &forces));
+    let driven = factor.substituted(factor.scaled(&pushed));
+    [
+        sums(reference, &scatter(&driven, &joints, moves.len())),
+        forces,
+    ]
 }

@@ -49,10 +49,12 @@ impl Default for Rows {
 impl Rows {
     /// All six.
     pub const ALL: Rows = Rows(0b11_1111);
+    /// The linear ones.
+    pub const LINEAR: Rows = Rows(0b00_0111);
     /// The names of the components, in their order.
     pub const NAMES: [&'static str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
     const GROUPS: [(&'static str, Rows); 2] =
-        [("linear", Rows(0b00_0111)), ("angular", Rows(0b11_1000))];
+        [("linear", Rows::LINEAR), ("angular", Rows(0b11_1000))];
 
     /// Returns the components of a word: `linear`, `angular`, or names in their order, as `x_y_rz`.
     pub fn of(word: &str) -> Option<Rows> {
@@ -103,12 +105,19 @@ impl Rows {
 /// A frame, and what is asked of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct View {
-    /// The frame's name, or [`HAND`](crate::robot::HAND).
+    /// The frame's name, or [`HAND`](crate::robot::HAND); of contacts all names, with commas between.
     pub frame: &'static str,
     /// In which axes.
     pub axes: Axes,
     /// Which components.
     pub rows: Rows,
+}
+
+impl View {
+    /// Returns the names of its frames.
+    pub fn frames(self) -> impl Iterator<Item = &'static str> + Clone {
+        self.frame.split(',')
+    }
 }
 
 /// A frame that is fixed to a link.
@@ -135,6 +144,8 @@ pub struct Frames<S> {
     pub axes: Axes,
     /// The components of these.
     pub rows: Rows,
+    /// The names of the frames in contact; none for the hand alone.
+    pub contacts: Vec<&'static str>,
 }
 
 impl<S> Default for Frames<S> {
@@ -145,6 +156,7 @@ impl<S> Default for Frames<S> {
             joint: None,
             axes: Axes::default(),
             rows: Rows::default(),
+            contacts: Vec::new(),
         }
     }
 }
@@ -171,6 +183,7 @@ impl<S> Frames<S> {
             joint: self.joint,
             axes: self.axes,
             rows: self.rows,
+            contacts: self.contacts.clone(),
         }
     }
 }

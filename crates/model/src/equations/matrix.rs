@@ -87,7 +87,7 @@ pub(super) fn from_hand<J, T>(
     entries
 }
 
-pub(super) fn columns_of<S: Clone>(rows: &[Vec<S>]) -> Vec<Vec<S>> {
+pub(crate) fn columns_of<S: Clone>(rows: &[Vec<S>]) -> Vec<Vec<S>> {
     let length = rows.first().map_or(0, Vec::len);
     matrix(length, rows.len(), |k, i| rows[i][k].clone())
 }

@@ -1,6 +1,6 @@
 //! Outputs at a frame, in chosen axes and components: `jacobian@camera:local:linear`.
 //!
-//! A text is an output's name, `@` and a frame's, then words with `:` before each: the [`Axes`],
+//! A text is an output's name, `@` and a frame's, or those of several in contact with `,` between, then words with `:` before each: the [`Axes`],
 //! and the [`Rows`] if not all six are wanted. In generated code the signs are `_`,
 //! `jacobian_camera_local_linear`. The frame is a part of what the output is, so whoever asks an
 //! output for its name, its shape or its formula need not know that it has one.
@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 use core::hash::{Hash, Hasher};
 
-use super::bundle::{BundleError, check_name, kept};
+use super::bundle::{BundleError, camel, check_name, kept};
 use super::function::{Definition, Made};
 use super::quantity::{Facts, FrameChoice};
 use super::{Axis, Function, Quantity, Regrouped, Shape, Written};
@@ -22,6 +22,7 @@ use crate::scalar::Divide;
 
 const AT: char = '@';
 const OF: char = ':';
+const MAX_FRAMES: usize = 8;
 
 /// A quantity at a frame, kept for as long as the process runs, as a [`Made`] function is.
 #[derive(Clone, Copy, Debug)]
@@ -113,7 +114,10 @@ impl Function {
         let function = self;
         let choice = |quantity: &Quantity| quantity.facts().frame;
         let most = function.quantities().iter().map(choice).min();
+        let frames: Vec<&str> = frame.split(',').map(str::trim).collect();
+        let frame = frames.join(",");
         let asked = match (axes, rows) {
+            (Axes::Mixed, Rows::ALL) if frames.len() > 1 => FrameChoice::Frames,
             (Axes::Mixed, Rows::ALL) => FrameChoice::Frame,
             (_, Rows::ALL) => FrameChoice::Axes,
             _ => FrameChoice::Rows,
@@ -124,19 +128,38 @@ impl Function {
             let message = format!("`{function}` is of no frame");
             return Err(BundleError::new(message, "leave `@` and what follows out"));
         }
-        if most < asked {
+        if asked == FrameChoice::Frames && most != FrameChoice::Frames {
+            let message = format!("`{function}` is of one frame");
+            return Err(BundleError::new(
+                message,
+                "`contact_jacobians` takes several",
+            ));
+        }
+        if most < asked || most == FrameChoice::Frames && asked > FrameChoice::Frames {
             let message = format!("`{function}` has no choice of `{}`", suffix(OF));
             return Err(BundleError::new(message, "it takes a frame alone"));
         }
-        let name = format!("{function}_{frame}{}", suffix('_'));
-        check_name(&name).map_err(|_| {
-            let frame: String = frame.chars().take(64).collect();
-            let suggested = suggested_name(&frame).filter(|name| *name != frame);
-            let suggested = suggested.unwrap_or_else(|| String::from("camera_2"));
-            let help =
-                format!("small letters, digits and single `_` between them, such as `{suggested}`");
-            BundleError::new(format!("`{frame}` cannot name a frame"), help)
-        })?;
+        for (place, frame) in frames.iter().enumerate() {
+            let name = format!("{function}_{frame}{}", suffix('_'));
+            check_name(&name).map_err(|_| {
+                let frame: String = frame.chars().take(64).collect();
+                let suggested = suggested_name(&frame).filter(|name| *name != frame);
+                let suggested = suggested.unwrap_or_else(|| String::from("camera_2"));
+                let help = format!(
+                    "small letters, digits and single `_` between them, such as `{suggested}`"
+                );
+                BundleError::new(format!("`{frame}` cannot name a frame"), help)
+            })?;
+            if frames[..place].contains(frame) {
+                let message = format!("the frame `{frame}` is there twice");
+                return Err(BundleError::new(message, "leave one of them out"));
+            }
+        }
+        if frames.len() > MAX_FRAMES {
+            let message = format!("{} frames in contact", frames.len());
+            return Err(BundleError::new(message, format!("at most {MAX_FRAMES}")));
+        }
+        let name = format!("{function}_{}{}", frame.replace(',', "_"), suffix('_'));
         let text = format!("{function}{AT}{frame}{}", suffix(OF));
         Ok(Function::At(Made::once(text, || {
             let view = View {
@@ -147,11 +170,12 @@ impl Function {
             let results = function.quantities().iter();
             let results: Vec<Quantity> = results.map(|quantity| seen(*quantity, view)).collect();
             let of = function.definition();
+            let structure = of.structure.map(|_| kept(camel(&name)));
             Definition {
                 name: kept(name),
                 summary: kept(format!("{} {}", of.summary, described(view))),
                 results: Box::leak(results.into_boxed_slice()),
-                structure: None,
+                structure,
                 by_default: false,
                 parts: &[],
             }
@@ -185,6 +209,14 @@ impl Function {
         function.at(frame, axes, rows)
     }
 
+    /// Returns it at one more frame, if it is of frames in contact and the word is not an output: in a
+    /// list of outputs commas part frames, too.
+    pub fn with_frame(self, word: &str) -> Option<Function> {
+        let is_word = Function::from_name(word).is_none() && !word.contains([AT, OF, '=', '+']);
+        let text = self.text_at().filter(|_| is_word)?;
+        Function::parse_at(&format!("{text},{word}")).ok()
+    }
+
     pub(super) fn is_at(text: &str) -> bool {
         text.contains([AT, OF])
     }
@@ -200,7 +232,7 @@ impl Function {
     /// Returns true if a result of it is of the robot's hand.
     pub fn is_of_hand(self) -> bool {
         self.quantities().iter().any(|quantity| match quantity {
-            Quantity::At(at) => at.view().frame == HAND,
+            Quantity::At(at) => at.view().frames().any(|frame| frame == HAND),
             own => own.facts().frame != FrameChoice::None,
         })
     }
@@ -209,10 +241,9 @@ impl Function {
     pub fn frames(self) -> Vec<&'static str> {
         let mut frames: Vec<&'static str> = Vec::new();
         for quantity in self.quantities() {
-            if let Quantity::At(at) = quantity
-                && !frames.contains(&at.view().frame)
-            {
-                frames.push(at.view().frame);
+            if let Quantity::At(at) = quantity {
+                let others = at.view().frames().filter(|own| !frames.contains(own));
+                frames.extend(others.collect::<Vec<_>>());
             }
         }
         frames
@@ -243,7 +274,14 @@ fn described(view: View) -> String {
             format!(", components {}", names.join(", "))
         }
     };
-    format!("At frame `{}`{axes}{rows}.", view.frame)
+    let frames = view.frames().map(|frame| format!("`{frame}`"));
+    let word = if view.frames().count() > 1 {
+        "frames"
+    } else {
+        "frame"
+    };
+    let frames = frames.collect::<Vec<String>>().join(", ");
+    format!("At {word} {frames}{axes}{rows}.")
 }
 
 fn seen(quantity: Quantity, view: View) -> Quantity {
@@ -252,11 +290,16 @@ fn seen(quantity: Quantity, view: View) -> Quantity {
     let name = suffix(view.axes, view.rows, '_');
     let components = |axis: &Axis| match axis {
         Axis::Fixed(6) if of.frame >= FrameChoice::Rows => Axis::Fixed(view.rows.count()),
+        Axis::Fixed(3) if of.frame == FrameChoice::Frames => Axis::Fixed(3 * view.frames().count()),
         other => *other,
     };
     let axes: Vec<Axis> = of.shape.0.iter().map(components).collect();
     let facts = Facts {
-        field: kept(format!("{}_{}{name}", of.field, view.frame)),
+        field: kept(format!(
+            "{}_{}{name}",
+            of.field,
+            view.frame.replace(',', "_")
+        )),
         symbol: kept(format!("{} at {at}", of.symbol())),
         summary: kept(format!("{} {}", of.summary, described(view))),
         shape: Shape(Box::leak(axes.into_boxed_slice())),

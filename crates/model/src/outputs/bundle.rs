@@ -201,7 +201,7 @@ fn joined(name: &str, parts: &[Function]) -> String {
     format!("{name}{IS}{}", parts.join("+"))
 }
 
-fn camel(name: &str) -> String {
+pub(super) fn camel(name: &str) -> String {
     let words = name.split('_').map(|word| {
         let (first, rest) = word.split_at(word.len().min(1));
         first.to_ascii_uppercase() + rest

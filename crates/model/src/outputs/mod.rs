@@ -29,6 +29,7 @@ mod shape;
 
 mod centroidal;
 mod contact;
+mod contacts;
 mod derivatives;
 mod energies;
 mod forward_dynamics;
@@ -149,6 +150,13 @@ registry! {
     joint_torques_free: JointTorquesFree { centroidal: FreeTorque, BaseAcceleration }
         "Torques that give the joints q̈ while nothing holds the base, and the base's accelerations then; those in q̈ are not read.",
         structure: Some("JointTorquesFree");
+    contact_jacobians: ContactJacobians { contacts: ContactJacobians }
+        "Velocities of points in contact by each coordinate, 3k×n, in base axes: `contact_jacobians@left_foot,right_foot`.";
+    contact_bias: ContactBias { contacts: ContactBias }
+        "J̇q̇ of points in contact, 3k: their accelerations in base axes that velocities alone give.";
+    contact_forward_dynamics: ContactForwardDynamics { contacts: HeldAcceleration, ContactForces }
+        "Forward dynamics while forces f hold points where they are: D q̈ - Jᵀf = τ - h - c - b∘q̇ and J q̈ + λ² f = -J̇q̇.",
+        structure: Some("ContactForwardDynamics");
     inverse_dynamics_second_derivatives: InverseDynamicsSecondDerivatives {
         second_derivatives:
         TorqueByPositions, TorqueByPositionAndVelocity, TorqueByVelocities,

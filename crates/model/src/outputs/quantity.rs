@@ -16,6 +16,8 @@ use crate::scalar::Scalar;
 pub(super) enum FrameChoice {
     None,
     Frame,
+    /// Several of them.
+    Frames,
     Axes,
     Rows,
 }

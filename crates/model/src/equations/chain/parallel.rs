@@ -89,12 +89,24 @@ impl<S: Divide> Chain<S> {
         form: Form,
         unknowns: Unknowns,
     ) -> Vec<S> {
-        let motion = self.reference_motion(at, qd, moves, form.spin);
-        let reference = &motion.accelerations;
-        let drive = |i: usize| self.drive(i, qd, reference);
-        let taken = self.torques(at, &motion.motions, form.couple, &zero_vector(), drive);
+        let [taken, reference] = self.reference_load(at, qd, moves, form);
         let rest = self.accelerations(d, [&taken, tau], moves, unknowns);
-        sums(&rest, reference)
+        sums(&rest, &reference)
+    }
+
+    /// Returns τ(a) and a, the accelerations that shorten the recursion.
+    pub fn reference_load(
+        &self,
+        at: &[Displacement<S>],
+        qd: &[S],
+        moves: &[bool],
+        form: Form,
+    ) -> [Vec<S>; 2] {
+        let motion = self.reference_motion(at, qd, moves, form.spin);
+        let reference = motion.accelerations;
+        let drive = |i: usize| self.drive(i, qd, &reference);
+        let taken = self.torques(at, &motion.motions, form.couple, &zero_vector(), drive);
+        [taken, reference]
     }
 }
 

@@ -78,6 +78,9 @@ for _ in range(6):
     pin.computeJointJacobians(model, data, q)
     J = pin.getFrameJacobian(model, data, foot, aligned)
     pose = data.oMf[foot]
+    points = [foot, model.getFrameId("right_foot")]
+    held = np.vstack([pin.getFrameJacobian(model, data, point, aligned)[:3] for point in points])
+    escape = np.hstack([pin.getFrameClassicalAcceleration(model, data, point, aligned).linear for point in points])
     com = pin.centerOfMass(model, data, q)
     A = np.array(pin.ccrba(model, data, q, v))
     pin.dccrba(model, data, q, v)
@@ -90,6 +93,9 @@ for _ in range(6):
     state |= {"kinetic": np.array([kinetic]), "jacobian": J, "drift": drift}
     state |= {"frame": np.hstack([pose.rotation, pose.translation[:, None]])}
     state |= {"com": com, "centroidal": A, "centroidal_bias": rate, "base_free": free, "tau_free": tau_free}
+    pin.computeAllTerms(model, data, q, v)
+    qdd_held = pin.forwardDynamics(model, data, q, v, effort - viscous * v, held, escape, 0.01)
+    state |= {"contact_jacobians": held, "contact_bias": escape, "qdd_held": qdd_held, "forces": data.lambda_c}
     states.append({key: np.ravel(value).tolist() for key, value in state.items()})
 rows = json.dumps({"states": states}).replace('{"q"', '\n{"q"')
 (HERE / "two_legs.json").write_text(rows + "\n")
