@@ -87,11 +87,13 @@ pub(crate) fn tunings(problem: &Problem<'_>, forms: &[Form]) -> (Tuned, Option<T
         }
         from
     };
-    let starts = starts(&Chain::new(&arm, &start)).into_iter();
+    let chain = Chain::new(&arm, &start);
+    let starts = starts(&chain).into_iter();
     let mut starts: Vec<Regrouping<Exact>> = starts.map(with).collect();
     if effort == Effort::Quick && starts.len() > 1 {
         // One descent: from where the others look dearer already. Of a short chain
-        // a round of the search is cheap, and tells more than the folded formula.
+        // a round of the search is cheap, and tells more than the folded formula. Of a tree the
+        // formula tells less: its limbs need not be alike.
         starts.sort_by_cached_key(|from| {
             let chain = Chain::new(&arm, from);
             match arm.links.len() <= MAX_TRIED {
@@ -99,7 +101,7 @@ pub(crate) fn tunings(problem: &Problem<'_>, forms: &[Form]) -> (Tuned, Option<T
                 false => traced(&chain, forms[0], u64::MAX),
             }
         });
-        starts.truncate(1);
+        starts.truncate(if chain.is_serial() { 1 } else { 2 });
     }
     let beside = starts.first().map(at_feet);
     starts.extend_from_slice(problem.from);

@@ -139,7 +139,8 @@ fn by_chain(problem: &Problem<'_>) -> Vec<Approach> {
     let Task { setup, function } = task;
     // Where no axes meet at the base, the forms that need it are the others.
     let arm = skeleton_for(task);
-    let has_shoulder = Chain::new(&arm, &Regrouping::base(&arm)).has_shoulder();
+    let chain = Chain::new(&arm, &Regrouping::base(&arm));
+    let has_shoulder = chain.base.is_some() || chain.has_shoulder();
     let mut forms = function.forms();
     forms.retain(|form| has_shoulder || !form.shoulder);
     let (first, second) = tunings(problem, &forms);

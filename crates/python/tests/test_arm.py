@@ -47,8 +47,9 @@ def test_golden_values(name):
 @pytest.mark.parametrize("name", ["planar2r", "planar3r", "stanford"])
 def test_values_of_other_outputs(name):
     """Every other output that an independent library has."""
-    arm = dalembert.load(robot(name), outputs=list(dalembert.outputs()))
-    assert set(arm.functions) == set(dalembert.outputs())
+    functions = set(dalembert.outputs()) - {"joint_torques_free"}
+    arm = dalembert.load(robot(name), outputs=sorted(functions))
+    assert set(arm.functions) == functions
     states = data("outputs", name)["states"]
     n = len(arm.joints)
 

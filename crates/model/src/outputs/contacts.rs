@@ -10,7 +10,9 @@ use super::torques::torques;
 use super::{Argument, Axis, ErrorScale, Index, PayloadDependence, Regrouped, Shape, Written};
 use crate::equations::chain::HandChoice;
 use crate::equations::contact::{ContactSpace, held};
+use crate::equations::factor::picked;
 use crate::equations::following::{gathered, gathered_rows};
+use crate::equations::forward::free;
 use crate::equations::link_axes::SeenHand;
 use crate::equations::matrix::{columns_of, differences, products, sums, zeros};
 use crate::scalar::Divide;
@@ -134,7 +136,8 @@ impl Formula for HeldAcceleration {
     fn residual<S: Divide>(at: &Written<'_, S>, qdd: &[S]) -> Vec<S> {
         let jacobian = at.formulation.contact_jacobians(at.arm, at.at);
         let pushed = products(&columns_of(&jacobian), &written_space(at).forces());
-        rest(at, qdd, &sums(&at.motion.tau, &pushed))
+        let pushed = picked(&pushed, &free(&at.motion.moves));
+        differences(&rest(at, qdd, &at.motion.tau), &pushed)
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {

@@ -37,7 +37,7 @@ pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>, unknowns: Unknowns
         return (at.chain).forward_dynamics(chain, given, &motion.moves, at.form, unknowns);
     }
     let loads = [&torques(at, &zeros(motion.qd.len()))[..], &motion.tau];
-    at.chain.accelerations(&d, loads, &motion.moves, unknowns)
+    (at.chain).accelerations(&d, loads, &motion.moves, (at.form, unknowns))
 }
 
 pub(super) fn rest<S: Divide>(at: &Written<'_, S>, qdd: &[S], tau: &[S]) -> Vec<S> {

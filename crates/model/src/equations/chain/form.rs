@@ -19,7 +19,8 @@ pub struct Form {
     pub composite_h: bool,
     /// True if C comes from composite momenta, or from the h_ikm.
     pub flows: bool,
-    /// True if joints whose axes meet at the base are solved for as one.
+    /// True if joints whose axes meet at the base are solved for as one; of a base that floats, if its
+    /// turns are eliminated after its shifts.
     pub shoulder: bool,
     /// The form of quantities of the hand.
     pub hand: HandForm,

@@ -5,6 +5,8 @@
 use alloc::vec::Vec;
 
 use super::{Chain, Displacement, Form};
+use crate::equations::BASE_COORDINATES;
+use crate::equations::factor::picked;
 use crate::equations::forward::solved;
 use crate::equations::matrix::{minus, plus, sums, zero_vector};
 use crate::scalar::{Divide, Scalar};
@@ -65,19 +67,30 @@ pub enum Unknowns {
 }
 
 impl<S: Divide> Chain<S> {
-    /// Returns q̈ of D q̈ = τ − bias over the joints that move, zero of the others.
+    /// Returns q̈ of D q̈ = τ − bias over the joints that move, zero of the others; of a base that
+    /// floats its turns are eliminated last if the form asks.
     pub fn accelerations(
         &self,
         d: &[Vec<S>],
         [bias, tau]: [&[S]; 2],
         moves: &[bool],
-        unknowns: Unknowns,
+        (form, unknowns): (Form, Unknowns),
     ) -> Vec<S> {
         let pairs = match unknowns {
             Unknowns::Joints => Vec::new(),
             Unknowns::AgainstBase => self.pairs(moves),
         };
-        solved_in_pairs(&pairs, d, [bias, tau], moves)
+        if self.base.is_none() || !form.shoulder {
+            return solved_in_pairs(&pairs, d, [bias, tau], moves);
+        }
+        let joints = BASE_COORDINATES..d.len();
+        let order: Vec<usize> = [3, 4, 5, 0, 1, 2].into_iter().chain(joints).collect();
+        let rows: Vec<Vec<S>> = order.iter().map(|&i| picked(&d[i], &order)).collect();
+        let [bias, tau] = [bias, tau].map(|values| picked(values, &order));
+        let moves: Vec<bool> = picked(moves, &order);
+        let found = solved_in_pairs(&pairs, &rows, [&bias, &tau], &moves);
+        // Halves that change places twice are where they were.
+        picked(&found, &order)
     }
 
     /// Returns q̈ under τ, zero of joints that do not move, from the recursion that is shortened.
@@ -90,7 +103,7 @@ impl<S: Divide> Chain<S> {
         unknowns: Unknowns,
     ) -> Vec<S> {
         let [taken, reference] = self.reference_load(at, qd, moves, form);
-        let rest = self.accelerations(d, [&taken, tau], moves, unknowns);
+        let rest = self.accelerations(d, [&taken, tau], moves, (form, unknowns));
         sums(&rest, &reference)
     }
 

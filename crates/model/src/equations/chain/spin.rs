@@ -153,7 +153,7 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
                     }
                 };
                 let d = composite.inertia(form.travel);
-                chain.accelerations(&d, [&bias, loads], moves, unknowns)
+                chain.accelerations(&d, [&bias, loads], moves, (form, unknowns))
             }
             Some(heights) => {
                 let (exerted, given) = ((form, &couple), [before, loads]);
