@@ -8,8 +8,13 @@ use super::dialect::Dialect;
 use crate::function::Function;
 use crate::program::ScalarType;
 
-/// The most characters of a name: compilers need not tell longer ones apart.
+/// The most characters of a name, of those that other files may see: compilers need not tell longer
+/// ones apart.
 pub(crate) const LONGEST: usize = 31;
+
+/// The most characters of a name of a function at frames: it is `static`, and of those compilers tell
+/// 63 apart.
+const LONGEST_AT_FRAMES: usize = 63;
 
 const SHORT: [(&str, &str); 19] = [
     ("inverse", "inv"),
@@ -56,8 +61,8 @@ const SHORTER: [(&str, &str); 16] = [
 /// With a word and a scalar of at most these letters, there is room for the name of a module.
 const LONGEST_WORD: usize = 24;
 
-/// Names of frames may be of any length: the longest part of a word loses its last letter until it
-/// is short enough.
+/// Frames are many, or have names of any length: the longest part of a word loses its last letter
+/// until it is short enough.
 fn cut(word: &str, most: usize) -> String {
     let mut parts: Vec<String> = word.split('_').map(str::to_owned).collect();
     for _ in most..word.len() {
@@ -96,6 +101,16 @@ impl Names {
 
     /// Returns a function or type by its word, shortened where it would be too long.
     pub fn of(&self, word: &str) -> String {
+        self.with_limit(word).0
+    }
+
+    /// Returns true if compilers need not tell the name of a word from others.
+    pub(crate) fn is_long(&self, word: &str) -> bool {
+        let (name, limit) = self.with_limit(word);
+        name.len() > limit
+    }
+
+    fn with_limit(&self, word: &str) -> (String, usize) {
         let infix = self.scalar.of("", "f32_");
         let name = |word: &str| format!("{}_{infix}{word}", self.base);
         let words = word.split('_').map(|part| {
@@ -105,11 +120,16 @@ impl Names {
         let short = words.collect::<Vec<&str>>().join("_");
         let replaced = |text: String, (long, short): &(&str, &str)| text.replace(long, short);
         let shorter = SHORTER.iter().fold(short.clone(), replaced);
-        let mut names = [word, &short, &shorter].into_iter().map(name);
-        let fits = names.find(|name| name.len() <= LONGEST);
-        let room = LONGEST.saturating_sub(name("").len());
-        let most = room.max(LONGEST_WORD - infix.len());
-        fits.unwrap_or_else(|| name(&cut(&shorter, most)))
+        let names = [word, &short, &shorter].map(name);
+        let within = |limit: usize| names.iter().find(|name| name.len() <= limit).cloned();
+        let room = |limit: usize| limit.saturating_sub(name("").len());
+        let limit = match shorter.len() > room(LONGEST).max(LONGEST_WORD - infix.len()) {
+            true => LONGEST_AT_FRAMES,
+            false => LONGEST,
+        };
+        let most = room(limit).max(LONGEST_WORD - infix.len());
+        let named = within(LONGEST).or_else(|| within(limit));
+        (named.unwrap_or_else(|| name(&cut(&shorter, most))), limit)
     }
 
     pub(crate) fn symbols(&self, function: Function) -> Symbols {

@@ -85,12 +85,6 @@ fn add<T>(
 
 fn output(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
     let outputs = draft.outputs.get_or_insert_default();
-    if let Some(last) = outputs.last_mut()
-        && let Some(longer) = last.with_frame(item)
-    {
-        *last = longer;
-        return Ok(());
-    }
     let function = Function::parse(item).map_err(|error| {
         let error = error.among(outputs);
         Complaint::new(error.message.as_str(), for_bundle(&error))
@@ -296,7 +290,12 @@ impl Request {
             });
         };
         for row in &OPTIONS {
-            for (index, item) in asked.items(row.name).into_iter().enumerate() {
+            let items = asked.items(row.name);
+            let items = match row.name {
+                "outputs" => Function::with_frames(items),
+                _ => items.into_iter().map(str::to_owned).collect(),
+            };
+            for (index, item) in items.iter().enumerate() {
                 let wrong = match index > 0 && !row.is_list {
                     true => Err(complaint("expected one word only")),
                     false => (row.set)(&mut draft, item),

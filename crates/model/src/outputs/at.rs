@@ -209,12 +209,32 @@ impl Function {
         function.at(frame, axes, rows)
     }
 
-    /// Returns it at one more frame, if it is of frames in contact and the word is not an output: in a
-    /// list of outputs commas part frames, too.
-    pub fn with_frame(self, word: &str) -> Option<Function> {
-        let is_word = Function::from_name(word).is_none() && !word.contains([AT, OF, '=', '+']);
-        let text = self.text_at().filter(|_| is_word)?;
-        Function::parse_at(&format!("{text},{word}")).ok()
+    /// Returns the outputs of a list that was parted at its commas, which part the frames of points in
+    /// contact, too.
+    ///
+    /// ```
+    /// use dalembert_model::outputs::Function;
+    ///
+    /// let items = Function::with_frames(["gravity", "contact_bias@left", "right"]);
+    /// assert_eq!(items, ["gravity", "contact_bias@left,right"]);
+    /// ```
+    pub fn with_frames<'i>(items: impl IntoIterator<Item = &'i str>) -> Vec<String> {
+        let mut outputs: Vec<String> = Vec::new();
+        for item in items {
+            let word = item.split('+').next().unwrap_or_default().trim();
+            let is_word = Function::from_name(word).is_none() && !word.contains([AT, OF, '=']);
+            let last = outputs.last_mut().filter(|_| is_word);
+            let longer = last.and_then(|last| {
+                let part = last.rsplit(['=', '+']).next()?;
+                let has_frame = Function::parse_at(&format!("{part},{word}")).is_ok();
+                has_frame.then_some(last)
+            });
+            match longer {
+                Some(last) => *last += &format!(",{item}"),
+                None => outputs.push(String::from(item)),
+            }
+        }
+        outputs
     }
 
     pub(super) fn is_at(text: &str) -> bool {
