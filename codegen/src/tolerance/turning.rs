@@ -22,7 +22,8 @@ pub(super) struct Turning {
 }
 
 impl Turning {
-    /// Returns none if a mass or a moment is negative, if joints follow others, or if links branch.
+    /// Returns none if a mass or a moment is negative, if joints follow others, if links branch,
+    /// or if the base floats.
     pub(super) fn new(robot: &Robot) -> Option<Turning> {
         let is_body = |joint: &Joint| {
             let defect = joint.inertia.defect(&joint.mass);
@@ -30,7 +31,7 @@ impl Turning {
         };
         let joints = || robot.joints.iter();
         let armature = |joint: &Joint| f64::nearest_rational(&joint.armature) * SLACK;
-        let is_chain = robot.followers.is_empty() && !robot.branches();
+        let is_chain = robot.followers.is_empty() && !robot.is_tree();
         (joints().all(is_body) && is_chain).then(|| Turning {
             kinds: joints().map(|joint| joint.kind).collect(),
             moments: joints().map(least_moment).collect(),

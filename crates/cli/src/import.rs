@@ -174,7 +174,7 @@ fn one(made: &Import, path: &Path, source: &Text) -> Report {
     let hand = change.hand(limits);
     if hand.position > 0.0 || hand.angle > 0.0 {
         let [moves, turns] = [hand.position, hand.angle].map(Change::in_digits);
-        report.line(match made.robot.branches() {
+        report.line(match made.robot.is_tree() {
             true => format!("  the ends of limbs move by ≤ {moves} m and turn by ≤ {turns} rad"),
             false => format!("  the hand moves by ≤ {moves} m and turns by ≤ {turns} rad"),
         });

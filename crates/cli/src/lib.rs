@@ -5,7 +5,7 @@
 //! - `report`: facts and tables, as text and as JSON; `terminal`: prints, beside the bar
 //! - `files`: writes all or none; `output`: what a subcommand takes and returns
 //! - `generate`, `renew`, `count`; `code`: the report of generated code
-//! - `import`, `new`, `show`, `outputs`; [`drawing`]: the arm in two views, as SVG
+//! - `import`, `new`, `show`, `outputs`, `pose`; [`drawing`]: the arm in two views, as SVG
 //! - `verify`; [`measure`]: rounding errors against 256-bit arithmetic; [`extremes`]: the same in
 //!   extreme cases; [`given`]: states and results from another program
 //! - `certify`: checks by the independent checker
@@ -33,6 +33,7 @@ pub mod measure;
 mod new;
 mod output;
 mod outputs;
+mod pose;
 mod progress;
 mod renew;
 mod report;
@@ -98,6 +99,8 @@ enum Command {
     Explain(explain::ExplainArgs),
     /// Measure the cost of accuracy: bounds of the error against numbers of operations
     Tradeoff(tradeoff::TradeoffArgs),
+    /// Write helpers for the pose of a base that floats: gravity in its axes, steps and differences
+    Pose(pose::PoseArgs),
     /// Print shell completions: dalembert completions bash > ~/.local/share/bash-completion/completions/dalembert
     Completions {
         /// The shell
@@ -128,6 +131,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Certify(args) => certify::run(args, &context),
         Command::Explain(args) => explain::run(args, &context),
         Command::Tradeoff(args) => tradeoff::run(args, &context),
+        Command::Pose(args) => pose::run(args, &context),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Args::command(), "dalembert", &mut script);

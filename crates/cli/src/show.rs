@@ -77,7 +77,7 @@ fn poses(robot: &Robot, at: &[f64]) -> Result<Report, WrongLength> {
     report.value("input", robot.short_hash());
     report.value("at", at);
     report.value("links", links.json());
-    if !robot.branches() {
+    if !robot.is_tree() {
         report.value("hand", rows(&runtime.hand(&q)?));
     }
     Ok(report)

@@ -169,6 +169,7 @@ fn the_guide_shows_what_commands_print() {
             "crates/import/tests/data/mjcf/xarm7.xml",
             "crates/import/tests/data/so101.urdf",
             "gallery/urdf/baxter.urdf",
+            "gallery/urdf/go2.urdf",
         ],
     );
     run_pages(&guide(), &inside);

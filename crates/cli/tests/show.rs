@@ -30,3 +30,19 @@ fn bodies_stay_on_the_paper() {
     }
     assert_eq!(seen, 4);
 }
+
+/// A base that floats has no pose and no axes of its own to draw: it is one body more, and its joints
+/// are counted from one.
+#[test]
+fn a_base_that_floats_is_a_body() {
+    let robot = read_robot(&source("two_legs", ""));
+    let drawn = drawing::svg(&robot, &[0.1, 0.4, -0.1, 0.4]).unwrap();
+    let count = |what: &str| drawn.matches(what).count();
+    let bodies = robot.bodies().count();
+    assert_eq!(count("<circle class=\"m\""), 2 * bodies);
+    assert!(
+        drawn.contains("nothing: it floats") && drawn.contains(">4 "),
+        "{drawn}"
+    );
+    assert!(!drawn.contains(">5 "), "{drawn}");
+}

@@ -34,12 +34,14 @@ pub struct Arm {
     #[serde(default)]
     tree: bool,
     #[serde(default)]
+    floating: bool,
+    #[serde(default)]
     lock: BTreeMap<String, String>,
     #[serde(default)]
     without: Vec<String>,
     origin: String,
     at: Vec<f64>,
-    peer: [String; 3],
+    peer: Option<[String; 3]>,
 }
 
 /// An arm with everything that is made from its source.
@@ -97,6 +99,7 @@ impl Arm {
             base: self.base.clone(),
             tips: self.tip.iter().cloned().collect(),
             tree: self.tree,
+            floating: self.floating,
             lock: self.lock.clone().into_iter().collect(),
             without: self.without.clone(),
             snap: true,
@@ -141,7 +144,8 @@ impl Entry {
             row += &format!(" {}{}", group.len(), if is_slide { 'P' } else { 'R' });
         }
         row += " |";
-        for (function, peer) in generated.functions.iter().zip(&arm.peer) {
+        for (place, function) in generated.functions.iter().enumerate() {
+            let peer = arm.peer.as_ref().map_or("–", |peer| &peer[place]);
             let counts = function.counts();
             row += &format!(" {}/{} | {peer} |", counts.mul, counts.add);
         }

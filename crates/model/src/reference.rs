@@ -316,12 +316,13 @@ impl<T: Float> Reference<T> {
         Ok(Formulation::NewtonEulerLink.hand(&self.whole, &at))
     }
 
-    /// Computes ⁰A_i: where every row's frame is.
+    /// Computes ⁰A_i: where every row's frame is; where the base floats, in its axes.
     ///
     /// # Errors
     /// `q` has another length than the arm has joints.
     pub fn poses(&self, q: &DVector<T>) -> Result<Vec<Columns<T>>, WrongLength> {
-        Ok(poses(&self.whole, &self.whole_at(q)?))
+        let mut poses = poses(&self.whole, &self.whole_at(q)?);
+        Ok(poses.split_off(self.whole.base_joints()))
     }
 
     fn vector<const N: usize>(

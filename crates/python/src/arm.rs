@@ -51,11 +51,18 @@ impl Arm {
         (1..).zip(&self.0.robot().joints).map(of).collect()
     }
 
+    /// Returns the name of the base if it floats.
+    #[getter]
+    fn base(&self) -> Option<String> {
+        let base = self.0.robot().floating.as_ref()?;
+        Some(base.name.clone().unwrap_or_else(|| "base".to_owned()))
+    }
+
     /// Returns the frames that outputs may be at.
     #[getter]
     fn frames(&self) -> Vec<String> {
         let robot = self.0.robot();
-        let hand = (!robot.branches()).then(|| HAND.to_owned());
+        let hand = (!robot.is_tree()).then(|| HAND.to_owned());
         let named = robot.frames.iter().map(|frame| frame.name.clone());
         hand.into_iter().chain(named).collect()
     }

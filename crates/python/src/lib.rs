@@ -8,6 +8,7 @@ mod function;
 mod load;
 mod memory;
 mod payload;
+mod pose;
 mod xla;
 
 use std::ffi::OsString;
@@ -35,4 +36,6 @@ mod _dalembert {
     use super::memory::xla_handler;
     #[pymodule_export]
     use super::payload::Load;
+    #[pymodule_export]
+    use super::pose::pose_rows;
 }

@@ -50,7 +50,7 @@ pub fn svg(robot: &Robot, q: &[f64]) -> Result<String, WrongLength> {
     let scene = Scene {
         robot,
         first: runtime.arm().base.clone().unwrap_or_else(Columns::identity),
-        hand: match robot.branches() {
+        hand: match robot.is_tree() {
             true => None,
             false => Some(runtime.hand(&at)?),
         },
@@ -64,6 +64,7 @@ pub fn svg(robot: &Robot, q: &[f64]) -> Result<String, WrongLength> {
     Ok(page.end())
 }
 
+/// A base that floats is a body, too, and its frame is that of the drawing.
 fn bodies(arm: &Arm<f64>, frames: &[Columns<f64>]) -> Vec<Body> {
     let body = |(link, frame): (&Link<f64>, &Columns<f64>)| {
         let own = link.inertia.rows();
@@ -76,7 +77,12 @@ fn bodies(arm: &Arm<f64>, frames: &[Columns<f64>]) -> Vec<Body> {
             inertia: [column(0), column(1), column(2)],
         }
     };
-    let bodies = arm.links.iter().zip(frames).map(body);
+    let (virtual_joints, base) = (arm.base_joints(), Columns::identity());
+    let base = virtual_joints
+        .checked_sub(1)
+        .map(|last| (&arm.links[last], &base));
+    let links = arm.links.iter().skip(virtual_joints).zip(frames);
+    let bodies = base.into_iter().chain(links).map(body);
     bodies.filter(|body| body.mass > 0.0).collect()
 }
 
@@ -125,7 +131,7 @@ impl Scene<'_> {
 
     fn axis(&self, row: usize) -> (Vector<f64>, Vector<f64>) {
         let frame = match (self.robot.convention, row) {
-            _ if self.robot.branches() => &self.frames[row],
+            _ if self.robot.is_tree() => &self.frames[row],
             (Convention::Standard, 0) => &self.first,
             (Convention::Standard, _) => &self.frames[row - 1],
             (Convention::Modified, _) => &self.frames[row],

@@ -3,7 +3,9 @@
 use dalembert_model::number::parse::write_decimal;
 use dalembert_model::number::{Angle, Rational, Rounded};
 
-use dalembert_model::robot::{Convention, Joint, JointKind, Placed, Placement, Robot};
+use dalembert_model::robot::{
+    Convention, FloatingBase, Joint, JointKind, Placed, Placement, Robot,
+};
 
 use crate::report::{Cell, Table};
 
@@ -15,32 +17,48 @@ pub(super) fn lines(robot: &Robot, q: &[f64]) -> Vec<String> {
     let gravity = robot.gravity.each_ref().map(number).join(", ");
     let at = q.iter().map(|&q| short(Some(q.to_string()), 7, q));
     let at = at.collect::<Vec<String>>().join(", ");
-    let convention = match robot.branches() {
+    let convention = match robot.is_tree() {
         true => "joints are placed on the links that carry them",
         false => convention,
     };
+    let at_rest = if robot.floating.is_some() {
+        " of the world"
+    } else {
+        ""
+    };
     let mut lines = vec![
-        format!("{convention}, gravity ({gravity}) m/s², lengths in m, masses in kg"),
+        format!("{convention}, gravity{at_rest} ({gravity}) m/s², lengths in m, masses in kg"),
         format!("drawn at q = ({at})"),
     ];
     for (what, end) in robot.placements() {
         lines.extend(end.map(|end| placement(what, end)));
     }
-    let heads = match robot.branches() {
+    let heads = match robot.is_tree() {
         true => "joint|carried by|xyz|rpy|axis|mass|centre of mass",
         false => "joint|theta|d|a|alpha|mass|centre of mass",
     };
     let joints = robot.joints.iter().enumerate();
+    let base = robot
+        .floating
+        .as_ref()
+        .map(|base| floating(base).map(Cell::from).to_vec());
     let rows = joints.map(|(i, joint)| match &joint.place {
         None => row(i, joint).map(Cell::from).to_vec(),
         Some(place) => placed(robot, i, place).map(Cell::from).to_vec(),
     });
+    let rows = base.into_iter().chain(rows);
     let table = Table::new(heads).with(rows).unbroken().to_string();
     lines.extend(table.lines().map(|line| line.trim_start().to_owned()));
     // Below the table, because such a sentence does not fit beside it.
-    lines.extend(robot.joints.iter().enumerate().filter_map(|(i, joint)| {
-        let why = joint.inertia.defect(&joint.mass)?.message();
-        Some(format!("joint {}: {why}", i + 1))
+    let base = robot
+        .floating
+        .as_ref()
+        .map(|base| ("the base".to_owned(), base.body()));
+    let joints = robot.joints.iter().zip(1..);
+    let joints = joints.map(|(joint, number)| (format!("joint {number}"), joint.clone()));
+    lines.extend(base.into_iter().chain(joints).filter_map(|(label, body)| {
+        let why = body.inertia.defect(&body.mass)?.message();
+        Some(format!("{label}: {why}"))
     }));
     lines
 }
@@ -67,6 +85,21 @@ fn row(index: usize, joint: &Joint) -> [String; 7] {
         twist,
         number(&joint.mass),
         format!("({})", joint.com.each_ref().map(number).join(", ")),
+    ]
+}
+
+fn floating(base: &FloatingBase) -> [String; 7] {
+    let name = base.name.as_deref().unwrap_or("base");
+    let com = base.com.each_ref().map(number).join(", ");
+    let [xyz, rpy, axis] = [""; 3].map(str::to_owned);
+    [
+        name.to_owned(),
+        "nothing: it floats".to_owned(),
+        xyz,
+        rpy,
+        axis,
+        number(&base.mass),
+        format!("({com})"),
     ]
 }
 

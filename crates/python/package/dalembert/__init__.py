@@ -7,10 +7,11 @@
 Angles are in rad, lengths in m, masses in kg, torques in N·m, forces in N.
 """
 
+from . import pose
 from ._arm import Arm, Joint, Limits, load
 from ._dalembert import Function, Load
 
-__all__ = ["Arm", "Function", "Joint", "Limits", "Load", "load", "outputs"]
+__all__ = ["Arm", "Function", "Joint", "Limits", "Load", "load", "outputs", "pose"]
 __version__ = "0.1.0"
 
 

@@ -95,8 +95,61 @@ class Arm:
 
     @property
     def joints(self) -> tuple[Joint, ...]:
-        """The joints, from the base to the hand: q, qd and qdd have their order."""
+        """The joints, from the base to the hand: q has their order, and behind the six entries of a
+        base that floats, qd, qdd and tau."""
         return tuple(Joint(name, kind) for name, kind in self._native.joints)
+
+    @property
+    def base(self) -> str | None:
+        """The name of the base if it floats: the first six entries of qd, qdd and tau are its."""
+        return self._native.base
+
+    @property
+    def places(self) -> dict[str, int | slice]:
+        """Where the base and each joint are in qd, qdd and tau, and in the rows of D."""
+        base = self.base
+        first: dict[str, int | slice] = {} if base is None else {base: slice(0, 6)}
+        count = 0 if base is None else 6
+        return first | {joint.name: count + place for place, joint in enumerate(self.joints)}
+
+    def positions(self, named: Mapping[str, float], fill: float = 0.0) -> NDArray[np.float64]:
+        """Return q, an entry a joint, from positions by the joints' names; ``fill`` is of the others."""
+        import numpy as np
+
+        q = np.full(len(self.joints), fill)
+        place = {joint.name: place for place, joint in enumerate(self.joints)}
+        for name, value in named.items():
+            q[_named(name, place)] = value
+        return q
+
+    def rates(
+        self, named: Mapping[str, ArrayLike], fill: float = 0.0
+    ) -> NDArray[np.float64]:
+        """Return an array like qd, qdd or tau, by names: six numbers of the base, one of a joint."""
+        import numpy as np
+
+        places = self.places
+        size = len(self.joints) + (0 if self.base is None else 6)
+        rates = np.full(size, fill)
+        for name, value in named.items():
+            rates[_named(name, places)] = value
+        return rates
+
+    def by_name(self, array: ArrayLike, axis: int = -1) -> dict[str, Any]:
+        """Return the parts of an array by the names of joints: of q, of what is like qd, or of an
+        axis of a matrix. The base has six entries."""
+        import numpy as np
+
+        values = np.asarray(array)
+        n, length = len(self.joints), values.shape[axis]
+        places = self.places
+        if length == n:
+            places = {joint.name: place for place, joint in enumerate(self.joints)}
+        elif self.base is None or length != n + 6:
+            expected = f"{n}" if self.base is None else f"{n} or {n + 6}"
+            raise ValueError(f"by_name: axis {axis} has {length} entries, expected {expected}")
+        moved = np.moveaxis(values, axis, 0)
+        return {name: moved[place] for name, place in places.items()}
 
     @property
     def frames(self) -> tuple[str, ...]:
@@ -227,6 +280,14 @@ class Arm:
         return f"<div>{self.svg()}<table>{table}</table></div>"
 
 
+def _named(name: str, places: Mapping[str, Any]) -> Any:
+    if name in places:
+        return places[name]
+    near = difflib.get_close_matches(name, places, 1)
+    meant = f": did you mean {near[0]!r}?" if near else f", but {', '.join(places)}"
+    raise ValueError(f"there is no joint {name!r}{meant}")
+
+
 @functools.cache
 def _structure(title: str, fields: tuple[str, ...]) -> Any:
     """Return the named tuple of a function's results, which pickles though no module has it."""
@@ -315,6 +376,7 @@ def load(
     base: str | None = None,
     tip: str | Sequence[str] = (),
     tree: bool = False,
+    floating: bool = False,
     lock: Mapping[str | int, float | str] | Literal["*"] | None = None,
     without: str | Sequence[str] = (),
     exact: bool = False,
@@ -346,6 +408,10 @@ def load(
         the joints on the ways to all of them.
     tree
         Of a URDF: take every joint that moves, as arms on a torso or fingers on a hand.
+    floating
+        Of a URDF: its root moves freely, with everything on it. Velocities, accelerations and
+        torques then begin with six numbers of the base, and functions take ``g``, gravity in
+        the base's axes; :mod:`dalembert.pose` has it from a quaternion.
     lock
         Of a URDF: joints that stay where they are, each with its position, such as
         ``{"gripper": 0}`` or ``{"elbow": "90deg"}``; a number that is no joint's name counts,
@@ -400,6 +466,7 @@ def load(
         "base": base,
         "tip": _words("tip", tip),
         "tree": tree,
+        "floating": floating,
         "lock": _locked(lock),
         "without": _words("without", without),
         "exact": exact,

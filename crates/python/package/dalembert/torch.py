@@ -5,7 +5,9 @@
 The arm is loaded with the function and with its derivatives, such as
 ``outputs=["inverse_dynamics", "inverse_dynamics_derivatives"]``; second derivatives
 (``create_graph=True``, ``hessian``) need ``"inverse_dynamics_second_derivatives"`` too.
-Tensors are on the CPU, ``(n,)`` or ``(N, n)``, of one shape.
+Tensors are on the CPU, ``(n,)`` or ``(N, n)``, with the same leading axes. Where the base floats,
+functions take gravity in its axes too, ``g``, by which alone the orientation enters: a function of
+the orientation that PyTorch differentiates gives it. Its second derivatives are not there.
 """
 
 from __future__ import annotations
@@ -16,22 +18,24 @@ from typing import Any
 import torch
 
 from ._arm import Arm
+from ._tangents import lengths
 
 
-def inverse_dynamics(arm: Arm) -> Callable[[Any, Any, Any], Any]:
-    """Return τ(q, qd, qdd), differentiated by ``inverse_dynamics_derivatives``."""
+def inverse_dynamics(arm: Arm) -> Callable[..., Any]:
+    """Return τ(q, qd, qdd), differentiated by ``inverse_dynamics_derivatives``; where the base
+    floats, τ(q, qd, qdd, g)."""
     return _differentiated(arm, "inverse_dynamics")
 
 
-def forward_dynamics(arm: Arm) -> Callable[[Any, Any, Any], Any]:
-    """Return q̈(q, qd, tau), differentiated by ``forward_dynamics_derivatives``."""
+def forward_dynamics(arm: Arm) -> Callable[..., Any]:
+    """Return q̈(q, qd, tau), differentiated by ``forward_dynamics_derivatives``; where the base
+    floats, q̈(q, qd, tau, g)."""
     return _differentiated(arm, "forward_dynamics")
 
 
-def _differentiated(arm: Arm, name: str) -> Callable[[Any, Any, Any], Any]:
+def _differentiated(arm: Arm, name: str) -> Callable[..., Any]:
     function, slopes = getattr(arm, name), getattr(arm, f"{name}_derivatives")
-    if len(function.arguments) != 3:
-        raise ValueError(f"{name}: parameters that are arguments are not supported here")
+    sizes = lengths(arm, name)
 
     def called(of: Any, tensors: Any, **more: Any) -> list[Any]:
         given = dict(zip(function.arguments, tensors), **more)
@@ -46,9 +50,13 @@ def _differentiated(arm: Arm, name: str) -> Callable[[Any, Any, Any], Any]:
 
         @staticmethod
         def forward(ctx: Any, *tensors: Any) -> Any:
-            if len({tensor.shape for tensor in tensors}) > 1:
+            lead = tensors[0].shape[:-1]
+            if [tensor.shape for tensor in tensors] != [(*lead, size) for size in sizes]:
                 shapes = ", ".join(str(tuple(tensor.shape)) for tensor in tensors)
-                raise ValueError(f"{name}: expected tensors of one shape, found {shapes}")
+                raise ValueError(
+                    f"{name}: expected tensors of lengths {sizes} with the same leading axes, "
+                    f"found {shapes}"
+                )
             ctx.save_for_backward(*tensors)
             found = function(*(tensor.detach().numpy() for tensor in tensors))
             return torch.from_numpy(found).to(tensors[0].dtype)
@@ -64,10 +72,21 @@ def _differentiated(arm: Arm, name: str) -> Callable[[Any, Any, Any], Any]:
         def forward(ctx: Any, gradient: Any, *tensors: Any) -> Any:
             ctx.save_for_backward(gradient, *tensors)
             found = called(slopes, tensors)
-            return tuple(product(slope.transpose(-1, -2), gradient) for slope in found)
+            # A base that floats has no entries of q.
+            by = [
+                product(slope[..., -size:].transpose(-1, -2), gradient)
+                for slope, size in zip(found, sizes)
+            ]
+            if len(sizes) > 3 and name == "inverse_dynamics":
+                by.append(-by[2][..., :3])
+            elif len(sizes) > 3:
+                by.append(gradient[..., :3].clone())
+            return tuple(by)
 
         @staticmethod
         def backward(ctx: Any, *directions: Any) -> Any:
+            if len(sizes) > 3:
+                raise RuntimeError(f"{name}: a base that floats has no second derivatives")
             return Curvature.apply(*directions, *ctx.saved_tensors)
 
     class Curvature(torch.autograd.Function):  # type: ignore[misc, unused-ignore]

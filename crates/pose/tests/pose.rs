@@ -1,0 +1,492 @@
+//! What the helpers promise: identities in exact arithmetic, the error bounds of the documentation,
+//! Pinocchio's values, and the same numbers from the text for C.
+
+use std::cmp::Ordering;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::path::Path;
+use std::process::Command;
+use std::{env, fs};
+
+use dalembert_model::number::Wide;
+use dalembert_model::scalar::dual::Dual;
+use dalembert_model::scalar::field::{Field, Points};
+use dalembert_model::scalar::{Divide, Scalar};
+use dalembert_pose::{Axes, C_HEADER, Pose, Quaternion, Real};
+use serde_json::Value;
+
+const AXES: [Axes; 3] = [Axes::Mixed, Axes::World, Axes::Split];
+
+/// A number of the model's arithmetics.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Number<S>(S);
+
+trait Exact: Scalar + Copy + PartialEq {
+    fn over(&self, other: &Self) -> Self;
+    fn is_below(&self, other: &Self) -> bool;
+}
+
+impl Exact for Field {
+    fn over(&self, other: &Self) -> Self {
+        self.div(other)
+    }
+    fn is_below(&self, _: &Self) -> bool {
+        false
+    }
+}
+
+impl Exact for Dual<Field> {
+    fn over(&self, other: &Self) -> Self {
+        let value = self.value.div(&other.value);
+        let rate = self.rate.sub(&value.mul(&other.rate)).div(&other.value);
+        Dual { value, rate }
+    }
+    fn is_below(&self, _: &Self) -> bool {
+        false
+    }
+}
+
+impl Exact for Wide {
+    fn over(&self, other: &Self) -> Self {
+        Wide::over(self, other).unwrap()
+    }
+    fn is_below(&self, other: &Self) -> bool {
+        self.sub(other).is_negative()
+    }
+}
+
+impl<S: Exact> Add for Number<S> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Number(self.0.add(&other.0))
+    }
+}
+
+impl<S: Exact> Sub for Number<S> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Number(self.0.sub(&other.0))
+    }
+}
+
+impl<S: Exact> Mul for Number<S> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Number(self.0.mul(&other.0))
+    }
+}
+
+impl<S: Exact> Div for Number<S> {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        Number(self.0.over(&other.0))
+    }
+}
+
+impl<S: Exact> Neg for Number<S> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Number(self.0.neg())
+    }
+}
+
+impl<S: Exact> PartialOrd for Number<S> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        match (self.0.is_below(&other.0), other.0.is_below(&self.0)) {
+            (true, _) => Some(Ordering::Less),
+            (_, true) => Some(Ordering::Greater),
+            _ => Some(Ordering::Equal),
+        }
+    }
+}
+
+impl<S: Exact> From<u16> for Number<S> {
+    fn from(count: u16) -> Self {
+        let bits = (0..u16::BITS).rev().map(|bit| count >> bit & 1);
+        let sum = bits.fold(S::zero(), |sum, bit| {
+            let twice = sum.double();
+            if bit == 1 {
+                twice.add(&S::one())
+            } else {
+                twice
+            }
+        });
+        Number(sum)
+    }
+}
+
+impl<S: Exact> Real for Number<S> {}
+
+type Residue = Number<Field>;
+
+fn some<const N: usize>(points: &mut Points) -> [Residue; N] {
+    std::array::from_fn(|_| Number(points.field()))
+}
+
+fn pose(points: &mut Points) -> Pose<Residue> {
+    Pose {
+        position: some(points),
+        orientation: Quaternion::from_xyzw(some(points)),
+    }
+}
+
+fn dot(a: [Residue; 3], b: [Residue; 3]) -> Residue {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Modulo 2⁶¹ − 45, at random quaternions of any length.
+#[test]
+fn rotations_are_those_of_the_textbook() {
+    let mut points = Points::new(1);
+    for _ in 0..20 {
+        let [x, y, z, w] = some(&mut points);
+        let orientation = Quaternion::from_wxyz([w, x, y, z]);
+        assert_eq!(orientation, Quaternion::from_xyzw([x, y, z, w]));
+        let one = x * x + y * y + z * z + w * w;
+        let two = Residue::from(2);
+        let rows = [
+            [
+                w * w + x * x - y * y - z * z,
+                two * (x * y - w * z),
+                two * (x * z + w * y),
+            ],
+            [
+                two * (x * y + w * z),
+                w * w - x * x + y * y - z * z,
+                two * (y * z - w * x),
+            ],
+            [
+                two * (x * z - w * y),
+                two * (y * z + w * x),
+                w * w - x * x - y * y + z * z,
+            ],
+        ];
+        let vector = some(&mut points);
+        let expected = rows.map(|row| dot(row, vector) / one);
+        assert_eq!(orientation.rotate(vector), expected);
+        assert_eq!(orientation.rotate_back(expected), vector);
+        let other = Quaternion::from_xyzw(some(&mut points));
+        let both = orientation.after(other).rotate(vector);
+        assert_eq!(both, orientation.rotate(other.rotate(vector)));
+    }
+}
+
+/// The rate of what `velocity_in` returns, along a motion of the pose, by dual numbers.
+#[test]
+fn accelerations_are_rates_of_velocities() {
+    let mut points = Points::new(2);
+    for _ in 0..20 {
+        let here = pose(&mut points);
+        let [velocity, acceleration]: [[Residue; 6]; 2] = [some(&mut points), some(&mut points)];
+        let moving = |value: Residue, rate: Residue| {
+            let (value, rate) = (value.0, rate.0);
+            Number(Dual { value, rate })
+        };
+        let [a, b, c, d, e, f] = velocity;
+        let half = Residue::from(1) / Residue::from(2);
+        let by = Quaternion {
+            x: half * d,
+            y: half * e,
+            z: half * f,
+            w: Residue::from(0),
+        };
+        let position_rate = here.orientation.rotate([a, b, c]);
+        let turn_rate = here.orientation.after(by).to_xyzw();
+        let orientation = here.orientation.to_xyzw();
+        let moved = Pose {
+            position: std::array::from_fn(|i| moving(here.position[i], position_rate[i])),
+            orientation: Quaternion::from_xyzw(std::array::from_fn(|i| {
+                moving(orientation[i], turn_rate[i])
+            })),
+        };
+        let changing = std::array::from_fn(|i| moving(velocity[i], acceleration[i]));
+        for axes in AXES {
+            let expected = moved.velocity_in(axes, changing);
+            let found = here.acceleration_in(axes, velocity, acceleration);
+            assert_eq!(
+                found.map(|own| own.0),
+                expected.map(|own| own.0.rate),
+                "{axes:?}"
+            );
+            let value = here.velocity_in(axes, velocity);
+            assert_eq!(
+                value.map(|own| own.0),
+                expected.map(|own| own.0.value),
+                "{axes:?}"
+            );
+            assert_eq!(here.velocity_from(axes, value), velocity, "{axes:?}");
+            assert_eq!(
+                here.acceleration_from(axes, velocity, found),
+                acceleration,
+                "{axes:?}"
+            );
+        }
+    }
+}
+
+fn wide<const N: usize>(values: [f64; N]) -> [Number<Wide>; N] {
+    values.map(|value| Number(Wide::from_f64(value).unwrap()))
+}
+
+fn widened(pose: &Pose<f64>) -> Pose<Number<Wide>> {
+    Pose {
+        position: wide(pose.position),
+        orientation: Quaternion::from_xyzw(wide(pose.orientation.to_xyzw())),
+    }
+}
+
+/// Poses and steps with turns from zero to half a turn, most of them near either end.
+fn steps() -> impl Iterator<Item = (Pose<f64>, [f64; 6])> {
+    let mut points = Points::new(3);
+    (0..4000).map(move |round| {
+        let mut unit = || points.unit();
+        let position = [unit(), unit(), unit()];
+        let xyzw: [f64; 4] = [unit(), unit(), unit(), unit()];
+        let length = xyzw.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let orientation = Quaternion::from_xyzw(xyzw.map(|x| x / length));
+        let mut step: [f64; 6] = [unit(), unit(), unit(), unit(), unit(), unit()];
+        let turn = step[3..].iter().map(|x| x * x).sum::<f64>().sqrt();
+        let part = 10f64.powi(-(round % 18));
+        let angle = match round % 3 {
+            0 => part * 3.0,
+            1 => std::f64::consts::PI - part.max(1e-12),
+            _ => 3.0 * unit().abs(),
+        };
+        step[3..].iter_mut().for_each(|x| *x *= angle / turn);
+        (
+            Pose {
+                position,
+                orientation,
+            },
+            step,
+        )
+    })
+}
+
+const UNIT: f64 = 1.0 / (1u64 << 53) as f64;
+
+fn worst<const N: usize>(found: [f64; N], truth: [Number<Wide>; N]) -> f64 {
+    let off = wide(found).into_iter().zip(truth);
+    off.map(|(own, truth)| (own - truth).0.magnitude())
+        .fold(0.0, f64::max)
+}
+
+/// The text in 256 bits is the reference: what a double rounds is all that differs. What is cut off
+/// of the series is far below it, as the bounds of their first terms left out say.
+#[test]
+fn errors_are_below_their_bounds() {
+    let mut most = [0.0_f64; 5];
+    for (pose, step) in steps() {
+        let next = pose.integrate(step);
+        let truth = widened(&pose).integrate(wide(step));
+        let longest = pose
+            .position
+            .iter()
+            .chain(&step[..3])
+            .fold(0.0, |most, x| x.abs().max(most));
+        let turned = worst(next.orientation.to_xyzw(), truth.orientation.to_xyzw());
+        most[0] = most[0].max(turned / UNIT);
+        let moved = worst(next.position, truth.position);
+        most[1] = most[1].max(moved / UNIT / longest);
+        let length: f64 = next.orientation.to_xyzw().iter().map(|x| x * x).sum();
+        assert!((length - 1.0).abs() < 16.0 * UNIT, "{length}");
+        let found = pose.difference(&next);
+        let truth = widened(&pose).difference(&widened(&next));
+        let longest = pose.position.iter().chain(&next.position);
+        let longest = longest.fold(0.0, |most, x| x.abs().max(most));
+        let [linear, turn] = [0, 3].map(|from| {
+            let part = |i: usize| (found[from + i], truth[from + i]);
+            let parts = [part(0), part(1), part(2)];
+            worst(parts.map(|own| own.0), parts.map(|own| own.1))
+        });
+        let size = found[3..].iter().fold(0.0, |most, x| x.abs().max(most));
+        most[2] = most[2].max(turn / UNIT);
+        most[3] = most[3].max(linear / UNIT / longest);
+        // What is left of an angle's digits is what the two orientations have of it.
+        let lost = step.iter().zip(found).skip(3).map(|(a, b)| (a - b).abs());
+        most[4] = most[4].max(lost.fold(0.0, f64::max) / UNIT);
+        assert!(size < 3.2);
+    }
+    println!("of u: {most:?}");
+    for (found, bound) in most.into_iter().zip([4.0, 16.0, 16.0, 32.0, 64.0]) {
+        assert!(found < bound, "{most:?}");
+    }
+}
+
+fn read(value: &Value) -> Vec<f64> {
+    let entries = value.as_array().unwrap();
+    entries
+        .iter()
+        .map(|entry| entry.as_f64().unwrap())
+        .collect()
+}
+
+fn entries<const N: usize>(row: &Value, key: &str) -> [f64; N] {
+    read(&row[key]).try_into().unwrap()
+}
+
+#[test]
+fn values_are_pinocchio_s() {
+    let rows: Value = serde_json::from_str(include_str!("data/values.json")).unwrap();
+    let mut most: f64 = 0.0;
+    for row in rows.as_array().unwrap() {
+        let xyzw: [f64; 4] = entries(row, "xyzw");
+        let pose = Pose {
+            position: entries(row, "position"),
+            orientation: Quaternion::from_xyzw(xyzw),
+        };
+        let [px, py, pz, x, y, z, w]: [f64; 7] = entries(row, "to");
+        let next = pose.integrate(entries(row, "step"));
+        let to = Pose {
+            position: [px, py, pz],
+            orientation: Quaternion::from_xyzw([x, y, z, w]),
+        };
+        let velocity = entries(row, "velocity");
+        let acceleration = entries(row, "acceleration");
+        let mut compared = vec![
+            (next.position.to_vec(), vec![px, py, pz]),
+            (next.orientation.to_xyzw().to_vec(), vec![x, y, z, w]),
+            (pose.difference(&to).to_vec(), read(&row["difference"])),
+            (
+                pose.orientation.rotate_back([0.0, 0.0, -9.81]).to_vec(),
+                read(&row["gravity"]),
+            ),
+        ];
+        for (axes, name) in [(Axes::Mixed, "mixed"), (Axes::World, "world")] {
+            let [found, rate] = [
+                pose.velocity_in(axes, velocity),
+                pose.acceleration_in(axes, velocity, acceleration),
+            ];
+            compared.push((found.to_vec(), read(&row[format!("{name}_velocity")])));
+            compared.push((rate.to_vec(), read(&row[format!("{name}_acceleration")])));
+        }
+        for (found, expected) in compared {
+            assert_eq!(found.len(), expected.len());
+            for (found, expected) in found.iter().zip(&expected) {
+                most = most.max((found - expected).abs());
+            }
+        }
+    }
+    println!("{most:e}");
+    // Pinocchio's logarithm loses digits near half a turn.
+    assert!(most < 1e-13, "{most:e}");
+}
+
+const MAIN: &str = r#"
+#include <stdio.h>
+#include "pose.h"
+int main(void) {
+    POSE_REAL in[25];
+    double read[25];
+    for (;;) {
+        for (int i = 0; i < 25; i++) {
+            if (scanf("%lf", &read[i]) != 1) return 0;
+            in[i] = (POSE_REAL)read[i];
+        }
+        pose_base a = {{in[0], in[1], in[2]}, pose_from_xyzw(in + 3)}, b;
+        POSE_REAL out[6], q[4];
+        b = pose_integrate(&a, in + 7);
+        pose_to_wxyz(&b.orientation, q);
+        printf("%.17g %.17g %.17g %.17g %.17g %.17g %.17g ", (double)b.position[0], (double)b.position[1],
+               (double)b.position[2], (double)q[0], (double)q[1], (double)q[2], (double)q[3]);
+        pose_difference(&a, &b, out);
+        for (int i = 0; i < 6; i++) printf("%.17g ", (double)out[i]);
+        for (int axes = 0; axes < 3; axes++) {
+            pose_velocity_in(&a, (pose_axes)axes, in + 13, out);
+            for (int i = 0; i < 6; i++) printf("%.17g ", (double)out[i]);
+            pose_velocity_from(&a, (pose_axes)axes, in + 13, out);
+            for (int i = 0; i < 6; i++) printf("%.17g ", (double)out[i]);
+            pose_acceleration_in(&a, (pose_axes)axes, in + 13, in + 19, out);
+            for (int i = 0; i < 6; i++) printf("%.17g ", (double)out[i]);
+            pose_acceleration_from(&a, (pose_axes)axes, in + 13, in + 19, out);
+            for (int i = 0; i < 6; i++) printf("%.17g ", (double)out[i]);
+        }
+        printf("\n");
+    }
+}
+"#;
+
+fn there(names: &[&'static str]) -> Vec<&'static str> {
+    let version = |name: &&&str| Command::new(name).arg("--version").output();
+    let found = names
+        .iter()
+        .filter(|name| version(name).is_ok_and(|own| own.status.success()));
+    let found: Vec<&str> = found.copied().collect();
+    if found.is_empty() {
+        eprintln!("none of {names:?} is here: the header is not compiled");
+    }
+    found
+}
+
+fn run(command: &mut Command) -> String {
+    let output = command.output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{command:?}: {said}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Each line of the program's input: a pose, a step, and a velocity and an acceleration.
+fn rust_values<T: Real + Into<f64>>(given: [f64; 25], rounded: fn(f64) -> T) -> Vec<f64> {
+    let given = given.map(rounded);
+    let at = |from: usize| -> [T; 6] { std::array::from_fn(|i| given[from + i]) };
+    let pose = Pose {
+        position: std::array::from_fn(|i| given[i]),
+        orientation: Quaternion::from_xyzw(std::array::from_fn(|i| given[3 + i])),
+    };
+    let next = pose.integrate(at(7));
+    let mut values = next.position.to_vec();
+    values.extend(next.orientation.to_wxyz());
+    values.extend(pose.difference(&next));
+    for axes in AXES {
+        values.extend(pose.velocity_in(axes, at(13)));
+        values.extend(pose.velocity_from(axes, at(13)));
+        values.extend(pose.acceleration_in(axes, at(13), at(19)));
+        values.extend(pose.acceleration_from(axes, at(13), at(19)));
+    }
+    values.into_iter().map(Into::into).collect()
+}
+
+#[test]
+fn c_returns_the_same_numbers() {
+    let given: Vec<[f64; 25]> = steps()
+        .take(500)
+        .map(|(pose, step)| {
+            let mut all = pose.position.to_vec();
+            all.extend(pose.orientation.to_xyzw());
+            all.extend(step);
+            all.extend(
+                step.map(|x| 1.5 - x)
+                    .iter()
+                    .chain(&step.map(|x| x * 3.0 - 0.2)),
+            );
+            all.try_into().unwrap()
+        })
+        .collect();
+    let text = |own: &[f64; 25]| own.map(|x| format!("{x:e}")).join(" ");
+    let lines = given.iter().map(text).collect::<Vec<_>>().join("\n");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    fs::write(folder.join("pose.h"), C_HEADER).unwrap();
+    fs::write(folder.join("main.c"), MAIN).unwrap();
+    fs::write(folder.join("states"), lines).unwrap();
+    for compiler in there(&["gcc", "clang"]) {
+        for real in ["double", "float"] {
+            let program = folder.join(format!("{compiler}_{real}"));
+            let flags = "-std=c99 -O2 -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion \
+                         -Wdouble-promotion -Werror main.c -o";
+            let real_is = format!("-DPOSE_REAL={real}");
+            let built = &mut Command::new(compiler);
+            let built = built.current_dir(folder).args(flags.split_whitespace());
+            run(built.arg(&program).arg(real_is));
+            let states = fs::File::open(folder.join("states")).unwrap();
+            let said = run(Command::new(&program).stdin(states));
+            assert_eq!(said.lines().count(), given.len());
+            for (line, given) in said.lines().zip(&given) {
+                let found: Vec<f64> = line.split(' ').filter_map(|x| x.parse().ok()).collect();
+                let expected = match real {
+                    "double" => rust_values(*given, |x| x),
+                    _ => rust_values(*given, |x| x as f32),
+                };
+                assert_eq!(found, expected, "{compiler} {real} {given:?}");
+            }
+        }
+    }
+}
