@@ -1,6 +1,9 @@
 //! Robots whose base floats: every output, shown by the checker; and none in another order.
 
 use dalembert_codegen::{Function, Request, generate};
+use dalembert_model::number::Rational;
+use dalembert_model::read;
+use dalembert_model::robot::Joint;
 
 use crate::certified::Certified;
 use crate::support::{changes, read_robot, source};
@@ -50,6 +53,38 @@ fn what_is_of_a_fixed_base_is_refused_with_the_reason() {
             "{error}"
         );
     }
+}
+
+/// The box has an entry a coordinate, the base's six first: the checker's bound follows it, and lists
+/// of another length are refused, by the checker too.
+#[test]
+fn a_box_bounds_the_rates_of_the_base() {
+    let within = |velocity: &str| {
+        source(
+            "two_legs",
+            &format!("\n[scene.test]\nbox = {{ velocity = [{velocity}] }}\n"),
+        )
+    };
+    let robot = within("1, 2, 3, 4, 5, 6, 7, 8, 9, 10");
+    let asked = "scene: test; outputs: coriolis; scalar: f64";
+    let file = Certified::of(&robot, Some("test"), asked).remove(0);
+    file.is_shown(1, "coriolis");
+    let reading = read::parse(&robot).unwrap();
+    let scene = reading.scenes.iter().find(|scene| scene.name == "test");
+    let held = scene.unwrap().apply(&reading.robot);
+    let base = held.floating.unwrap().limits.velocity.unwrap();
+    let of_joint = |own: &Joint| own.limits.velocity.clone().unwrap();
+    let rates = base.into_iter().chain(held.joints.iter().map(of_joint));
+    let expected = (1..=10).map(|rate| Rational::from_integer(rate.into()));
+    assert!(rates.eq(expected));
+    let robot = within("0.1, 0.1, 0.1, 0.1");
+    let error = read::parse(&robot).unwrap_err().to_string();
+    assert!(
+        error.contains("4 entries, but the robot has a base that floats and 4 joints"),
+        "{error}"
+    );
+    let why = Certified { robot, ..file }.refusal().unwrap();
+    assert!(why.contains("has another length"), "{why}");
 }
 
 /// Constants say where the base and the joints are; a file that says otherwise is refused.

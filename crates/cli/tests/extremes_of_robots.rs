@@ -1,10 +1,11 @@
 //! The table of extremes on whole robots, and functions that divide near a singular D.
 
+use dalembert_cli::extremes::cases::Change;
 use dalembert_cli::extremes::{Row, Verdict, divided, inside, nearest_to_singular, torques};
 use dalembert_cli::measure::{Bench, Code, VECTOR};
 use dalembert_codegen::workspace::{Literal, Node, RuntimeParameter, Setup, seeded};
 use dalembert_codegen::{Function, Request, generate};
-use dalembert_model::number::Rational;
+use dalembert_model::number::{Rational, Rounded};
 use dalembert_model::read;
 use dalembert_model::robot::Robot;
 
@@ -36,6 +37,54 @@ fn planted_faults_are_found() {
     heavy.joints[2].mass *= Rational::from_integer(1.into()) + part;
     let mass = error(&heavy);
     assert!(mass > 2.0 * right.max(20.0), "{mass}");
+}
+
+/// The cases take each limb to its extreme: in the order of the file the last links are those of
+/// one limb.
+#[test]
+fn limbs_are_taken_to_their_extremes() {
+    let robot = support::robot("two_legs");
+    let masses = |change: Change| -> Vec<f64> {
+        let changed = change.apply(&robot).unwrap();
+        let masses = changed
+            .bodies()
+            .map(|body| f64::nearest_rational(&body.mass));
+        masses.collect()
+    };
+    let whole = masses(Change::None);
+    let mut light = whole.clone();
+    (light[2], light[4]) = (1e-3, 1e-3);
+    assert_eq!(masses(Change::LightTips), light);
+    (light[2], light[4]) = (0.0, 0.0);
+    assert_eq!(masses(Change::Massless(1)), light);
+    assert_eq!(masses(Change::MasslessBase), [&[0.0], &whole[1..]].concat());
+    let ratio = masses(Change::Masses(-6));
+    assert!(
+        (ratio[2] / whole[2] - 1e-6).abs() < 1e-18 && ratio[1] == whole[1] && ratio[3] == whole[3]
+    );
+    let long = Change::Lengths(6).apply(&robot).unwrap();
+    let placed = |robot: &Robot| robot.joints[1].place.clone().unwrap().placement.xyz[1].clone();
+    let million = Rational::from_integer(1_000_000.into());
+    assert_eq!(placed(&long), placed(&robot) * million);
+    assert!(
+        Change::MasslessBase
+            .apply(&support::robot("puma560"))
+            .is_none()
+    );
+    let request = Request::new(&[Function::InverseDynamics]);
+    let rows = torques(&robot, &request, STATES).unwrap();
+    let cases = [
+        "tips of 1 g",
+        "massless base",
+        "lengths, long hand",
+        "static near balance",
+    ];
+    assert!(
+        cases
+            .iter()
+            .all(|case| rows.iter().any(|row| row.case == *case))
+    );
+    all_good(&rows);
 }
 
 /// A joint that feels no weight has next to no load there, as the difference of others' weights.

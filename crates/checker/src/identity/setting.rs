@@ -74,6 +74,14 @@ impl File {
             None => free.collect(),
         };
         let base = self.base_coordinates();
+        for list in [&scene.r#box.velocity, &scene.r#box.acceleration] {
+            if list
+                .as_ref()
+                .is_some_and(|own| own.len() != base + movers.len())
+            {
+                return Err("a range of rates in the box of the scene has another length".into());
+            }
+        }
         let rows = (0..base).chain(joints.into_iter().map(|joint| base + joint));
         Ok(Setting {
             file: self,
@@ -237,30 +245,31 @@ impl Setting<'_> {
             "tau" => ("torque", false),
             _ => return Ok(None),
         };
-        let range = |joint: usize| {
-            let range = match limit {
-                "position" => self.positions(joint, rate),
-                _ if self.is_locked(joint) || is_still => Some([0.0; 2]),
-                _ => {
-                    let text = self.limit_text(joint, limit);
-                    let most = text.map_or(Some(rate), |text| number(text)?.to_f64());
-                    most.map(|most| [-most, most])
-                }
-            };
-            let range = range.filter(|[low, high]| low <= high);
-            range.ok_or_else(|| format!("joint {}: the range of `{name}` is empty", joint + 1))
-        };
-        let of_base = |k: usize| {
-            let text = self.base_limit(limit).map(|six| &six[k]);
+        let of_rate = |coordinate: usize| {
+            if self.is_held(coordinate) || is_still {
+                return Some([0.0; 2]);
+            }
+            let text = self.limit_text(coordinate, limit);
             let most = text.map_or(Some(rate), |text| number(text)?.to_f64());
-            let most = if is_still { Some(0.0) } else { most };
-            let range = most
-                .map(|most| [-most, most])
-                .filter(|[low, high]| low <= high);
-            range.ok_or_else(|| format!("the base: the range of `{name}` is empty"))
+            most.map(|most| [-most, most])
         };
-        let base = if name == "q" { 0 } else { self.base() };
-        let all = (0..base).map(of_base).chain((0..self.joints()).map(range));
+        let base = self.base();
+        let found: Vec<(Option<usize>, Option<[f64; 2]>)> = match limit {
+            "position" => (0..self.joints())
+                .map(|joint| (Some(joint), self.positions(joint, rate)))
+                .collect(),
+            _ => (0..base + self.joints())
+                .map(|own| (own.checked_sub(base), of_rate(own)))
+                .collect(),
+        };
+        let checked = |(joint, range): (Option<usize>, Option<[f64; 2]>)| {
+            let range = range.filter(|[low, high]| low <= high);
+            range.ok_or_else(|| match joint {
+                Some(joint) => format!("joint {}: the range of `{name}` is empty", joint + 1),
+                None => format!("the base: the range of `{name}` is empty"),
+            })
+        };
+        let all = found.into_iter().map(checked);
         Ok(Some(all.collect::<Result<_, String>>()?))
     }
 
@@ -329,11 +338,22 @@ impl Setting<'_> {
 
     /// Returns a coordinate's limit of `velocity`, `acceleration` or `torque`, if there is one.
     pub fn limit(&self, coordinate: usize, name: &str) -> Option<f64> {
-        let text = match coordinate.checked_sub(self.base()) {
-            Some(joint) => self.limit_text(joint, name)?,
-            None => &self.base_limit(name)?[coordinate],
+        number(self.limit_text(coordinate, name)?)?.to_f64()
+    }
+
+    /// Returns the text of a coordinate's limit: the box's, else that of the joint or the base.
+    fn limit_text(&self, coordinate: usize, name: &str) -> Option<&String> {
+        let given = &self.scene.r#box;
+        let given = match name {
+            "velocity" => given.velocity.as_ref(),
+            "acceleration" => given.acceleration.as_ref(),
+            _ => None,
         };
-        number(text)?.to_f64()
+        let given = given.and_then(|list| list.get(coordinate));
+        given.or_else(|| match coordinate.checked_sub(self.base()) {
+            Some(joint) => self.joint_limit(joint, name),
+            None => self.base_limit(name)?.get(coordinate),
+        })
     }
 
     fn base_limit(&self, name: &str) -> Option<&[String; 6]> {
@@ -346,16 +366,14 @@ impl Setting<'_> {
         own.as_ref()
     }
 
-    /// Returns the text of a limit: the box's, else that of the joint.
-    fn limit_text(&self, joint: usize, name: &str) -> Option<&String> {
-        let given = &self.scene.r#box;
+    fn joint_limit(&self, joint: usize, name: &str) -> Option<&String> {
         let limits = &self.file.joint[*self.movers.get(joint)?].limits;
-        let (given, limit) = match name {
-            "velocity" => (given.velocity.as_ref(), &limits.velocity),
-            "acceleration" => (given.acceleration.as_ref(), &limits.acceleration),
-            _ => (None, &limits.torque),
+        let limit = match name {
+            "velocity" => &limits.velocity,
+            "acceleration" => &limits.acceleration,
+            _ => &limits.torque,
         };
-        given.and_then(|list| list.get(joint)).or(limit.as_ref())
+        limit.as_ref()
     }
 
     /// Returns true for an operand that the scene fixes: whoever calls a function may give another
@@ -407,7 +425,9 @@ impl Setting<'_> {
         let given = &self.scene.r#box;
         let [rates, more] = [given.velocity.is_none(), given.acceleration.is_none()];
         let base = self.file.floating.as_ref().map(|own| &own.limits);
-        let is_free = base.is_some_and(|own| own.velocity.is_none() || own.acceleration.is_none());
+        let is_free = base.is_some_and(|own| {
+            rates && own.velocity.is_none() || more && own.acceleration.is_none()
+        });
         let mut rows = self.movers.iter().map(|&row| &self.file.joint[row].limits);
         is_free
             || rows.any(|own| rates && own.velocity.is_none() || more && own.acceleration.is_none())

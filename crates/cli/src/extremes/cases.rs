@@ -19,16 +19,20 @@ pub enum Change {
     None,
     /// No gravity.
     Weightless,
-    /// Masses grow from base to hand, by 10^e in all.
+    /// Masses grow from base to hand, or to the tips of limbs, by 10^e in all.
     Masses(i32),
     /// All lengths times 10^e.
     Lengths(i32),
     /// Lengths times 10⁻⁶ to 10⁶ from base to hand; with −1 in the other direction, with 1 in this.
     Mixed(i32),
-    /// The last links have no mass, inertia or rotor.
+    /// The last links, of each limb, have no mass, inertia or rotor.
     Massless(usize),
-    /// All of the last link's mass in the origin of its frame.
+    /// All of the last link's mass, of each limb, in the origin of its frame.
     PointMass,
+    /// The last link of each limb has a gram.
+    LightTips,
+    /// A base that floats has no mass and no inertia.
+    MasslessBase,
     /// 10^e kg more in the hand.
     Payload(i32),
     /// The base 10⁶ m away.
@@ -66,7 +70,7 @@ use Motion::{Angles, Balanced, Inside, Stretched, Times, WristSingular};
 
 /// The extremes that torques are measured at.
 #[rustfmt::skip]
-pub const CASES: [Case; 31] = [
+pub const CASES: [Case; 33] = [
     ("normal", Both, Change::None, Inside),
     ("angles 1e2", Both, Change::None, Angles(1e2)),
     ("angles 1e4", Both, Change::None, Angles(1e4)),
@@ -91,6 +95,8 @@ pub const CASES: [Case; 31] = [
     ("massless last link", Both, Change::Massless(1), Inside),
     ("massless wrist", Both, Change::Massless(3), Inside),
     ("point mass at tip", Entries, Change::PointMass, Inside),
+    ("tips of 1 g", Both, Change::LightTips, Inside),
+    ("massless base", Both, Change::MasslessBase, Inside),
     ("payload 1 kg", Both, Change::Payload(0), Inside),
     ("payload 1e3 kg", Both, Change::Payload(3), Inside),
     ("payload 1e6 kg", Both, Change::Payload(6), Inside),
@@ -109,8 +115,9 @@ impl Change {
     /// Returns the changed robot; `None` if the robot has nothing to change.
     pub fn apply(self, robot: &Robot) -> Option<Robot> {
         let n = robot.joints.len();
-        let last = n.saturating_sub(1);
-        let share = |e: i32, index: usize| e * index as i32 / last.max(1) as i32;
+        let places = Places::of(robot);
+        let last = places.depth.iter().copied().max().unwrap_or_default();
+        let share = |e: i32, depth: usize| e * depth as i32 / last.max(1) as i32;
         let mut made = robot.clone();
         let has_right_angle = robot.joints.iter().any(|joint| right(joint).is_some());
         match self {
@@ -118,6 +125,8 @@ impl Change {
             Change::Typed if !has_right_angle => return None,
             // Where it is has no effect.
             Change::FarBase if robot.floating.is_some() => return None,
+            Change::LightTips if !robot.is_tree() => return None,
+            Change::MasslessBase if robot.floating.is_none() => return None,
             Change::Weightless => made.gravity = Default::default(),
             Change::Payload(e) => {
                 // At (0.1, 0, 0.1) m in the hand.
@@ -139,18 +148,34 @@ impl Change {
             }
             _ => {}
         }
-        for (index, joint) in made.joints.iter_mut().enumerate() {
+        if let Some(base) = &mut made.floating {
+            let mut body = base.body();
             match self {
-                Change::Masses(e) => scale_mass(joint, &power(share(e, index))),
+                Change::Lengths(e) => scale_length(&mut body, &power(e)),
+                Change::Mixed(sign) => scale_length(&mut body, &power(sign * -6)),
+                Change::MasslessBase => scale_mass(&mut body, &Rational::zero()),
+                _ => {}
+            }
+            (base.mass, base.com, base.inertia) = (body.mass, body.com, body.inertia);
+        }
+        for (index, joint) in made.joints.iter_mut().enumerate() {
+            let place = index % n;
+            let (depth, height) = (places.depth[place], places.height[place]);
+            match self {
+                Change::Masses(e) => scale_mass(joint, &power(share(e, depth))),
                 Change::Lengths(e) => scale_length(joint, &power(e)),
                 Change::Mixed(sign) => {
-                    scale_length(joint, &power(sign * (share(12, index) - 6)));
+                    scale_length(joint, &power(sign * (share(12, depth) - 6)));
                 }
-                Change::Massless(links) if index + links >= n => {
+                Change::Massless(links) if height < links => {
                     scale_mass(joint, &Rational::zero());
                     joint.armature = Rational::zero();
                 }
-                Change::PointMass if index == last => {
+                Change::LightTips if height == 0 && !joint.mass.is_zero() => {
+                    let factor = power(-3) / &joint.mass;
+                    scale_mass(joint, &factor);
+                }
+                Change::PointMass if height == 0 => {
                     (joint.com, joint.inertia) = Default::default();
                     joint.armature = Rational::zero();
                     if joint.mass.is_zero() {
@@ -175,6 +200,40 @@ impl Change {
     }
 }
 
+/// How many links are between each joint's link and the base, and between it and the farthest tip
+/// beyond it.
+struct Places {
+    depth: Vec<usize>,
+    height: Vec<usize>,
+}
+
+impl Places {
+    fn of(robot: &Robot) -> Places {
+        let n = robot.joints.len();
+        if !robot.is_tree() {
+            return Places {
+                depth: (0..n).collect(),
+                height: (0..n).rev().collect(),
+            };
+        }
+        let rows = robot.rows().len();
+        let (mut depth, mut height) = (vec![0; rows], vec![0; rows]);
+        for row in 0..rows {
+            depth[row] = robot.carrier(row).map_or(0, |carrier| depth[carrier] + 1);
+        }
+        for row in (0..rows).rev() {
+            if let Some(carrier) = robot.carrier(row) {
+                height[carrier] = height[carrier].max(height[row] + 1);
+            }
+        }
+        let of_joints = |all: Vec<usize>| (0..n).map(|joint| all[robot.row_of(joint)]).collect();
+        Places {
+            depth: of_joints(depth),
+            height: of_joints(height),
+        }
+    }
+}
+
 fn right(joint: &Joint) -> Option<Angle> {
     let typed = Rational::new(15708.into(), 10000.into());
     match joint.alpha.quarter_turns() {
@@ -191,7 +250,12 @@ fn scale_mass(joint: &mut Joint, factor: &Rational) {
 
 fn scale_length(joint: &mut Joint, factor: &Rational) {
     let lengths = [&mut joint.a, &mut joint.d].into_iter();
-    lengths.chain(&mut joint.com).for_each(|x| *x *= factor);
+    let placed = joint
+        .place
+        .iter_mut()
+        .flat_map(|own| &mut own.placement.xyz);
+    let lengths = lengths.chain(placed).chain(&mut joint.com);
+    lengths.for_each(|x| *x *= factor);
     joint.inertia = joint.inertia.map(|entry| entry * factor * factor);
 }
 
@@ -236,7 +300,7 @@ impl Motion {
             for state in &mut states {
                 state.qd.fill(0.0);
                 state.qdd.fill(0.0);
-                balance(&runtime, &turning, state);
+                balance(&runtime, robot.base_coordinates(), &turning, state);
             }
         }
         states
@@ -254,12 +318,12 @@ impl Motion {
 }
 
 /// Brings each joint, from the hand to the base, to the zero of its own load by bisection.
-fn balance(runtime: &Runtime, turning: &[usize], state: &mut JointState) {
+fn balance(runtime: &Runtime, base: usize, turning: &[usize], state: &mut JointState) {
     for &joint in turning.iter().rev().chain(turning.iter().rev()) {
         let start = state.q[joint];
         let mut load = |at: f64| {
             state.q[joint] = at;
-            runtime.run(Function::Gravity, state)[joint]
+            runtime.run(Function::Gravity, state)[base + joint]
         };
         let mut low = start;
         let first = load(low);

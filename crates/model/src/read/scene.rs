@@ -110,6 +110,14 @@ fn kind(robot: &Robot, joint: usize) -> Option<JointKind> {
     joint.map(|joint| joint.kind)
 }
 
+fn kind_of_rate(robot: &Robot, coordinate: usize) -> Option<JointKind> {
+    match robot.joint_of(coordinate) {
+        Some(joint) => kind(robot, joint),
+        None if robot.turns(coordinate) => Some(JointKind::Revolute),
+        None => Some(JointKind::Prismatic),
+    }
+}
+
 fn lock(cx: &mut Context, robot: &Robot, keys: &mut Table) -> Option<Vec<(usize, Position)>> {
     let place = keys.place_of("lock");
     keys.optional(cx, "lock", |cx, value| {
@@ -175,11 +183,11 @@ fn bounds(cx: &mut Context, robot: &Robot, keys: &mut Table) -> Option<MotionBox
             position: each(cx, keys, "position", |cx, joint, value| {
                 cx.range(value, kind(robot, joint), "[lowest, highest]")
             }),
-            velocity: each(cx, keys, "velocity", |cx, joint, value| {
-                cx.rate(value, kind(robot, joint), "rad/s")
+            velocity: each(cx, keys, "velocity", |cx, coordinate, value| {
+                cx.rate(value, kind_of_rate(robot, coordinate), "rad/s")
             }),
-            acceleration: each(cx, keys, "acceleration", |cx, joint, value| {
-                cx.rate(value, kind(robot, joint), "rad/s²")
+            acceleration: each(cx, keys, "acceleration", |cx, coordinate, value| {
+                cx.rate(value, kind_of_rate(robot, coordinate), "rad/s²")
             }),
             payload: payloads(cx, keys),
         })

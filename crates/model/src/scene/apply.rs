@@ -28,11 +28,17 @@ impl Scene {
         if let Some(range) = &self.bounds.payload {
             robot.payload_range = Some(range.clone());
         }
+        let (base, bounds) = (robot.base_coordinates(), &self.bounds);
+        if let Some(floating) = &mut robot.floating {
+            let limits = &mut floating.limits;
+            bound_base(&mut limits.velocity, &bounds.velocity);
+            bound_base(&mut limits.acceleration, &bounds.acceleration);
+        }
         for (i, joint) in robot.joints.iter_mut().enumerate() {
-            let (limits, bounds) = (&mut joint.limits, &self.bounds);
+            let limits = &mut joint.limits;
             bound(&mut limits.position, &bounds.position, i);
-            bound(&mut limits.velocity, &bounds.velocity, i);
-            bound(&mut limits.acceleration, &bounds.acceleration, i);
+            bound(&mut limits.velocity, &bounds.velocity, base + i);
+            bound(&mut limits.acceleration, &bounds.acceleration, base + i);
         }
         robot
     }
@@ -48,8 +54,14 @@ impl Scene {
     }
 }
 
-fn bound<T: Clone>(limit: &mut Option<T>, all: &Option<Vec<T>>, joint: usize) {
-    if let Some(own) = all.as_ref().and_then(|all| all.get(joint)) {
+fn bound<T: Clone>(limit: &mut Option<T>, all: &Option<Vec<T>>, place: usize) {
+    if let Some(own) = all.as_ref().and_then(|all| all.get(place)) {
+        *limit = Some(own.clone());
+    }
+}
+
+fn bound_base(limit: &mut Option<[Rational; 6]>, all: &Option<Vec<Rational>>) {
+    if let Some(own) = all.as_ref().and_then(|all| all.first_chunk()) {
         *limit = Some(own.clone());
     }
 }

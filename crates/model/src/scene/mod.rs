@@ -51,7 +51,8 @@ pub struct Scene {
     pub scalar: Option<Float>,
 }
 
-/// Ranges of motion, an entry a joint, and of the payload; what is missing is the robot's limit.
+/// Ranges of motion, an entry a joint, and of the payload; what is missing is the robot's limit. Of
+/// rates where the base floats, an entry a coordinate: six of the base come first.
 ///
 /// A range of positions that the joint can never take is an error; one that
 /// goes beyond the robot's limits is taken as it stands, with a warning: it is

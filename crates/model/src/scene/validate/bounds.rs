@@ -14,15 +14,26 @@ const BEYOND: &str = "bounds hold over the whole range; taken as it stands";
 impl Check<'_> {
     pub(super) fn bounds(&mut self) {
         let n = self.robot.joints.len();
-        let bounds = &self.scene.bounds;
-        for (key, length) in [
-            ("position", bounds.position.as_ref().map(Vec::len)),
-            ("velocity", bounds.velocity.as_ref().map(Vec::len)),
-            ("acceleration", bounds.acceleration.as_ref().map(Vec::len)),
+        let (bounds, rates) = (&self.scene.bounds, self.robot.coordinates());
+        for (key, length, expected) in [
+            ("position", bounds.position.as_ref().map(Vec::len), n),
+            ("velocity", bounds.velocity.as_ref().map(Vec::len), rates),
+            (
+                "acceleration",
+                bounds.acceleration.as_ref().map(Vec::len),
+                rates,
+            ),
         ] {
-            if let Some(length) = length.filter(|&length| length != n) {
-                let message = format!("{length} entries, but the robot has {n} joints");
-                self.error(format!("box/{key}"), message, "one entry a joint");
+            if let Some(length) = length.filter(|&length| length != expected) {
+                let (has, help) = match expected == n {
+                    true => (format!("{n} joints"), "one entry a joint"),
+                    false => (
+                        format!("a base that floats and {n} joints"),
+                        "six entries of the base, linear over angular in its axes, then one a joint",
+                    ),
+                };
+                let message = format!("{length} entries, but the robot has {has}");
+                self.error(format!("box/{key}"), message, help);
             }
         }
         for (index, range) in bounds.position.iter().flatten().enumerate() {
@@ -81,10 +92,19 @@ impl Check<'_> {
                 self.error(place, message, help);
                 continue;
             }
-            let limit = self.joint(index).and_then(|joint| joint.limits.rate(rate));
-            let beyond = limit.filter(|limit| value > limit && self.scene.locked(index).is_none());
+            let joint = self.robot.joint_of(index);
+            let limit = match joint {
+                Some(joint) => self.joint(joint).and_then(|own| own.limits.rate(rate)),
+                None => {
+                    let base = self.robot.floating.as_ref();
+                    let limits = base.and_then(|base| base.limits.rate(rate));
+                    limits.map(|limits| &limits[index])
+                }
+            };
+            let is_locked = joint.is_some_and(|joint| self.scene.locked(joint).is_some());
+            let beyond = limit.filter(|limit| value > limit && !is_locked);
             if let Some(limit) = beyond {
-                let (scene, name) = (&self.scene.name, self.robot.joint_label(index));
+                let (scene, name) = (&self.scene.name, self.robot.coordinate_label(index));
                 let limit = shown(limit);
                 let message = format!(
                     "the box of scene `{scene}` goes beyond the {key} limit of {name}, {limit}"
