@@ -22,7 +22,7 @@ pub struct ChainArgs {
     #[cfg_attr(feature = "clap", arg(long, conflicts_with = "tip", help_heading = MODEL))]
     pub tree: bool,
     /// Let the base float: a legged robot. Takes every joint that moves, or those on the ways to the tips;
-    /// with --tree, what a free joint carries in the model floats unasked
+    /// what a free joint carries in the model floats unasked, if it has several limbs or with --tree
     #[cfg_attr(feature = "clap", arg(long, help_heading = MODEL))]
     pub floating: bool,
     /// Lock a joint at a position in rad or m, such as 0.3, pi/2 or 90deg; JOINT is its name or its

@@ -318,6 +318,17 @@ fn a_free_joint_floats() {
         assert!(fixed.robot.floating.is_none() && !fixed.text.contains("convention"));
         assert_eq!(fixed.robot.joints.len(), 2);
     }
+    // Several limbs on a free joint are a robot that walks: that need not be said.
+    let right = body("right", "0 -0.1 0", &hinge("other"));
+    let both = text(&("<freejoint/>".to_owned() + &right));
+    let walks = taken(&both, &Options::default());
+    assert!(walks.robot.floating.is_some());
+    assert_eq!(walks.robot.joints.len(), 3);
+    let one = Options {
+        tips: vec!["foot".to_owned()],
+        ..Options::default()
+    };
+    assert!(taken(&both, &one).robot.floating.is_none());
     assert!(taken(&text(""), &tree()).robot.floating.is_none());
     let floating = Options {
         floating: true,

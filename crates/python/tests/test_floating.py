@@ -234,3 +234,66 @@ def test_a_header_with_names(legs, tmp_path):
         out = tmp_path / "main"
         subprocess.run(["cc", "-std=c99", tmp_path / "main.c", "-o", out, "-lm"], check=True)
         subprocess.run([out], check=True)
+
+
+def quadruped():
+    """An MJCF of a made-up quadruped: nothing is symmetric, and joints are damped."""
+    legs = ""
+    for name, x, y in [("fl", 1, 1), ("fr", 1, -1), ("rl", -1, 1), ("rr", -1, -1)]:
+        legs += f"""
+        <body name="{name}_hip" pos="{0.19 * x} {0.05 * y} 0.01" quat="0.98 0.1 {0.05 * y} 0">
+          <inertial pos="{-0.005 * x} {0.002 * y} 0" quat="0.5 0.5 0.6 0.4" mass="0.7"
+            diaginertia="0.0009 0.0006 0.0005"/>
+          <joint name="{name}_hip" axis="1 0 0" damping="2" armature="0.01"/>
+          <body name="{name}_thigh" pos="0 {0.1 * y} 0">
+            <inertial pos="-0.004 {-0.02 * y} -0.03" mass="1.2" diaginertia="0.006 0.0058 0.0009"/>
+            <joint name="{name}_thigh" axis="0 1 0" damping="2" armature="0.01"/>
+            <body name="{name}_calf" pos="0 0 -0.21">
+              <inertial pos="0.006 0 {-0.14 - 0.01 * x}" mass="0.24" diaginertia="0.00145 0.0014 6e-05"/>
+              <joint name="{name}_calf" axis="0 1 0.1" damping="1" armature="0.02"/>
+            </body>
+          </body>
+        </body>"""
+    return f"""<mujoco model="quadruped">
+      <compiler angle="radian"/>
+      <worldbody>
+        <body name="trunk" pos="0 0 0.4">
+          <freejoint/>
+          <inertial pos="0.02 0 -0.005" quat="0.7 0.1 0 0.7" mass="7" diaginertia="0.1 0.09 0.03"/>
+          {legs}
+        </body>
+      </worldbody>
+    </mujoco>"""
+
+
+def test_mujoco(tmp_path):
+    """Inverse and forward dynamics of MuJoCo, whose base has other axes and another order of q."""
+    mujoco = pytest.importorskip("mujoco")
+    file = tmp_path / "quadruped.xml"
+    file.write_text(quadruped())
+    model = mujoco.MjModel.from_xml_path(str(file))
+    data = mujoco.MjData(model)
+    robot = dalembert.load(file, exact=True, outputs=["inverse_dynamics", "forward_dynamics"])
+    assert robot.base == "trunk"
+    assert [joint.name for joint in robot.joints] == [model.joint(k).name for k in range(1, 13)]
+    rng = np.random.default_rng(1)
+    for _ in range(60):
+        q, qd, qdd = rng.uniform(-2, 2, 12), 2 * rng.normal(size=18), 5 * rng.normal(size=18)
+        wxyz = rng.normal(size=4)
+        wxyz /= np.linalg.norm(wxyz)
+        rate = pose.acceleration_in("split", qd[:6], qdd[:6], wxyz=wxyz)
+        data.qpos[:] = np.r_[rng.normal(size=3), wxyz, q]
+        data.qvel[:] = np.r_[pose.velocity_in("split", qd[:6], wxyz=wxyz), qd[6:]]
+        data.qacc[:] = np.r_[rate, qdd[6:]]
+        mujoco.mj_inverse(model, data)
+        expected = data.qfrc_inverse.copy()
+        g = pose.gravity(wxyz=wxyz)
+        tau = robot.inverse_dynamics(q, qd, qdd, g)
+        found = np.r_[pose.rotate(tau[:3], wxyz=wxyz), tau[3:]]
+        assert_allclose(found, expected, rtol=0, atol=1e-14 * np.abs(expected).max())
+        data.qfrc_applied[:] = expected
+        mujoco.mj_forward(model, data)
+        again = robot.forward_dynamics(q, qd, tau, g)
+        assert_allclose(again, qdd, rtol=0, atol=1e-11 * np.abs(qdd).max())
+        there = np.r_[pose.acceleration_in("split", qd[:6], again[:6], wxyz=wxyz), again[6:]]
+        assert_allclose(there, data.qacc, rtol=0, atol=1e-11 * np.abs(qdd).max())

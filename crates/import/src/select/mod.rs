@@ -86,7 +86,7 @@ pub(crate) fn select(
 ) -> Option<Selection> {
     let mut select = Select::new(model, options, problems)?;
     let base = select.base(options)?;
-    let floats = options.floating || options.tree && select.is_carried_freely(base);
+    let floats = select.floats(base, options);
     let tips = match (options.tree, options.tips.as_slice()) {
         (_, []) if options.tree || floats => select.ends(base)?,
         (true, _) => return select.problems.refuse("tree_and_tips", &model.at, &[]),
@@ -221,8 +221,8 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
                 break;
             }
             if *kind != Kind::Fixed {
-                let floats = options.tree || options.floating;
-                if !floats || *kind != Kind::Floating {
+                let is_free = *kind == Kind::Floating;
+                if !(is_free && self.floats(link, options)) {
                     self.problems
                         .say("begins_behind", at, &[name, &kind.word()]);
                 }
@@ -230,6 +230,18 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
             }
         }
         base
+    }
+
+    /// Returns true if a base floats: it was asked for, or a free joint of the model carries it and it
+    /// has more than one limb, none of which was asked for by itself.
+    fn floats(&mut self, base: usize, options: &Options) -> bool {
+        if options.floating || !self.is_carried_freely(base) {
+            return options.floating;
+        }
+        let is_chosen = options.base.is_some() || !options.tips.is_empty() || self.others.is_some();
+        let has_limbs = || !self.arms_on(base).is_empty();
+        let is_found = !is_chosen && has_limbs();
+        options.tree || is_found && self.ends(base).is_some_and(|ends| ends.len() > 1)
     }
 
     /// Returns true if a free joint carries a link.
