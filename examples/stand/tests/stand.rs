@@ -61,6 +61,13 @@ fn the_error_of_the_energy_is_the_integrator_s() {
     assert!(coarse < 1e-2 && fine < 0.3 * coarse, "{coarse} {fine}");
 }
 
+/// The plan stands beside a copy, which is no other robot.
+#[test]
+fn the_robot_is_the_gallery_s() {
+    let gallery = include_str!("../../../gallery/robots/go2.toml");
+    assert_eq!(include_str!("../robots/go2.toml"), gallery);
+}
+
 #[test]
 fn the_example_prints_what_the_page_shows() {
     assert_shown(env!("CARGO_BIN_EXE_stand"), include_str!("../README.md"));
