@@ -31,43 +31,63 @@ fn axes(name: &str) -> Option<Axes> {
     }
 }
 
-/// The result of one row, or nothing if the row is too short or the operation is not there.
-fn result(operation: &str, row: &[f64]) -> Option<Vec<f64>> {
-    let here = pose(row)?;
-    let rest = row.get(7..)?;
-    let (name, in_axes) = operation.split_once(' ').unwrap_or((operation, ""));
-    let found = match name {
-        "rotate" => here.orientation.rotate(*rest.first_chunk()?).to_vec(),
-        "rotate_back" => here.orientation.rotate_back(*rest.first_chunk()?).to_vec(),
-        "integrate" => numbers(&here.integrate(six(rest, 0)?)),
-        "difference" => here.difference(&pose(rest)?).to_vec(),
-        "velocity_in" => here.velocity_in(axes(in_axes)?, six(rest, 0)?).to_vec(),
-        "velocity_from" => here.velocity_from(axes(in_axes)?, six(rest, 0)?).to_vec(),
+type Row = Box<dyn Fn(&Pose<f64>, &[f64]) -> Option<Vec<f64>>>;
+
+/// Returns an operation by its name, with the axes behind a space: of a pose and the numbers behind
+/// it, which are nothing if they are too few.
+fn operation(text: &str) -> Option<Row> {
+    let (name, in_axes) = text.split_once(' ').unwrap_or((text, ""));
+    let axes = || axes(in_axes);
+    Some(match name {
+        "rotate" => {
+            Box::new(|here, rest| Some(here.orientation.rotate(*rest.first_chunk()?).to_vec()))
+        }
+        "rotate_back" => {
+            Box::new(|here, rest| Some(here.orientation.rotate_back(*rest.first_chunk()?).to_vec()))
+        }
+        "integrate" => Box::new(|here, rest| Some(numbers(&here.integrate(six(rest, 0)?)))),
+        "difference" => Box::new(|here, rest| Some(here.difference(&pose(rest)?).to_vec())),
+        "velocity_in" => {
+            let axes = axes()?;
+            Box::new(move |here, rest| Some(here.velocity_in(axes, six(rest, 0)?).to_vec()))
+        }
+        "velocity_from" => {
+            let axes = axes()?;
+            Box::new(move |here, rest| Some(here.velocity_from(axes, six(rest, 0)?).to_vec()))
+        }
         "acceleration_in" => {
-            let (velocity, rate) = (six(rest, 0)?, six(rest, 6)?);
-            here.acceleration_in(axes(in_axes)?, velocity, rate)
-                .to_vec()
+            let axes = axes()?;
+            Box::new(move |here, rest| {
+                Some(
+                    here.acceleration_in(axes, six(rest, 0)?, six(rest, 6)?)
+                        .to_vec(),
+                )
+            })
         }
         "acceleration_from" => {
-            let (velocity, rate) = (six(rest, 0)?, six(rest, 6)?);
-            here.acceleration_from(axes(in_axes)?, velocity, rate)
-                .to_vec()
+            let axes = axes()?;
+            Box::new(move |here, rest| {
+                Some(
+                    here.acceleration_from(axes, six(rest, 0)?, six(rest, 6)?)
+                        .to_vec(),
+                )
+            })
         }
         _ => return None,
-    };
-    Some(found)
+    })
 }
 
 /// Returns the results of an operation on rows: a pose, then its other arguments.
 #[pyfunction]
 pub fn pose_rows<'py>(
     py: Python<'py>,
-    operation: &str,
+    name: &str,
     rows: PyReadonlyArray2<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let entries = rows.as_slice()?;
-    let found = entries.chunks(rows.shape()[1].max(1));
-    let found: Option<Vec<Vec<f64>>> = found.map(|row| result(operation, row)).collect();
-    let wrong = || PyValueError::new_err(format!("no operation `{operation}` on such rows"));
+    let wrong = || PyValueError::new_err(format!("no operation `{name}` on such rows"));
+    let of = operation(name).ok_or_else(wrong)?;
+    let rows = rows.as_slice()?.chunks(rows.shape()[1].max(1));
+    let found = rows.map(|row| of(&pose(row)?, row.get(7..)?));
+    let found: Option<Vec<Vec<f64>>> = found.collect();
     Ok(PyArray2::from_vec2(py, &found.ok_or_else(wrong)?)?)
 }

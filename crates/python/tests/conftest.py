@@ -7,6 +7,7 @@ import os
 import tempfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -26,6 +27,22 @@ def urdf(name: str) -> Path:
 
 def data(kind: str, name: str) -> dict:
     return json.loads((ROOT / "crates" / "model" / "tests" / "data" / kind / f"{name}.json").read_text())
+
+
+def slopes(function, arrays, step=1e-6):
+    """Central differences of Σ of the results by every entry of every argument."""
+    found = []
+    for k, array in enumerate(arrays):
+        own = np.empty_like(array)
+        for index in np.ndindex(array.shape):
+            ends = []
+            for sign in (1, -1):
+                moved = [x.copy() for x in arrays]
+                moved[k][index] += sign * step
+                ends.append(function(*moved).sum())
+            own[index] = (ends[0] - ends[1]) / (2 * step)
+        found.append(own)
+    return found
 
 
 @pytest.fixture(scope="session")

@@ -5,6 +5,7 @@ import importlib.util
 
 import numpy as np
 import pytest
+from conftest import slopes
 from numpy.testing import assert_allclose
 
 import dalembert
@@ -14,22 +15,6 @@ NAMES = ["inverse_dynamics", "forward_dynamics"]
 
 def states(count=4):
     return [np.random.default_rng(k).normal(size=(count, 3)) for k in range(3)]
-
-
-def slopes(function, arrays, step=1e-6):
-    """Central differences of Σ of the results by every entry of every argument."""
-    found = []
-    for k, array in enumerate(arrays):
-        own = np.empty_like(array)
-        for index in np.ndindex(array.shape):
-            ends = []
-            for sign in (1, -1):
-                moved = [x.copy() for x in arrays]
-                moved[k][index] += sign * step
-                ends.append(function(*moved).sum())
-            own[index] = (ends[0] - ends[1]) / (2 * step)
-        found.append(own)
-    return found
 
 
 @pytest.mark.parametrize("name", NAMES)

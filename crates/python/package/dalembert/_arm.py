@@ -108,32 +108,23 @@ class Arm:
     def places(self) -> dict[str, int | slice]:
         """Where the base and each joint are in qd, qdd and tau, and in the rows of D."""
         base = self.base
-        first: dict[str, int | slice] = {} if base is None else {base: slice(0, 6)}
-        count = 0 if base is None else 6
-        return first | {joint.name: count + place for place, joint in enumerate(self.joints)}
+        if base is None:
+            return {**self._positions}
+        joints = {name: 6 + place for name, place in self._positions.items()}
+        return {base: slice(0, 6), **joints}
+
+    @property
+    def _positions(self) -> dict[str, int]:
+        return {joint.name: place for place, joint in enumerate(self.joints)}
 
     def positions(self, named: Mapping[str, float], fill: float = 0.0) -> NDArray[np.float64]:
         """Return q, an entry a joint, from positions by the joints' names; ``fill`` is of the others."""
-        import numpy as np
+        return _filled(named, self._positions, len(self.joints), fill)
 
-        q = np.full(len(self.joints), fill)
-        place = {joint.name: place for place, joint in enumerate(self.joints)}
-        for name, value in named.items():
-            q[_named(name, place)] = value
-        return q
-
-    def rates(
-        self, named: Mapping[str, ArrayLike], fill: float = 0.0
-    ) -> NDArray[np.float64]:
+    def rates(self, named: Mapping[str, ArrayLike], fill: float = 0.0) -> NDArray[np.float64]:
         """Return an array like qd, qdd or tau, by names: six numbers of the base, one of a joint."""
-        import numpy as np
-
-        places = self.places
         size = len(self.joints) + (0 if self.base is None else 6)
-        rates = np.full(size, fill)
-        for name, value in named.items():
-            rates[_named(name, places)] = value
-        return rates
+        return _filled(named, self.places, size, fill)
 
     def by_name(self, array: ArrayLike, axis: int = -1) -> dict[str, Any]:
         """Return the parts of an array by the names of joints: of q, of what is like qd, or of an
@@ -142,12 +133,10 @@ class Arm:
 
         values = np.asarray(array)
         n, length = len(self.joints), values.shape[axis]
-        places = self.places
-        if length == n:
-            places = {joint.name: place for place, joint in enumerate(self.joints)}
-        elif self.base is None or length != n + 6:
+        if length != n and (self.base is None or length != n + 6):
             expected = f"{n}" if self.base is None else f"{n} or {n + 6}"
             raise ValueError(f"by_name: axis {axis} has {length} entries, expected {expected}")
+        places: Mapping[str, Any] = self._positions if length == n else self.places
         moved = np.moveaxis(values, axis, 0)
         return {name: moved[place] for name, place in places.items()}
 
@@ -280,12 +269,19 @@ class Arm:
         return f"<div>{self.svg()}<table>{table}</table></div>"
 
 
-def _named(name: str, places: Mapping[str, Any]) -> Any:
-    if name in places:
-        return places[name]
-    near = difflib.get_close_matches(name, places, 1)
-    meant = f": did you mean {near[0]!r}?" if near else f", but {', '.join(places)}"
-    raise ValueError(f"there is no joint {name!r}{meant}")
+def _filled(
+    named: Mapping[str, Any], places: Mapping[str, Any], size: int, fill: float
+) -> NDArray[np.float64]:
+    import numpy as np
+
+    array = np.full(size, fill)
+    for name, value in named.items():
+        if name not in places:
+            near = difflib.get_close_matches(name, places, 1)
+            meant = f": did you mean {near[0]!r}?" if near else f", but {', '.join(places)}"
+            raise ValueError(f"there is no joint {name!r}{meant}")
+        array[places[name]] = value
+    return array
 
 
 @functools.cache
