@@ -195,11 +195,8 @@ fn range(joint: &Joint, argument: Argument) -> [f64; 2] {
 /// Returns the range of a coordinate of a base that floats; none of positions.
 fn base_range(robot: &Robot, argument: Argument, coordinate: usize) -> Option<[f64; 2]> {
     let limit = argument.limit().filter(|limit| *limit != Limit::Position)?;
-    let limits = robot.floating.as_ref().map(|base| &base.limits);
-    let most = limits.and_then(|limits| limits.rate(limit));
-    let most = most.map_or(argument.reach(), |most| {
-        f64::nearest_rational(&most[coordinate])
-    });
+    let most = robot.limit_of(coordinate, limit);
+    let most = most.map_or(argument.reach(), f64::nearest_rational);
     Some([-most, most])
 }
 

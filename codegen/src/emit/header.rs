@@ -60,17 +60,15 @@ pub(crate) fn misnamed(base: &str, functions: &[Function], request: &Request) ->
     }
     let scalars = request.scalars.iter();
     let names = scalars.map(|&scalar| Names::new(base, Language::C, scalar));
-    let names = names.flat_map(|names| {
-        let long = |word: &String| (names.of(word), names.is_long(word));
-        words.iter().map(long).collect::<Vec<_>>()
-    });
+    let names = names.flat_map(|names| words.iter().map(move |word| names.with_limit(word)));
     let macros = ["RESTRICT", "UNFUSED", "SIMD"];
-    let own = Names::new(base, Language::C, ScalarType::F64);
-    let macros = macros.map(|word| own.constant(word)).into_iter();
-    let macros = macros.map(|name| (name.clone(), name.len() > LONGEST));
+    let macros = macros.map(|word| {
+        let name = Names::new(base, Language::C, ScalarType::F64).constant(word);
+        (name, LONGEST)
+    });
     let mut seen = BTreeSet::new();
     let mut names = names.chain(macros);
-    let found = names.find(|(name, is_long)| *is_long || !seen.insert(name.clone()));
+    let found = names.find(|(name, limit)| name.len() > *limit || !seen.insert(name.clone()));
     found.map(|(name, _)| name)
 }
 

@@ -104,13 +104,8 @@ impl Names {
         self.with_limit(word).0
     }
 
-    /// Returns true if compilers need not tell the name of a word from others.
-    pub(crate) fn is_long(&self, word: &str) -> bool {
-        let (name, limit) = self.with_limit(word);
-        name.len() > limit
-    }
-
-    fn with_limit(&self, word: &str) -> (String, usize) {
+    /// Returns the name of a word, and how many characters of it compilers tell apart.
+    pub(crate) fn with_limit(&self, word: &str) -> (String, usize) {
         let infix = self.scalar.of("", "f32_");
         let name = |word: &str| format!("{}_{infix}{word}", self.base);
         let words = word.split('_').map(|part| {
@@ -122,14 +117,17 @@ impl Names {
         let shorter = SHORTER.iter().fold(short.clone(), replaced);
         let names = [word, &short, &shorter].map(name);
         let within = |limit: usize| names.iter().find(|name| name.len() <= limit).cloned();
-        let room = |limit: usize| limit.saturating_sub(name("").len());
-        let limit = match shorter.len() > room(LONGEST).max(LONGEST_WORD - infix.len()) {
+        let least = LONGEST_WORD - infix.len();
+        let room = |limit: usize| limit.saturating_sub(name("").len()).max(least);
+        let limit = match shorter.len() > room(LONGEST) {
             true => LONGEST_AT_FRAMES,
             false => LONGEST,
         };
-        let most = room(limit).max(LONGEST_WORD - infix.len());
         let named = within(LONGEST).or_else(|| within(limit));
-        (named.unwrap_or_else(|| name(&cut(&shorter, most))), limit)
+        (
+            named.unwrap_or_else(|| name(&cut(&shorter, room(limit)))),
+            limit,
+        )
     }
 
     pub(crate) fn symbols(&self, function: Function) -> Symbols {

@@ -28,15 +28,7 @@ const INSIDE: f64 = 1.0 - 1e-9;
 pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, Complaint> {
     let read = |coordinate: usize, limit: Limit| {
         let joint = robot.joint_of(coordinate);
-        let value = match joint {
-            Some(joint) => (robot.joints.get(joint)).and_then(|row| row.limits.rate(limit)),
-            None => {
-                let base = robot.floating.as_ref();
-                let six = base.and_then(|base| base.limits.rate(limit));
-                six.map(|six| &six[coordinate])
-            }
-        };
-        match value.map(f64::nearest_rational) {
+        match robot.limit_of(coordinate, limit).map(f64::nearest_rational) {
             Some(value) if value > 0.0 => Ok(value),
             Some(_) => Err(complaint(format!(
                 "the limit `{}` of {} is 0: errors relative to the actuators need \

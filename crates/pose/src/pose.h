@@ -101,7 +101,7 @@ POSE_FUNCTION pose_quaternion pose_after(pose_quaternion a, pose_quaternion b) {
     return r;
 }
 
-/* Of a length 1 + e it leaves 1 - e^2/2. */
+/* It takes a length 1 + e to 1 - e^2/2. */
 POSE_FUNCTION pose_quaternion pose_nearly_unit_(pose_quaternion q) {
     const POSE_REAL k = (POSE_REAL)2 / ((POSE_REAL)1 + pose_squared_(q));
     const pose_quaternion r = {k * q.x, k * q.y, k * q.z, k * q.w};

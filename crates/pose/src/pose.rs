@@ -115,7 +115,7 @@ impl<T: Real> Quaternion<T> {
         Self { x, y, z, w }
     }
 
-    /// 2/(1 + |q|²) of it: of a length 1 + ε it leaves 1 − ε²/2, and takes no root.
+    /// 2/(1 + |q|²) times it, which takes a length 1 + ε to 1 − ε²/2 without a root.
     fn nearly_unit(self) -> Self {
         self.scaled(T::from(2) / (T::from(1) + self.squared()))
     }

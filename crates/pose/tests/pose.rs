@@ -1,4 +1,4 @@
-//! What the helpers promise: identities in exact arithmetic, the error bounds of the documentation,
+//! The promises of the helpers: identities in exact arithmetic, the error bounds of the documentation,
 //! Pinocchio's values, and the same numbers from the text for C.
 
 use std::cmp::Ordering;
@@ -22,15 +22,15 @@ struct Number<S>(S);
 
 trait Exact: Scalar + Copy + PartialEq {
     fn over(&self, other: &Self) -> Self;
-    fn is_below(&self, other: &Self) -> bool;
+    /// Returns false in a field, which has no order.
+    fn is_below(&self, _: &Self) -> bool {
+        false
+    }
 }
 
 impl Exact for Field {
     fn over(&self, other: &Self) -> Self {
         self.div(other)
-    }
-    fn is_below(&self, _: &Self) -> bool {
-        false
     }
 }
 
@@ -39,9 +39,6 @@ impl Exact for Dual<Field> {
         let value = self.value.div(&other.value);
         let rate = self.rate.sub(&value.mul(&other.rate)).div(&other.value);
         Dual { value, rate }
-    }
-    fn is_below(&self, _: &Self) -> bool {
-        false
     }
 }
 

@@ -8,7 +8,7 @@ use crate::{LEGS, Rates, Stance, State, go2};
 
 /// Stiffness and damping of the base, 1/s² and 1/s.
 const BASE: [f64; 2] = [200.0, 28.0];
-/// Of a leg in the air.
+/// Stiffness and damping of a leg in the air, 1/s² and 1/s.
 const LEG: [f64; 2] = [2500.0, 100.0];
 
 /// Torques of the joints, and the forces of the feet that the controller counts on.
@@ -23,8 +23,8 @@ pub struct Command {
 /// Returns the torques that bring the base to a pose, while the legs that do not stand take
 /// positions, three a leg.
 ///
-/// Of all forces that give the base its acceleration, those of the least squares are taken: the
-/// weight is shared.
+/// The forces are the least squares of those that give the base its acceleration: the weight is
+/// shared.
 pub fn command(
     state: &State,
     stance: Stance,

@@ -15,7 +15,7 @@ const TIMES: [f64; 3] = [0.5, 0.7, 0.9];
 /// The joints of a leg that is up, and of one that reaches for the ground in front of it, rad.
 const UP: [f64; 3] = [0.0, 1.0, -1.9];
 const FORWARD: [f64; 3] = [0.0, 0.47, -1.39];
-/// How far the base leans backward, and away from the foot that is lifted, m.
+/// The lean of the base backward, and away from the foot that is lifted, m.
 const LEAN: [f64; 2] = [-0.05, 0.04];
 
 /// The account of a walk.
@@ -29,9 +29,9 @@ pub struct Report {
     pub lost: f64,
     /// The largest error of the energy: what is there, less what was, work and losses, J.
     pub energy_error: f64,
-    /// How high a foot was, m.
+    /// The greatest height of a foot, m.
     pub highest: f64,
-    /// How far the front feet were put forward, m.
+    /// The length of the step of each front foot, m.
     pub forward: [f64; 2],
     /// The farthest that the base was from where it should be, m and rad.
     pub farthest: [f64; 2],

@@ -91,7 +91,8 @@ impl<'s> Points<'s> {
 pub fn check(own: Statement, points: &mut Points) -> Result<(), String> {
     // Own formulas are quotients of polynomials of a degree below 200 n²: D's entries are of 4 n,
     // its determinant of 4 n², and what is derived twice or inverted twice of a small multiple of
-    // that. Points in contact make it three rows and columns larger. What follows a joint several times as far is of as many times its degree.
+    // that. Points in contact make it three rows and columns larger. Joints that follow others
+    // several times as far are of as many times their degree.
     let setting = points.setting;
     let n = (setting.links() + setting.base()) as f64;
     let held = own.function.fields.iter().map(Field::points).max();

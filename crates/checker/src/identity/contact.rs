@@ -34,7 +34,7 @@ impl At<'_> {
         qdd
     }
 
-    /// Returns what is asked of each point in contact; none without one.
+    /// Returns the rows that are asked of each point in contact; none without one.
     pub(super) fn of_points(&self, of: impl Fn(&At) -> Matrix) -> Option<Matrix> {
         let mut all = Vec::new();
         for frame in self.view.frame.split(',') {
@@ -62,8 +62,7 @@ impl At<'_> {
     /// Returns accelerations, and the forces that hold points in contact.
     pub(super) fn held(&self) -> [Vec<Number>; 2] {
         let j = self.moving(self.contact_jacobians());
-        let driven = self.driven(j.clone());
-        let mobility = driven.iter().map(|row| times(&j, row)).collect();
+        let [driven, mobility] = self.mobility_of(&j);
         let free = self.accelerations(self.given("tau"));
         let escape = plus(&times(&j, &free), &self.contact_bias());
         let forces = solve(self.damped(mobility), vec![escape]).concat();
@@ -86,9 +85,12 @@ impl At<'_> {
 
     /// Returns J D⁻¹ and Λ⁻¹ = J D⁻¹ Jᵀ.
     pub(super) fn mobility(&self) -> [Matrix; 2] {
-        let j = self.moving_jacobian();
+        self.mobility_of(&self.moving_jacobian())
+    }
+
+    fn mobility_of(&self, j: &Matrix) -> [Matrix; 2] {
         let driven = self.driven(j.clone());
-        let mobility = driven.iter().map(|row| times(&j, row)).collect();
+        let mobility = driven.iter().map(|row| times(j, row)).collect();
         [driven, mobility]
     }
 

@@ -43,7 +43,7 @@ impl<'a> At<'a> {
         }
     }
 
-    /// Returns the same with another frame for a hand.
+    /// Returns it with another frame for a hand.
     pub(super) fn seen_as<'v>(&'v self, view: &'v View) -> At<'v> {
         At {
             view,

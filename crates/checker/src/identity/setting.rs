@@ -253,23 +253,19 @@ impl Setting<'_> {
             let most = text.map_or(Some(rate), |text| number(text)?.to_f64());
             most.map(|most| [-most, most])
         };
-        let base = self.base();
-        let found: Vec<(Option<usize>, Option<[f64; 2]>)> = match limit {
-            "position" => (0..self.joints())
-                .map(|joint| (Some(joint), self.positions(joint, rate)))
-                .collect(),
-            _ => (0..base + self.joints())
-                .map(|own| (own.checked_sub(base), of_rate(own)))
-                .collect(),
-        };
-        let checked = |(joint, range): (Option<usize>, Option<[f64; 2]>)| {
+        let before = if limit == "position" { 0 } else { self.base() };
+        let range = |place: usize| {
+            let range = match limit {
+                "position" => self.positions(place, rate),
+                _ => of_rate(place),
+            };
             let range = range.filter(|[low, high]| low <= high);
-            range.ok_or_else(|| match joint {
+            range.ok_or_else(|| match place.checked_sub(before) {
                 Some(joint) => format!("joint {}: the range of `{name}` is empty", joint + 1),
                 None => format!("the base: the range of `{name}` is empty"),
             })
         };
-        let all = found.into_iter().map(checked);
+        let all = (0..before + self.joints()).map(range);
         Ok(Some(all.collect::<Result<_, String>>()?))
     }
 

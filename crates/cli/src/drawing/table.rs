@@ -4,30 +4,26 @@ use dalembert_model::number::parse::write_decimal;
 use dalembert_model::number::{Angle, Rational, Rounded};
 
 use dalembert_model::robot::{
-    Convention, FloatingBase, Joint, JointKind, Placed, Placement, Robot,
+    Convention, FloatingBase, Inertia, Joint, JointKind, Placed, Placement, Robot,
 };
 
 use crate::report::{Cell, Table};
 
 pub(super) fn lines(robot: &Robot, q: &[f64]) -> Vec<String> {
     let convention = match robot.convention {
+        _ if robot.is_tree() => "joints are placed on the links that carry them",
         Convention::Standard => "standard DH",
         Convention::Modified => "modified DH (Craig)",
     };
     let gravity = robot.gravity.each_ref().map(number).join(", ");
     let at = q.iter().map(|&q| short(Some(q.to_string()), 7, q));
     let at = at.collect::<Vec<String>>().join(", ");
-    let convention = match robot.is_tree() {
-        true => "joints are placed on the links that carry them",
-        false => convention,
-    };
-    let at_rest = if robot.floating.is_some() {
-        " of the world"
-    } else {
-        ""
+    let axes = match robot.floating {
+        Some(_) => " of the world",
+        None => "",
     };
     let mut lines = vec![
-        format!("{convention}, gravity{at_rest} ({gravity}) m/s², lengths in m, masses in kg"),
+        format!("{convention}, gravity{axes} ({gravity}) m/s², lengths in m, masses in kg"),
         format!("drawn at q = ({at})"),
     ];
     for (what, end) in robot.placements() {
@@ -38,28 +34,27 @@ pub(super) fn lines(robot: &Robot, q: &[f64]) -> Vec<String> {
         false => "joint|theta|d|a|alpha|mass|centre of mass",
     };
     let joints = robot.joints.iter().enumerate();
-    let base = robot
-        .floating
-        .as_ref()
-        .map(|base| floating(base).map(Cell::from).to_vec());
+    let base = robot.floating.iter();
+    let base = base.map(|base| floating(base).map(Cell::from).to_vec());
     let rows = joints.map(|(i, joint)| match &joint.place {
         None => row(i, joint).map(Cell::from).to_vec(),
         Some(place) => placed(robot, i, place).map(Cell::from).to_vec(),
     });
-    let rows = base.into_iter().chain(rows);
+    let rows = base.chain(rows);
     let table = Table::new(heads).with(rows).unbroken().to_string();
     lines.extend(table.lines().map(|line| line.trim_start().to_owned()));
     // Below the table, because such a sentence does not fit beside it.
-    let base = robot
-        .floating
-        .as_ref()
-        .map(|base| ("the base".to_owned(), base.body()));
-    let joints = robot.joints.iter().zip(1..);
-    let joints = joints.map(|(joint, number)| (format!("joint {number}"), joint.clone()));
-    lines.extend(base.into_iter().chain(joints).filter_map(|(label, body)| {
-        let why = body.inertia.defect(&body.mass)?.message();
+    let defect = |label: &str, inertia: &Inertia<Rational>, mass: &Rational| {
+        let why = inertia.defect(mass)?.message();
         Some(format!("{label}: {why}"))
-    }));
+    };
+    let base = robot.floating.as_ref();
+    lines.extend(base.and_then(|base| defect("the base", &base.inertia, &base.mass)));
+    lines.extend(
+        robot.joints.iter().enumerate().filter_map(|(i, joint)| {
+            defect(&format!("joint {}", i + 1), &joint.inertia, &joint.mass)
+        }),
+    );
     lines
 }
 

@@ -200,7 +200,7 @@ impl Change {
     }
 }
 
-/// How many links are between each joint's link and the base, and between it and the farthest tip
+/// The number of links between each joint's link and the base, and between it and the farthest tip
 /// beyond it.
 struct Places {
     depth: Vec<usize>,

@@ -239,9 +239,11 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
             return options.floating;
         }
         let is_chosen = options.base.is_some() || !options.tips.is_empty() || self.others.is_some();
-        let has_limbs = || !self.arms_on(base).is_empty();
-        let is_found = !is_chosen && has_limbs();
-        options.tree || is_found && self.ends(base).is_some_and(|ends| ends.len() > 1)
+        // `ends` refuses a link on which nothing moves.
+        if is_chosen || self.arms_on(base).is_empty() {
+            return options.tree;
+        }
+        options.tree || self.ends(base).is_some_and(|ends| ends.len() > 1)
     }
 
     /// Returns true if a free joint carries a link.

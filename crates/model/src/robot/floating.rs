@@ -94,6 +94,14 @@ impl Robot {
         }
     }
 
+    /// Returns the limit of a rate, or of the load, of a coordinate: of a joint, or of the base.
+    pub fn limit_of(&self, coordinate: usize, rate: Limit) -> Option<&Rational> {
+        match self.joint_of(coordinate) {
+            Some(joint) => self.joints.get(joint)?.limits.rate(rate),
+            None => self.floating.as_ref()?.limits.rate(rate)?.get(coordinate),
+        }
+    }
+
     /// Returns true if a coordinate is an angle, or the rate of a turn.
     pub fn turns(&self, coordinate: usize) -> bool {
         match self.joint_of(coordinate) {

@@ -31,14 +31,22 @@ impl Scene {
         let (base, bounds) = (robot.base_coordinates(), &self.bounds);
         if let Some(floating) = &mut robot.floating {
             let limits = &mut floating.limits;
-            bound_base(&mut limits.velocity, &bounds.velocity);
-            bound_base(&mut limits.acceleration, &bounds.acceleration);
+            bound(&mut limits.velocity, &bounds.velocity, |all| {
+                all.first_chunk()
+            });
+            bound(&mut limits.acceleration, &bounds.acceleration, |all| {
+                all.first_chunk()
+            });
         }
         for (i, joint) in robot.joints.iter_mut().enumerate() {
             let limits = &mut joint.limits;
-            bound(&mut limits.position, &bounds.position, i);
-            bound(&mut limits.velocity, &bounds.velocity, base + i);
-            bound(&mut limits.acceleration, &bounds.acceleration, base + i);
+            bound(&mut limits.position, &bounds.position, |all| all.get(i));
+            bound(&mut limits.velocity, &bounds.velocity, |all| {
+                all.get(base + i)
+            });
+            bound(&mut limits.acceleration, &bounds.acceleration, |all| {
+                all.get(base + i)
+            });
         }
         robot
     }
@@ -54,15 +62,13 @@ impl Scene {
     }
 }
 
-fn bound<T: Clone>(limit: &mut Option<T>, all: &Option<Vec<T>>, place: usize) {
-    if let Some(own) = all.as_ref().and_then(|all| all.get(place)) {
-        *limit = Some(own.clone());
-    }
-}
-
-fn bound_base(limit: &mut Option<[Rational; 6]>, all: &Option<Vec<Rational>>) {
-    if let Some(own) = all.as_ref().and_then(|all| all.first_chunk()) {
-        *limit = Some(own.clone());
+fn bound<T: Clone, A>(
+    limit: &mut Option<T>,
+    all: &Option<Vec<A>>,
+    part: impl Fn(&[A]) -> Option<&T>,
+) {
+    if let Some(found) = all.as_deref().and_then(part) {
+        *limit = Some(found.clone());
     }
 }
 

@@ -93,15 +93,8 @@ impl Check<'_> {
                 continue;
             }
             let joint = self.robot.joint_of(index);
-            let limit = match joint {
-                Some(joint) => self.joint(joint).and_then(|own| own.limits.rate(rate)),
-                None => {
-                    let base = self.robot.floating.as_ref();
-                    let limits = base.and_then(|base| base.limits.rate(rate));
-                    limits.map(|limits| &limits[index])
-                }
-            };
             let is_locked = joint.is_some_and(|joint| self.scene.locked(joint).is_some());
+            let limit = self.robot.limit_of(index, rate);
             let beyond = limit.filter(|limit| value > limit && !is_locked);
             if let Some(limit) = beyond {
                 let (scene, name) = (&self.scene.name, self.robot.coordinate_label(index));
