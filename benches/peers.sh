@@ -2,7 +2,8 @@
 # Times generated functions beside what others offer: C that CasADi writes, by gcc
 # and by clang where they are, and the crates dynibo and phyz-rigid; then our C beside that
 # of CasADi and Pinocchio, by gcc. Fetches `pin`, its code generation and `casadi` from the
-# Python registry. Writes benches/peers/RESULTS.md, RESULTS_C.md and results.svg.
+# Python registry; last a quadruped. Writes benches/peers/RESULTS.md, RESULTS_C.md, RESULTS_LEGGED.md and
+# results.svg.
 set -eu
 cd "$(dirname "$0")/peers"
 work=${1:-$PWD/target/work}
@@ -26,3 +27,4 @@ fi
 cargo build --release --quiet --manifest-path ../../Cargo.toml -p dalembert-cli
 dalembert=${CARGO_TARGET_DIR:-$PWD/../../target}/release/dalembert
 "$work/python/bin/python" c.py "$work" "$dalembert"
+"$work/python/bin/python" legged.py run "$work" "$dalembert"

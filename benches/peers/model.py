@@ -100,6 +100,7 @@ class Arm:
         self.mass, self.com, self.inertia = [], [], []
         self.viscous, self.armature = [], []
         self.parent, self.coordinate, self.factor, self.shift = [], [], [], []
+        self.base = self.floating(robot["joint"])
         standard = robot.get("convention") == "standard"
         names = [joint.get("name") for joint in robot["joint"]]
         # From each joint's own frame to the one that the file's numbers are in; the base's last.
@@ -109,7 +110,7 @@ class Arm:
         for i, joint in enumerate(robot["joint"]):
             parent = joint.get("parent", i)
             if isinstance(parent, str):
-                parent = 0 if parent == "base" else names.index(parent) + 1
+                parent = names.index(parent) + 1 if parent in names else 0
             self.parent.append(parent - 1)
             mimic = follows[i] or {}
             leader = mimic.get("joint", i + 1)
@@ -147,10 +148,21 @@ class Arm:
         self.n = len(free)
         self.is_serial = self.parent == list(range(-1, self.n - 1))
 
+    @staticmethod
+    def floating(joints):
+        """Mass, centre of mass and inertia of a base that floats, which is no longer among the joints."""
+        if joints[0]["kind"] != "floating":
+            return None
+        base = joints.pop(0)
+        com = np.array([number(x) for x in base["com"]])
+        xx, yy, zz, xy, yz, xz = (number(x) for x in base["inertia"])
+        return number(base["mass"]), com, np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
     def about_origins(self):
-        """Of each link: mass, first moments, inertia about the joint's origin."""
+        """Of each link: mass, first moments, inertia about the joint's origin; last of a base that floats."""
+        bodies = list(zip(self.mass, self.com, self.inertia)) + ([self.base] if self.base else [])
         result = []
-        for m, c, i in zip(self.mass, self.com, self.inertia):
+        for m, c, i in bodies:
             result.append([m, m * c, i + m * (c @ c * np.eye(3) - np.outer(c, c))])
         return result
 
@@ -162,14 +174,14 @@ class Arm:
         round about it; along one that slides, the whole inertia.
         """
         links = self.about_origins()
-        for k in reversed(range(len(links))):
+        for k in reversed(range(len(self.mass))):
             m, mc, i = links[k]
             if self.prismatic[k]:
                 moved = [0.0, np.zeros(3), i]
             else:
                 moved = [m, np.array([0, 0, mc[2]]), np.diag([i[1, 1], i[1, 1], 0])]
             links[k] = [m - moved[0], mc - moved[1], i - moved[2]]
-            if self.parent[k] >= 0:
+            if self.parent[k] >= 0 or self.base:
                 (r, p), (m, mc, i) = self.place[k], moved
                 turned = r @ mc
                 other = np.outer(turned, p) + np.outer(p, turned)
@@ -185,9 +197,13 @@ class Arm:
 
         model = pin.Model()
         model.gravity = pin.Motion(np.concatenate([self.gravity, np.zeros(3)]))
+        first = 0
+        if self.base:
+            first = model.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), "base")
+            model.appendBodyToJoint(first, pin.Inertia(*self.base), pin.SE3.Identity())
         for i in range(len(self.mass)):
             kind = pin.JointModelPZ() if self.prismatic[i] else pin.JointModelRZ()
-            parent = self.parent[i] + 1
+            parent = self.parent[i] + 1 + first
             own = model.addJoint(parent, kind, pin.SE3(*self.place[i]), f"j{i + 1}")
             body = pin.Inertia(self.mass[i], self.com[i], self.inertia[i])
             model.appendBodyToJoint(own, body, pin.SE3.Identity())

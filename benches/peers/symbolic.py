@@ -97,7 +97,22 @@ class Chain:
     def newton_euler(self, qd, qdd, gravity, links):
         """Inverse dynamics; moments about joints' origins, of these links, or about the
         centres of mass."""
-        motion = [None] * self.links + [(ca.SX.zeros(3), ca.SX.zeros(3), const(-gravity))]
+        return self.recursion(qd, qdd, (ca.SX.zeros(3), ca.SX.zeros(3), const(-gravity)), links)[0]
+
+    def body(self, motion, links, i):
+        """The force and the moment that a body in motion needs."""
+        w, dw, a = motion
+        if links is None:
+            m, c, about = (const(x) for x in (self.arm.mass[i], self.arm.com[i], self.arm.inertia[i]))
+            f = m * (a + cross(dw, c) + cross(w, cross(w, c)))
+            return f, about @ dw + cross(w, about @ w) + cross(c, f)
+        m, mc, about = (const(x) for x in links[i])
+        f = m * a + cross(dw, mc) + cross(w, cross(w, mc))
+        return f, about @ dw + cross(w, about @ w) + cross(mc, a)
+
+    def recursion(self, qd, qdd, base, links):
+        """Torques on a base in motion (rate of turn, its rate, acceleration), and what it feels."""
+        motion = [None] * self.links + [base]
         forces = []
         for i in range(self.links):
             w, dw, a = motion[self.arm.parent[i]]
@@ -110,29 +125,20 @@ class Chain:
             else:
                 dw = dw + zd + cross(w, z)
                 w = w + z
-            if links is None:
-                m, c = self.arm.mass[i], const(self.arm.com[i])
-                f = m * (a + cross(dw, c) + cross(w, cross(w, c)))
-                about = const(self.arm.inertia[i])
-                k = about @ dw + cross(w, about @ w) + cross(c, f)
-            else:
-                m, mc, about = (const(x) for x in links[i])
-                f = m * a + cross(dw, mc) + cross(w, cross(w, mc))
-                k = about @ dw + cross(w, about @ w) + cross(mc, a)
             motion[i] = w, dw, a
-            forces.append((f, k))
+            forces.append(self.body(motion[i], links, i))
+        forces.append((ca.SX(3, 1), ca.SX(3, 1)))
         tau = [None] * self.links
         for i in reversed(range(self.links)):
             f, k = forces[i]
             tau[i] = (f if self.arm.prismatic[i] else k)[2]
             if self.arm.armature[i]:
                 tau[i] = tau[i] + self.arm.armature[i] * self.rate(qdd, i)
-            if self.arm.parent[i] >= 0:
-                before = forces[self.arm.parent[i]]
-                f = self.rotation[i] @ f
-                k = self.rotation[i] @ k + cross(self.offset[i], f)
-                forces[self.arm.parent[i]] = before[0] + f, before[1] + k
-        return self.gathered(tau)
+            before = forces[self.arm.parent[i]]
+            f = self.rotation[i] @ f
+            k = self.rotation[i] @ k + cross(self.offset[i], f)
+            forces[self.arm.parent[i]] = before[0] + f, before[1] + k
+        return self.gathered(tau), forces[-1]
 
     def damped(self, tau):
         return tau + self.gathered([self.friction(i) for i in range(self.links)])

@@ -17,6 +17,7 @@ mod figures;
 mod function;
 mod generate;
 mod language;
+mod limbs;
 mod parallel;
 mod plan;
 
@@ -45,6 +46,7 @@ pub use emit::GeneratedFunction;
 pub use function::Function;
 pub use generate::{GenerateError, Generated, generate};
 pub use language::Language;
+pub use limbs::LimbLayout;
 pub use plan::Plan;
 pub use program::{Counts, Program, ScalarType};
 pub use robot_file::{RobotFile, RobotFileError};

@@ -20,7 +20,7 @@ pub use crate::language::{
 pub use crate::parallel::each;
 pub use crate::plan::{Entry, file as plan_file};
 pub use crate::program::{
-    Code, Input, Library, Literal, Need, Operand, Operation, Output, Pair, Step, Steps,
+    Code, Input, Library, Literal, Loop, Need, Operand, Operation, Output, Pair, Step, Steps,
     kernel::{Angle, Kernel},
     machine::Machine,
 };

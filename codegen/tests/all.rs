@@ -16,6 +16,7 @@ mod golden;
 mod identity;
 mod kept;
 mod libm_ulps;
+mod limbs;
 mod printed;
 mod random;
 mod refused;

@@ -167,3 +167,67 @@ fn a_bound_that_says_little_needs_the_users_word() {
     };
     assert!(passes(0.1) && !passes(0.001));
 }
+
+/// Puts a difference of two steps into lanes that both add the same number, which cancels.
+fn in_lanes(own: &Certified) -> Certified {
+    let step = |word: &str| word.strip_prefix('t')?.parse::<usize>().ok();
+    let mut lines = own.text.lines();
+    let found = lines.find_map(|line| {
+        let (name, value) = line.trim().strip_prefix("let ")?.split_once(" = ")?;
+        let (left, right) = value.strip_suffix(';')?.split_once(" - ")?;
+        Some((line, step(name)?, step(left)?, step(right)?))
+    });
+    let (line, name, left, right) = found.unwrap();
+    let lanes = format!(
+        "    let u1 = [\n        [t{left}, t{right}],\n    ];\n    let mut w1 = [[0.0; 2]; 1];\n    for l in 0..2 {{\n        \
+         let t900 = c1 * 8192.5;\n        let t901 = u1[0][l] + t900;\n        w1[0][l] = t901;\n    }}\n    \
+         let t{name} = w1[0][0] - w1[0][1];"
+    );
+    let mut claim: Value = serde_json::from_str(&own.claim).unwrap();
+    let mut constants: Vec<Value> = claim["constants"].as_array().unwrap().clone();
+    constants.push(json!("16385/2"));
+    let number = constants.len() - 1;
+    claim["constants"] = json!(constants);
+    // Four steps more stand before the difference.
+    let moved = |word: &str| {
+        let pieces = word.split_inclusive(['+', '-', '*', '/']);
+        let moved = pieces.map(|piece| {
+            let end = piece.find(['+', '-', '*', '/']).unwrap_or(piece.len());
+            match step(&piece[..end]) {
+                Some(own) if own >= name => format!("t{}{}", own + 4, &piece[end..]),
+                _ => piece.to_owned(),
+            }
+        });
+        moved.collect::<String>()
+    };
+    let function = &mut claim["functions"][0];
+    let [steps, returns] =
+        ["steps", "returns"].map(|key| function[key].as_str().unwrap().to_owned());
+    let mut steps: Vec<String> = steps.split(' ').map(moved).collect();
+    let lane = |place: usize, operand: usize| {
+        let first = name + 2 * place;
+        [format!("c1*#{number}"), format!("t{operand}+t{first}")]
+    };
+    steps[name - 1] = format!("t{}-t{}", name + 1, name + 3);
+    let added = [lane(0, left), lane(1, right)].concat();
+    steps.splice(name - 1..name - 1, added);
+    function["steps"] = json!(steps.join(" "));
+    let returns: Vec<String> = returns.split(' ').map(moved).collect();
+    function["returns"] = json!(returns.join(" "));
+    let mut other = own.with(&own.text.replacen(line, &lanes, 1));
+    other.claim = claim.to_string();
+    other
+}
+
+/// Lanes may compute the same value, but not one that cancels between them.
+#[test]
+fn numbers_that_cancel_between_lanes_are_not_shown() {
+    let own = Certified::planar2r("forward_dynamics; scalar: f64");
+    let other = in_lanes(&own);
+    let why = other.refusal().unwrap();
+    assert!(
+        why.contains("with its like in other lanes"),
+        "{why}: {}",
+        other.text
+    );
+}

@@ -83,7 +83,13 @@ impl Dag {
     /// taken. A product stands right before its sum. Fused code stays as it is.
     #[must_use]
     pub fn fused(&self) -> Dag {
-        let taken = self.taken();
+        self.fused_where(|_| ())
+    }
+
+    /// Fuses the products alone that `keep` leaves in the list of those that each sum takes.
+    pub(crate) fn fused_where(&self, keep: impl FnOnce(&mut [Option<Id>])) -> Dag {
+        let mut taken = self.taken();
+        keep(&mut taken);
         let mut nodes: Vec<Node> = Vec::with_capacity(self.nodes.len());
         let mut places: Vec<Id> = vec![0; self.nodes.len()];
         for (node, id) in self.nodes.iter().zip(0..) {

@@ -9,6 +9,7 @@ use std::array::from_fn;
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::Field;
+use rustc_hash::FxHashMap;
 
 use super::{Builder, Dag, Fingerprint, Folding, Lanes, Node, Points};
 use crate::random::Random;
@@ -45,13 +46,33 @@ impl Dag {
         }
     }
 
+    /// True if no step is in vain, and none has a value that another one has, or an operand has, but
+    /// for its sign: where a program divides, the checker refuses these. Operations of one `row` may
+    /// have the same value.
+    pub(crate) fn has_needed_steps_alone(&self, row: impl Fn(usize) -> usize) -> bool {
+        let prints = self.prints();
+        let mut seen = FxHashMap::default();
+        let mut operations = 0;
+        let is_new = |(index, node): (usize, &Node)| {
+            let value = prints[index].canonical().0;
+            if node.operands().is_none() {
+                seen.insert(value, usize::MAX);
+                return true;
+            }
+            let row = row(operations);
+            operations += 1;
+            *seen.entry(value).or_insert(row) == row
+        };
+        self.live().all(is_new) && self.vain_steps().is_empty()
+    }
+
     fn prints(&self) -> Vec<Fingerprint> {
         let points = Points::SEARCH;
         let constant = |constant: &Exact| points.constant(constant).unwrap_or_else(Scalar::zero);
         self.values(&(constant, |input| points.input(input)))
     }
 
-    fn result_prints(&self) -> Vec<Fingerprint> {
+    pub(crate) fn result_prints(&self) -> Vec<Fingerprint> {
         self.results(&self.prints())
     }
 

@@ -274,6 +274,7 @@ pub(super) fn function_doc(
             ),
         },
     ];
+    lines.extend(said::lanes(&generated.program));
     lines.extend(said::fused(&generated.program));
     if generated.program.divides() {
         let why = [

@@ -68,6 +68,25 @@ pub(super) fn friction(generated: &GeneratedFunction, setup: &Setup) -> Vec<Stri
     lines
 }
 
+/// Says what the loops of the text are.
+pub(super) fn lanes(program: &Program) -> Vec<String> {
+    let loops = program.loops.iter();
+    let each = loops.map(|own| format!("{} lanes of {} operations", own.lanes, own.rows));
+    let each: Vec<String> = each.collect();
+    if each.is_empty() {
+        return Vec::new();
+    }
+    let lines = [
+        String::new(),
+        format!(
+            "Limbs of one structure are lanes of loops: {}. A compiler",
+            each.join(", ")
+        ),
+        "makes vectors of them, with the bits that each limb has by itself.".to_owned(),
+    ];
+    lines.to_vec()
+}
+
 pub(super) fn fused(program: &Program) -> Vec<String> {
     if !program.fuses() {
         return Vec::new();

@@ -4,6 +4,7 @@ mod again;
 pub(crate) mod contradiction;
 pub(crate) mod error;
 pub(crate) mod keep;
+mod lanes;
 pub(crate) mod language;
 pub(crate) mod parameters;
 mod range;
@@ -24,6 +25,7 @@ use crate::function::Function;
 use crate::language::Language;
 use crate::language::c99::Names;
 use crate::language::read::{Signature, TextError};
+use crate::limbs::LimbLayout;
 use crate::parallel;
 use crate::program::{Code, Program, ScalarType};
 use crate::search::Effort;
@@ -139,6 +141,10 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         }
     }
     parameters::check(job)?;
+    if let (LimbLayout::Lanes, Some([why, help])) = (request.limbs, lanes::refusal(job)) {
+        let message = format!("`limbs: lanes`: {why}");
+        return Err(GenerateError::refused(None, message, help));
+    }
     let (mut functions, mut scalars) = functions(job)?;
     let ended = request.effort == Effort::Thorough && request.watch.is_over();
     if ended {
@@ -341,6 +347,13 @@ fn attempt(job: &Job<'_>) -> Outcome<Found> {
         Effort::Thorough => functions.iter().map(proved).collect(),
     };
     let mut functions = found?;
+    let has_lanes = functions.iter().any(|own| !own.program.loops.is_empty());
+    if job.request.limbs == LimbLayout::Lanes && !has_lanes {
+        let message = "`limbs: lanes`: no function has limbs with the same joints whose numbers are zero in \
+                       the same places";
+        let help = "leave `limbs` out";
+        return Err(GenerateError::refused(None, message, help));
+    }
     let scalars = tolerate(job, &mut functions)?;
     Ok((functions, scalars))
 }
@@ -373,11 +386,15 @@ fn proved(job: &Job<'_>, function: Function) -> Outcome<GeneratedFunction> {
         return Err(GenerateError::Singular(function, why));
     }
     let entry = replay(job, job.request.plan.as_ref(), function)?;
+    let entry = entry.filter(|entry| lanes::admits(job, function, &entry.program));
     let planned = entry.is_some();
     let (source, mut passes, program, refused) = match entry {
         Some(entry) => {
             // Widths are the robot's: a plan has none.
-            let program = entry.program.with_speeds(setup.speeds());
+            let mut program = entry.program.with_speeds(setup.speeds());
+            if !lanes::may_be_lanes(job) {
+                program.loops.clear();
+            }
             (entry.source, entry.passes, program, None)
         }
         None => found(job, function)?,
@@ -422,6 +439,9 @@ fn proved(job: &Job<'_>, function: Function) -> Outcome<GeneratedFunction> {
 
 /// The checker refuses steps in vain, and plans of earlier versions have some.
 fn without_vain_steps(program: Program) -> Program {
+    if !program.loops.is_empty() {
+        return program;
+    }
     let graph = program.dag.without_vain_steps();
     match graph == program.dag {
         true => program,

@@ -3,7 +3,7 @@
 use dalembert_model::equations::chain::Regrouping;
 use dalembert_model::number::Exact;
 
-use super::{GenerateError, Job, Outcome};
+use super::{GenerateError, Job, Outcome, lanes};
 use crate::dag::Dag;
 use crate::function::Function;
 use crate::plan::{Entry, Plan};
@@ -52,30 +52,15 @@ pub fn replay(job: &Job<'_>, plan: Option<&Plan>, function: Function) -> Outcome
 /// A program with where it comes from, its counts on the way, and what would be cheaper.
 type Origin = (Source, Vec<Pass>, Program, Option<Refused>);
 
-/// Goes on from the program that is renewed, which stays unless there is a cheaper one.
+/// Returns the program, its limbs as lanes where that is asked for or cheaper.
 pub(super) fn found(job: &Job<'_>, function: Function) -> Result<Origin, GenerateError> {
     let search = Search::new(job, function);
-    let mut found = search.cheapest()?;
-    if let Some((entry, program)) = search.renewed() {
-        let again = search.on_from(&entry, &program, &found);
-        if let Some(again) = again.filter(|own| own.cost() < found.cost()) {
-            found = again;
-        }
-        if search::cost(&program.dag) <= found.cost() {
-            return Ok((entry.source, entry.passes, program, None));
-        }
+    let (source, passes, apart, refused) = search.apart()?;
+    let accepts = |graph: &Dag| search.judge.accepts(graph);
+    match lanes::chosen(job, function, &apart, accepts) {
+        Some(side_by_side) => Ok((Source::Regrouped, passes, side_by_side, None)),
+        None => Ok((source, passes, apart, refused)),
     }
-    let (seed, searched) = (found.seed(), &found.searched);
-    let program = job.setup.task(function).program(&searched.graph);
-    let counts = [
-        seed.traced,
-        seed.graph.counts(),
-        searched.start.counts(),
-        program.counts(),
-    ];
-    let passes = Pass::NAMES.into_iter().zip(counts);
-    let passes = passes.map(|(name, counts)| Pass { name, counts });
-    Ok((seed.source, passes.collect(), program, found.refused))
 }
 
 pub struct Found {
@@ -114,6 +99,31 @@ impl<'a> Search<'a> {
             task,
             judge: AccuracyFilter::new(task, is_lenient),
         }
+    }
+
+    /// Goes on from the program that is renewed, which stays unless there is a cheaper one.
+    fn apart(&self) -> Result<Origin, GenerateError> {
+        let mut found = self.cheapest()?;
+        if let Some((entry, program)) = self.renewed() {
+            let again = self.on_from(&entry, &program, &found);
+            if let Some(again) = again.filter(|own| own.cost() < found.cost()) {
+                found = again;
+            }
+            if search::cost(&program.dag) <= found.cost() {
+                return Ok((entry.source, entry.passes, program, None));
+            }
+        }
+        let (seed, searched) = (found.seed(), &found.searched);
+        let program = self.task.program(&searched.graph);
+        let counts = [
+            seed.traced,
+            seed.graph.counts(),
+            searched.start.counts(),
+            program.counts(),
+        ];
+        let passes = Pass::NAMES.into_iter().zip(counts);
+        let passes = passes.map(|(name, counts)| Pass { name, counts });
+        Ok((seed.source, passes.collect(), program, found.refused))
     }
 
     fn cheapest(&self) -> Result<Found, GenerateError> {
@@ -158,6 +168,9 @@ impl<'a> Search<'a> {
         let plan = request.renewed.as_ref();
         let plan = plan.filter(|plan| plan.input == input_hash(setup.robot()))?;
         let entry = replay(&self.job, Some(plan), self.task.function).ok()??;
+        if !entry.program.loops.is_empty() {
+            return None;
+        }
         let program = entry.program.clone().with_speeds(setup.speeds());
         let is_right = prove(setup, &program).is_ok() && self.judge.accepts(&program.dag);
         is_right.then_some((entry, program))

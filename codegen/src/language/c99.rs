@@ -19,6 +19,7 @@ use dalembert_sines::{LARGEST, LARGEST_F32};
 use super::called::Called;
 use super::dialect::Lines;
 use super::function::reads;
+use super::loops::{self, Piece};
 pub(crate) use super::names::{LONGEST, Names, float};
 use super::{Language, trig};
 use crate::function::{Argument, Function, Quantity, Sizes};
@@ -185,8 +186,22 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
     }
     trig::write_speeds(&mut text, dialect, code, "");
     let mut line = |line: &str| text += &format!("    {line}\n");
-    let lines = Lines::new(dialect, code);
-    lines.statements().for_each(|statement| line(&statement));
+    let (lines, pieces) = loops::pieces(dialect, code);
+    for piece in &pieces {
+        match piece {
+            Piece::Shared(ids) => {
+                let statements = ids.iter().filter_map(|id| lines.statement(*id));
+                statements.for_each(|statement| line(&statement));
+            }
+            Piece::Lanes(own) => {
+                own.before.iter().for_each(|own| line(own));
+                line(&own.head);
+                let rows = own.rows.iter().chain(&own.stores);
+                rows.for_each(|(_, own)| line(&format!("    {own}")));
+                line("}");
+            }
+        }
+    }
     let arguments = program.arguments.iter();
     for argument in arguments.filter(|argument| !reads(code, **argument)) {
         line(&format!("(void){};", argument.name()));

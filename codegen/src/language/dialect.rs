@@ -1,5 +1,9 @@
 //! How a language writes the lines of a function: one table, by which they are printed.
 
+use std::collections::HashMap;
+
+use super::Language;
+use crate::dag::fusion::Fusion;
 use crate::dag::{Dag, Edge, Id, Node};
 use crate::function::Argument;
 use crate::program::kernel::{Angle, Kernel};
@@ -8,6 +12,7 @@ use crate::program::{Code, Input, Literal, Operation, ScalarType};
 /// The words of a language for one scalar. In a pattern, `{}` stands for a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Dialect {
+    pub language: Language,
     pub scalar: ScalarType,
     pub function: &'static str,
     pub declaration: &'static str,
@@ -23,6 +28,7 @@ pub(crate) struct Dialect {
 impl Dialect {
     pub(crate) const fn rust(scalar: ScalarType) -> Dialect {
         Dialect {
+            language: Language::Rust,
             scalar,
             function: "pub fn",
             declaration: "let {} = {};",
@@ -44,6 +50,7 @@ impl Dialect {
 
     pub(crate) const fn c99(scalar: ScalarType) -> Dialect {
         Dialect {
+            language: Language::C,
             scalar,
             function: "static inline",
             declaration: scalar.of("const double {} = {};", "const float {} = {};"),
@@ -59,6 +66,7 @@ impl Dialect {
     /// them with sums, unless they say that they are rounded.
     pub(crate) const fn cuda(scalar: ScalarType) -> Dialect {
         Dialect {
+            language: Language::Cuda,
             function: "static __host__ __device__ inline",
             product: scalar.of("DALEMBERT_MUL({}, {})", "DALEMBERT_MULF({}, {})"),
             ..Dialect::c99(scalar)
@@ -74,6 +82,20 @@ impl Dialect {
             Operation::Mul => filled(self.product, &[left, right]),
             other => format!("{left} {} {right}", other.symbol()),
         }
+    }
+
+    pub(super) fn fused_sum(
+        &self,
+        fusion: &Fusion,
+        [left, right]: [String; 2],
+        addend: &str,
+    ) -> String {
+        let left = match fusion.negative {
+            true => filled(self.negative, &[&left]),
+            false => left,
+        };
+        let sign = if fusion.minus { "-" } else { "" };
+        filled(self.fused, &[&left, &right, &format!("{sign}{addend}")])
     }
 
     pub(crate) fn call(&self, path: &str, function: &str, argument: &str) -> String {
@@ -98,6 +120,9 @@ pub(crate) struct Lines<'c, I> {
     numbers: Vec<Option<usize>>,
     prefix: String,
     input: Box<dyn Fn(&I) -> String + 'c>,
+    /// The names of values of loops outside of these, and if what they name is the negative, which
+    /// results alone read.
+    names: HashMap<Id, (String, bool)>,
 }
 
 impl<'c> Lines<'c, Input> {
@@ -114,6 +139,7 @@ impl<'c> Lines<'c, Input> {
                 }
                 other => other.name(),
             }),
+            names: HashMap::new(),
         }
     }
 }
@@ -131,12 +157,20 @@ impl<'c> Lines<'c, Angle> {
             numbers: kernel.dag.numbers(),
             prefix: prefix.to_owned(),
             input: Box::new(|_| angle.to_owned()),
+            names: HashMap::new(),
         }
     }
 }
 
 impl<I> Lines<'_, I> {
+    pub(super) fn name(&mut self, id: Id, name: String, is_negative: bool) {
+        self.names.insert(id, (name, is_negative));
+    }
+
     pub(crate) fn operand(&self, id: Id) -> String {
+        if let Some((name, _)) = self.names.get(&id) {
+            return name.clone();
+        }
         match self.dag.node(id) {
             Node::Input(input) => (self.input)(input),
             Node::Constant(value) => self.dialect.literal(*value),
@@ -148,7 +182,12 @@ impl<I> Lines<'_, I> {
     }
 
     pub(crate) fn result(&self, output: Edge) -> String {
-        let sign = if output.negative { "-" } else { "" };
+        let is_stored = self.names.get(&output.node).is_some_and(|own| own.1);
+        let sign = if output.negative != is_stored {
+            "-"
+        } else {
+            ""
+        };
         format!("{sign}{}", self.operand(output.node))
     }
 
@@ -177,14 +216,8 @@ impl<I> Lines<'_, I> {
                 dialect.operation(*operation, &left, &right)
             }
             Some(fusion) => {
-                let [left, right] = fusion.factors.map(|id| self.operand(id));
-                let left = match fusion.negative {
-                    true => filled(dialect.negative, &[&left]),
-                    false => left,
-                };
-                let sign = if fusion.minus { "-" } else { "" };
-                let addend = format!("{sign}{}", self.operand(fusion.addend));
-                filled(dialect.fused, &[&left, &right, &addend])
+                let factors = fusion.factors.map(|id| self.operand(id));
+                dialect.fused_sum(&fusion, factors, &self.operand(fusion.addend))
             }
         };
         Some(dialect.declare(&self.operand(id), &value))

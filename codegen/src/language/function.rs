@@ -6,6 +6,7 @@
 use crate::dag::Id;
 use crate::function::{Argument, Function, Sizes};
 use crate::language::dialect::{Dialect, Lines};
+use crate::language::loops::{self, LoopText, Piece};
 use crate::language::result::{self, array_type};
 use crate::language::{comment, list, trig};
 use crate::program::{Code, Input, Library, Program, ScalarType};
@@ -27,8 +28,7 @@ pub fn write(program: &Program, code: &Code, library: Library, doc: &[String]) -
     let dialect = Dialect::rust(code.scalar);
     trig::write(&mut text, code);
     trig::write_speeds(&mut text, dialect, code, library.path());
-    write_steps(&mut text, code, dialect);
-    let lines = Lines::new(dialect, code);
+    let lines = write_pieces(&mut text, code, dialect);
     let (function, sizes) = (program.function, program.sizes());
     result::write(&mut text, function, sizes, lines.results());
     text.push_str("}\n");
@@ -38,30 +38,126 @@ pub fn write(program: &Program, code: &Code, library: Library, doc: &[String]) -
 pub(super) fn write_steps(text: &mut String, code: &Code, dialect: Dialect) {
     let lines = Lines::new(dialect, code);
     let ids: Vec<Id> = code.dag.operations().map(|(id, ..)| id).collect();
-    if ids.len() <= FLAT {
-        for line in lines.statements() {
-            *text += &format!("    {line}\n");
-        }
-        return;
+    Blocks {
+        indent: "    ",
+        is_cut: ids.len() > FLAT,
+        last_use: &last_uses(code),
+        is_whole: &|id| code.dag.fusion(id).is_none(),
+        name: &|id| lines.operand(id),
+        line: &|id| lines.statement(id),
     }
+    .write(text, &ids, Id::MAX);
+}
+
+/// Writes operations, and returns the names by which results read them.
+fn write_pieces<'c>(text: &mut String, code: &'c Code, dialect: Dialect) -> Lines<'c, Input> {
+    let (lines, pieces) = loops::pieces(dialect, code);
+    let shared = pieces.iter().map(|piece| match piece {
+        Piece::Shared(ids) => ids.len(),
+        Piece::Lanes(_) => 0,
+    });
+    let is_cut = shared.sum::<usize>() > FLAT;
     let last_use = last_uses(code);
-    let mut rest = ids.as_slice();
-    while !rest.is_empty() {
-        let mut length = BLOCK.min(rest.len());
-        // None ends between a product and the sum that takes it.
-        let next = rest.get(length).and_then(|&id| code.dag.fusion(id));
-        length += usize::from(next.is_some());
-        let (block, after) = rest.split_at(length);
-        let end = after.first().copied().unwrap_or(Id::MAX);
-        rest = after;
-        // A block hands on what is read after it: that much is live.
-        let live = block.iter().filter(|&&id| last_use[id as usize] >= end);
-        let live: String = live.map(|&id| format!("{}, ", lines.operand(id))).collect();
-        *text += &format!("    let ({}) = {{\n", live.trim_end());
-        for line in block.iter().filter_map(|&id| lines.statement(id)) {
-            *text += &format!("        {line}\n");
+    for (place, piece) in pieces.iter().enumerate() {
+        match piece {
+            Piece::Shared(ids) => {
+                let next = pieces[place + 1..].iter().find_map(Piece::first);
+                Blocks {
+                    indent: "    ",
+                    is_cut,
+                    last_use: &last_use,
+                    is_whole: &|id| code.dag.fusion(id).is_none(),
+                    name: &|id| lines.operand(id),
+                    line: &|id| lines.statement(id),
+                }
+                .write(text, ids, next.unwrap_or(Id::MAX));
+            }
+            Piece::Lanes(lanes) => write_loop(text, code, lanes, &last_use),
         }
-        *text += &format!("        ({})\n    }};\n", live.trim_end());
+    }
+    lines
+}
+
+fn write_loop(text: &mut String, code: &Code, lanes: &LoopText, last_use: &[Id]) {
+    for line in &lanes.before {
+        *text += &format!("    {line}\n");
+    }
+    *text += &format!("    {}\n", lanes.head);
+    let ids: Vec<Id> = lanes.rows.iter().map(|row| row.0).collect();
+    let mut last_use = last_use.to_vec();
+    for &id in &ids {
+        // A fused product stands in the line of its sum.
+        let factors = code.dag.fusion(id).map(|fusion| fusion.factors);
+        for factor in factors.into_iter().flatten() {
+            last_use[factor as usize] = last_use[factor as usize].max(id);
+        }
+    }
+    // Stores stand behind the rows.
+    for (id, _) in &lanes.stores {
+        last_use[*id as usize] = Id::MAX;
+    }
+    let place = |id: Id| ids.binary_search(&id).unwrap_or_default();
+    let line = |id: Id| lanes.rows[place(id)].1.clone();
+    let name = |id: Id| {
+        let declared = line(id);
+        declared.split(' ').nth(1).unwrap_or_default().to_owned()
+    };
+    Blocks {
+        indent: "        ",
+        is_cut: ids.len() > FLAT,
+        last_use: &last_use,
+        is_whole: &|_| true,
+        name: &name,
+        line: &|id| Some(line(id)),
+    }
+    .write(text, &ids, ids.last().map_or(Id::MAX, |last| last + 1));
+    for (_, line) in &lanes.stores {
+        *text += &format!("        {line}\n");
+    }
+    text.push_str("    }\n");
+}
+
+/// Operations of one scope, cut into blocks where there are many.
+struct Blocks<'a> {
+    indent: &'static str,
+    is_cut: bool,
+    last_use: &'a [Id],
+    /// False of a sum that stands with the product before it.
+    is_whole: &'a dyn Fn(Id) -> bool,
+    name: &'a dyn Fn(Id) -> String,
+    line: &'a dyn Fn(Id) -> Option<String>,
+}
+
+impl Blocks<'_> {
+    /// `end` is the first operation behind them.
+    fn write(&self, text: &mut String, ids: &[Id], end: Id) {
+        let indent = self.indent;
+        if !self.is_cut {
+            for line in ids.iter().filter_map(|&id| (self.line)(id)) {
+                *text += &format!("{indent}{line}\n");
+            }
+            return;
+        }
+        let mut rest = ids;
+        while !rest.is_empty() {
+            let mut length = BLOCK.min(rest.len());
+            // None ends between a product and the sum that takes it.
+            let next = rest.get(length).filter(|&&id| !(self.is_whole)(id));
+            length += usize::from(next.is_some());
+            let (block, after) = rest.split_at(length);
+            let end = after.first().copied().unwrap_or(end);
+            rest = after;
+            // A block hands on what is read after it: that much is live.
+            let live = block
+                .iter()
+                .filter(|&&id| self.last_use[id as usize] >= end);
+            let live: String = live.map(|&id| format!("{}, ", (self.name)(id))).collect();
+            *text += &format!("{indent}let ({}) = {{\n", live.trim_end());
+            for line in block.iter().filter_map(|&id| (self.line)(id)) {
+                *text += &format!("{indent}    {line}\n");
+            }
+            *text += &format!("{indent}    ({})\n{indent}}};\n", live.trim_end());
+        }
     }
 }
 

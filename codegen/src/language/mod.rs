@@ -5,6 +5,7 @@ pub(crate) mod called;
 pub(crate) mod columns;
 pub(crate) mod dialect;
 pub(crate) mod function;
+mod loops;
 pub(crate) mod names;
 pub(crate) mod read;
 pub(crate) mod result;

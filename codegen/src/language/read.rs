@@ -116,6 +116,7 @@ fn code(read: read::Function, scalar: ScalarType) -> Result<Code, TextError> {
         pairs: pairs.collect(),
         speeds: speeds.collect(),
         dag: graph(&read.program, |value| Literal(*value), input),
+        loops: Vec::new(),
     })
 }
 

@@ -12,7 +12,7 @@ use super::{Entry, Plan};
 use crate::claim::{Written, claimed, code};
 use crate::function::{Argument, Function};
 use crate::language::read::{graph, input};
-use crate::program::{Counts, Input, Program, ScalarType};
+use crate::program::{Counts, Input, Loop, Program, ScalarType};
 use crate::search::Pass;
 use crate::seeds::{Source, Start};
 use crate::setup::{ParametersKey, SceneKey};
@@ -94,6 +94,7 @@ impl Entry {
             joints: exact.joints,
             floats: exact.floating > 0,
             rows: exact.rows.iter().map(|row| row + 1).collect(),
+            loops: loops(emitted),
             scene: hash,
             load: (self.parameters.as_ref()).map(|own| (own.load, own.hash.clone())),
         };
@@ -110,6 +111,11 @@ impl Entry {
             ..claimed(emitted, scene, constants)
         }
     }
+}
+
+fn loops(program: &Program) -> Vec<[usize; 3]> {
+    let loops = program.loops.iter();
+    loops.map(|own| [own.first, own.rows, own.lanes]).collect()
 }
 
 fn entry(own: &Claimed, constants: &[Exact]) -> Result<Entry, Complaint> {
@@ -152,7 +158,13 @@ fn entry(own: &Claimed, constants: &[Exact]) -> Result<Entry, Complaint> {
     empty.load = parameters.as_ref().map_or(0, |own| own.load);
     let emitted = own.program(constants).map_err(refused)?;
     let exact = own.exact(constants).map_err(refused)?;
-    let program = program(&empty, exact.as_ref().unwrap_or(&emitted))?;
+    let mut program = program(&empty, exact.as_ref().unwrap_or(&emitted))?;
+    let loops = planned.loops.iter();
+    let loops = loops.map(|&[first, rows, lanes]| Loop { first, rows, lanes });
+    program.loops = loops.collect();
+    if !program.has_lanes() {
+        return Err(complaint("a loop whose lanes have different operations"));
+    }
     let edited = exact.map(|_| edited(&empty, &emitted));
     let edited = edited.transpose()?;
     Ok(Entry {

@@ -8,7 +8,7 @@ use dalembert_model::scalar::Divide;
 
 use super::kernel::{Kernel, Need};
 use super::machine::Machine;
-use super::{Counts, Input, Library, Literal, Program, ScalarType};
+use super::{Counts, Input, Library, Literal, Loop, Program, ScalarType};
 use crate::dag::lanes::{LANES, Lanes};
 use crate::dag::{Dag, Leaves};
 use crate::function::Argument;
@@ -24,6 +24,8 @@ pub struct Code {
     /// The joints of which r = 1/√(q̇² + w²) is read, ascending.
     pub speeds: Vec<Speed<Literal>>,
     pub dag: Dag<Literal>,
+    /// Operations that the text has in loops; none in code that was read.
+    pub loops: Vec<Loop>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -74,6 +76,7 @@ impl Code {
             pairs: pairs.collect(),
             speeds: speeds.collect(),
             dag: program.dag.map(literal, |input| *input),
+            loops: program.loops.clone(),
         };
         code.calling(library)
     }

@@ -63,6 +63,7 @@ mod tests {
             pairs: Vec::new(),
             speeds: Vec::new(),
             dag: Dag { nodes, outputs },
+            loops: Vec::new(),
         }
     }
 

@@ -42,6 +42,27 @@ pub struct Program {
     /// The arithmetic in the order of the code, each leaf before the first operation that reads it,
     /// and the results in the order of the function's quantities.
     pub dag: Dag,
+    /// Operations that the text has in loops, in their order.
+    pub loops: Vec<Loop>,
+}
+
+/// Operations that are the same for several lanes: a lane's rows stand together, in the order of the
+/// lanes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Loop {
+    /// The first, among all operations.
+    pub first: usize,
+    /// The operations of a lane.
+    pub rows: usize,
+    /// The number of lanes.
+    pub lanes: usize,
+}
+
+impl Loop {
+    /// Returns the operation behind the last.
+    pub fn end(&self) -> usize {
+        self.first + self.rows * self.lanes
+    }
 }
 
 impl Program {
@@ -56,6 +77,7 @@ impl Program {
             load: 0,
             speeds: Vec::new(),
             dag: Dag::default(),
+            loops: Vec::new(),
         }
     }
 
@@ -65,7 +87,7 @@ impl Program {
         self.with_code(graph.scheduled())
     }
 
-    /// The operations keep their order. A constant that is a result has its own sign.
+    /// The operations keep their order, and are in no loop. A constant that is a result has its own sign.
     #[must_use]
     pub(crate) fn with_code(&self, mut graph: Dag) -> Program {
         for edge in &mut graph.outputs {
@@ -80,6 +102,7 @@ impl Program {
             arguments: self.arguments.clone(),
             dag: graph.map(Exact::clone, |input| *input),
             speeds: Vec::new(),
+            loops: Vec::new(),
             ..*self
         };
         program.with_speeds(self.speeds.clone())
@@ -105,10 +128,53 @@ impl Program {
         Some(program)
     }
 
-    /// Returns the program with its products fused.
+    /// Returns the program with its products fused; in loops those that all lanes fuse.
     #[must_use]
     pub fn fused(&self) -> Program {
-        self.with_code(self.dag.fused())
+        let cells = self.cells();
+        let fused = self.dag.fused_where(|taken| {
+            let is_within = |sum: Id, product: Id| {
+                let [own, other] = [sum, product].map(|id| cells[id as usize]);
+                own.0 == other.0 && own.1 == other.1
+            };
+            for (sum, product) in (0..).zip(taken.iter_mut()) {
+                *product = product.filter(|product| is_within(sum, *product));
+            }
+            let ids: Vec<Id> = self.dag.operations().map(|(id, ..)| id).collect();
+            for own in &self.loops {
+                for row in 0..own.rows {
+                    let lanes = (0..own.lanes).map(|lane| ids[own.first + lane * own.rows + row]);
+                    let lanes: Vec<Id> = lanes.collect();
+                    let product = |id: &Id| taken[*id as usize].map(|own| cells[own as usize].2);
+                    if lanes.iter().any(|id| product(id) != product(&lanes[0])) {
+                        lanes.iter().for_each(|id| taken[*id as usize] = None);
+                    }
+                }
+            }
+        });
+        // A product stands in front of its sum, in the same lane: loops are as long as they were.
+        let program = self.with_code(fused);
+        Program {
+            loops: self.loops.clone(),
+            ..program
+        }
+    }
+
+    /// Returns of each node the loop, or the part between two, that it is in, its lane, and its row.
+    fn cells(&self) -> Vec<(usize, usize, usize)> {
+        let mut cells = vec![(0, 0, 0); self.dag.nodes.len()];
+        for (place, (id, ..)) in self.dag.operations().enumerate() {
+            let before = self.loops.iter().filter(|own| own.end() <= place).count();
+            let own = self.loops.get(before).filter(|own| own.first <= place);
+            cells[id as usize] = match own {
+                Some(own) => {
+                    let inside = place - own.first;
+                    (2 * before + 1, inside / own.rows, inside % own.rows)
+                }
+                None => (2 * before, 0, place),
+            };
+        }
+        cells
     }
 
     #[must_use]
@@ -142,6 +208,44 @@ impl Program {
             kernel: None,
         };
         needs.into_iter().map(pair).collect()
+    }
+
+    /// True if the lanes of each loop have the same operations, on values of their lane or of others.
+    pub(crate) fn has_lanes(&self) -> bool {
+        let all: Vec<_> = self.dag.operations().collect();
+        let places: BTreeMap<Id, usize> =
+            (all.iter().zip(0..)).map(|(own, i)| (own.0, i)).collect();
+        let mut done = 0;
+        self.loops.iter().all(|own| {
+            let lanes = own.rows.checked_mul(own.lanes);
+            let end = lanes.and_then(|lanes| lanes.checked_add(own.first));
+            let is_there = end.is_some_and(|end| end <= all.len());
+            if !is_there || own.first < done || own.rows == 0 || own.lanes < 2 {
+                return false;
+            }
+            done = own.end();
+            let within = |id: &Id, lane: usize| {
+                let place = places
+                    .get(id)
+                    .and_then(|place| place.checked_sub(own.first));
+                let place = place.filter(|place| *place < own.rows * own.lanes);
+                place.map(|place| {
+                    place
+                        .checked_sub(lane * own.rows)
+                        .filter(|row| *row < own.rows)
+                })
+            };
+            (0..own.rows).all(|row| {
+                let (_, operation, operands) = &all[own.first + row];
+                let own_rows = operands.each_ref().map(|id| within(id, 0));
+                (1..own.lanes).all(|lane| {
+                    let (_, other, others) = &all[own.first + lane * own.rows + row];
+                    // None reads a value of another lane.
+                    let rows = others.each_ref().map(|id| within(id, lane));
+                    other == operation && rows == own_rows && !rows.contains(&Some(None))
+                })
+            })
+        })
     }
 
     /// Counts the operations.

@@ -28,9 +28,19 @@ pub fn trace_chain(
     form: Form,
     folding: Folding,
 ) -> (Dag, Counts) {
+    trace_symbols(task, form, folding, |builder| symbols(task, chain, builder))
+}
+
+/// Traces a function by the chain formulas, of a chain of symbols.
+pub(crate) fn trace_symbols(
+    task: Task<'_>,
+    form: Form,
+    folding: Folding,
+    chain: impl FnOnce(&Rc<RefCell<Builder>>) -> Chain<Symbol>,
+) -> (Dag, Counts) {
     let Task { setup, function } = task;
     let builder = Rc::new(RefCell::new(Builder::new(folding)));
-    let mut chain = symbols(task, chain, &builder);
+    let mut chain = chain(&builder);
     let mut gravity = None;
     if setup.takes(function, RuntimeParameter::Gravity) {
         let entry = |axis| Symbol::input(&builder, Input::Entry(Argument::Gravity, axis));

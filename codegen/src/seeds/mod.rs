@@ -19,7 +19,7 @@ use crate::function::Argument;
 use crate::program::{Counts, Input};
 use crate::scalar::{Erased, restored};
 use crate::setup::Task;
-pub(crate) use chain::regrouped;
+pub(crate) use chain::{regrouped, trace_symbols};
 pub use chain::{skeleton, skeleton_for, trace_chain};
 pub(crate) use descent::{Limit, tuned, tunings};
 pub use start::Start;

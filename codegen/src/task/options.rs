@@ -12,6 +12,7 @@ use dalembert_stamp::Asked;
 
 use super::request::{Prefer, Request};
 use crate::function::Function;
+use crate::limbs::LimbLayout;
 use crate::program::ScalarType;
 use crate::sincos::SinCos;
 use crate::words::{Complaint, Word, complaint, parse};
@@ -122,7 +123,7 @@ fn name(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
 }
 
 /// The options, in the order in which they are written.
-pub static OPTIONS: [OptionRow; 13] = [
+pub static OPTIONS: [OptionRow; 14] = [
     OptionRow {
         name: "outputs",
         purpose: Purpose::What,
@@ -180,6 +181,17 @@ pub static OPTIONS: [OptionRow; 13] = [
         words: bool::known,
         is_list: false,
         set: |draft, item| parse(item).map(|value| draft.request.fma = value),
+    },
+    OptionRow {
+        name: "limbs",
+        purpose: Purpose::Code,
+        doc: "How functions compute limbs of one structure, such as legs: `lanes`, by one loop that a \
+              compiler makes vectors of; `apart`, each by itself; `auto`, whichever takes fewer \
+              operations if a vector has two numbers. Batches have vectors of states: they take \
+              limbs apart",
+        words: LimbLayout::known,
+        is_list: false,
+        set: |draft, item| parse(item).map(|value| draft.request.limbs = value),
     },
     OptionRow {
         name: "sincos",
@@ -339,6 +351,7 @@ impl Request {
             ("effort", self.effort.name()),
             ("prefer", self.prefer.name()),
             ("fma", word(self.fma)),
+            ("limbs", self.limbs.name()),
             ("sincos", self.sincos.name()),
             ("sincos_error", &error.unwrap_or_default()),
             ("batch", word(self.batch)),

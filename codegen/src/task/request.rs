@@ -6,6 +6,7 @@ use dalembert_model::scene::{Float, Scene};
 
 use crate::function::Function;
 use crate::language::Language;
+use crate::limbs::LimbLayout;
 use crate::plan::Plan;
 use crate::program::{Library, ScalarType};
 use crate::search::Effort;
@@ -47,6 +48,8 @@ pub struct Request {
     /// `true` if a product and the sum that alone reads it are one operation, `mul_add`, and rounded
     /// once. It needs `std`, and a processor that has it.
     pub fma: bool,
+    /// How functions compute limbs of one structure.
+    pub limbs: LimbLayout,
     /// The source of sines and cosines.
     pub sincos: SinCos,
     /// The largest |computed − true| of each sine and cosine by polynomials. If nothing is said it
@@ -95,6 +98,7 @@ impl Default for Request {
             effort: Effort::default(),
             prefer: Prefer::default(),
             fma: false,
+            limbs: LimbLayout::default(),
             sincos: SinCos::default(),
             sincos_error: None,
             auto: Library::default(),

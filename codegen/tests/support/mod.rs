@@ -290,7 +290,9 @@ impl Case {
             module: None,
             ..self.request.clone()
         };
-        let key = format!("{robot:?} {searched:?}");
+        // Elsewhere limbs may be lanes.
+        let is_apart = self.request.batch || self.request.language == Language::Cuda;
+        let key = format!("{robot:?} {searched:?} {is_apart}");
         let known = FOUND.lock().unwrap().get(&key).cloned();
         if let Some(plan) = known {
             return self.by(&plan);

@@ -119,6 +119,9 @@ pub struct Planned {
     pub floats: bool,
     /// The coordinates that the results are over, from one.
     pub rows: Vec<usize>,
+    /// The loops of the text: the operations before each, those of a lane, and the lanes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub loops: Vec<[usize; 3]>,
     /// The hash of the scene.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub scene: String,

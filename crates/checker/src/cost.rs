@@ -127,7 +127,14 @@ impl Subject<'_> {
         let is_measured = divides.contains(&true);
         if let (true, Some(points)) = (is_measured, points.three()) {
             let load = rounding.load.len();
-            hidden::check(self.program, self.setting, load, points, self.work)?;
+            hidden::check(
+                self.program,
+                &self.read.loops,
+                self.setting,
+                load,
+                points,
+                self.work,
+            )?;
         }
         let bounded = divides.iter().filter(|own| !**own).count();
         let steps = read.program.steps.len();

@@ -4,7 +4,8 @@
 //! - No step is in vain: at random residues another value of it gives another result. Of K in
 //!   (x + K) − K any value gives the same.
 //! - No step that reads the state has one value at two random points, and none is, but for its
-//!   sign, an earlier one or an operand.
+//!   sign, an earlier one or an operand. Lanes of a loop may compute the same: then these steps are
+//!   in vain if no result changes where all of them change alike.
 //! - In f64, a step that no quotient reaches is over the box at most [`MOST_RATIO`] times its
 //!   largest magnitude at states. Honest programs need 2¹⁹. In f32 a constant of 24 bits hides as
 //!   much as rounding does.
@@ -12,7 +13,7 @@
 //! Programs of the generator satisfy these; they are a sieve, and no proof. x + 2K − L, where L is
 //! 2K written otherwise, passes.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use crate::fault::Fault;
 use crate::identity::exact::{Exact, Point};
@@ -32,6 +33,7 @@ const RESIDUE: u64 = 60;
 /// Checks the first two conditions; `load` is the number of entries of a load.
 pub(crate) fn check(
     program: &Program<Exact>,
+    loops: &[[usize; 3]],
     setting: &Setting,
     load: usize,
     points: &[Point; 3],
@@ -40,10 +42,16 @@ pub(crate) fn check(
     work.spend(program.steps.len(), 6 * RESIDUE)?;
     let lost = || Fault::Claim("the program reads what is not there".into());
     let [first, second, point] = points;
-    let vain = [first, second].map(|point| vain(program, point, setting, load));
-    let [Some(one), Some(other)] = vain else {
+    let vain = [first, second].map(|point| vain(program, loops, point, setting, load));
+    let [Some([one, twins]), Some([other, others])] = vain else {
         return Err(lost());
     };
+    if let Some(step) = twins.intersection(&others).min() {
+        return Err(refused(
+            *step,
+            "changes no result with its like in other lanes",
+        ));
+    }
     // No derivative is no proof: at an extremum there is none either.
     let mut idle: Vec<usize> = one.intersection(&other).copied().collect();
     idle.sort_unstable();
@@ -66,10 +74,19 @@ pub(crate) fn check(
     let [Some(first), Some(second)] = values else {
         return Err(lost());
     };
-    let mut known = HashSet::new();
-    let mut is_new = |both: [Number; 2]| {
+    let mut known = HashMap::new();
+    // Lanes of one row may have it.
+    let mut is_new = |both: [Number; 2], row: usize| {
         let values = |both: [Number; 2]| both.map(|x| x.value(point.prime).unwrap_or_default());
-        known.insert(values(both.map(|x| -x)).min(values(both)))
+        let first = known.entry(values(both.map(|x| -x)).min(values(both)));
+        *first.or_insert(row) == row
+    };
+    let row = |step: usize| {
+        let mut own = loops
+            .iter()
+            .filter(|[first, rows, lanes]| (*first..first + rows * lanes).contains(&step));
+        own.next()
+            .map_or(step, |[first, rows, _]| first + (step - first) % rows)
     };
     let is_input = |own: &Operand<Exact>| Some(!matches!(own, Operand::Constant(_)));
     let reads_state = program.values(is_input, |_, a, b| a || b);
@@ -78,7 +95,7 @@ pub(crate) fn check(
     for own in operands.filter(|own| !matches!(own, Operand::Step(_) | Operand::Constant(_))) {
         let both = [&one, &other].map(|state| leaf(own, point, state));
         if let [Some(a), Some(b)] = both {
-            is_new([a, b]);
+            is_new([a, b], usize::MAX);
         }
     }
     for (step, (a, b)) in first.into_iter().zip(second).enumerate() {
@@ -90,7 +107,7 @@ pub(crate) fn check(
         if is_constant && reads_state[step] {
             return Err(refused(step, "has one value at all states"));
         }
-        if !is_new([a, b]) {
+        if !is_new([a, b], row(step)) {
             return Err(refused(step, "has the value of an earlier one"));
         }
     }
@@ -111,13 +128,15 @@ fn state(point: &Point, setting: &Setting, load: usize) -> Option<State> {
     Some(state)
 }
 
-/// Lists the steps without which a random combination of the results is the same.
+/// Lists the steps without which a random combination of the results is the same, and those without
+/// which and their like in other lanes it is.
 fn vain(
     program: &Program<Exact>,
+    loops: &[[usize; 3]],
     point: &Point,
     setting: &Setting,
     load: usize,
-) -> Option<HashSet<usize>> {
+) -> Option<[HashSet<usize>; 2]> {
     let state = state(point, setting, load)?;
     let values = program.step_residues(point, &state)?;
     let mut slopes = vec![Number::new(0, point.prime); values.len()];
@@ -153,5 +172,29 @@ fn vain(
         let is_none = own.value(point.prime) == Some(0);
         is_none.then_some(step)
     };
-    Some(slopes.iter().enumerate().filter_map(is_vain).collect())
+    let alone = slopes.iter().enumerate().filter_map(is_vain).collect();
+    let mut twins = HashSet::new();
+    let value = |own: Number| own.value(point.prime);
+    for &[first, rows, lanes] in loops {
+        for step in first..first + rows {
+            // Slopes by what a lane has as the first one of its value.
+            let like = |lane: usize| (step + lane * rows..first + rows * lanes).step_by(rows);
+            for lane in 0..lanes {
+                let own = step + lane * rows;
+                let mut slope = Number::new(0, point.prime);
+                let mut count = 0;
+                for other in like(lane) {
+                    if value(values[other]) == value(values[own]) {
+                        (slope, count) = (slope + slopes[other], count + 1);
+                    } else if value(values[other]) == value(-values[own]) {
+                        (slope, count) = (slope - slopes[other], count + 1);
+                    }
+                }
+                if count > 1 && !slope.is_nonzero() {
+                    twins.insert(own);
+                }
+            }
+        }
+    }
+    Some([alone, twins])
 }

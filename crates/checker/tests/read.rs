@@ -91,3 +91,39 @@ fn sines_of_a_list_behind_the_call() {
     let found = read(&many).unwrap_err();
     assert!(found.contains("as many angles"), "{found}");
 }
+
+#[test]
+fn loops_over_limbs() {
+    let good = "static const double k1[1][2] = {\n{0.5, -0.5},\n};\nconst double u1[1][2] = {\n{q[0], q[1]},\n};\n\
+                double w1[1][2];\nfor (int l = 0; l < 2; ++l) {\nconst double t1 = u1[0][l] * k1[0][l];\n\
+                w1[0][l] = t1;\n}\nconst double t1 = w1[0][0] + w1[0][1];";
+    refused(
+        good,
+        &[
+            ("k1[1][2]", "k1[2][2]", "as many numbers"),
+            ("k1[1][2]", "k1[1][3]", "as many numbers"),
+            ("{0.5, -0.5}", "{0.5}", "as many numbers"),
+            (
+                "const double u1",
+                "const double k1",
+                "another name of an array",
+            ),
+            ("double w1[1][2]", "double w1[1][65]", "lengths of an array"),
+            ("double w1[1][2]", "double w1[2][2]", "no lane writes"),
+            ("l < 2", "l < 1", "a loop over lanes"),
+            ("l < 2", "l < 3", "no index"),
+            ("u1[0][l] *", "u1[1][l] *", "no index"),
+            ("u1[0][l] *", "w1[0][l] *", "not written yet"),
+            ("w1[0][l] = t1", "w1[0][0] = t1", "written twice"),
+            ("w1[0][l] = t1", "w1[0][l] = t2", "neither a value"),
+            ("w1[0][l] = t1;\n", "", "no lane writes"),
+            ("w1[0][l] = t1", "w1[0][l] = -t1", "negated"),
+            ("w1[0][0] +", "w1[0][l] +", "no index"),
+            (
+                "const double t1 = u1",
+                "for (int l = 0; l < 2; ++l) {\n}\nconst double t1 = u1",
+                "a loop over lanes",
+            ),
+        ],
+    );
+}

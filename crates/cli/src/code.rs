@@ -1,7 +1,7 @@
 //! The report of generated code: operations, bounds under a tolerance, the proof, and, if
 //! everything is asked for, what the search did and what rounding costs.
 
-use dalembert_codegen::workspace::{Admitted, Library, Proof, SEED, Variant, bound_of};
+use dalembert_codegen::workspace::{Admitted, Library, Loop, Proof, SEED, Variant, bound_of};
 use dalembert_codegen::{Function, Generated, GeneratedFunction, Request};
 use dalembert_model::robot::Robot;
 
@@ -23,6 +23,10 @@ pub enum Detail {
 pub fn report(robot: &Robot, request: &Request, generated: &Generated, detail: Detail) -> Report {
     let mut report = Report::of(robot, request.scene.as_ref());
     report.table("functions", "", operations(generated, detail));
+    let lanes = Table::new("function|lanes|each|shared");
+    let lanes = lanes.with(generated.functions.iter().filter_map(lanes_of));
+    let title = "limbs as lanes of loops: operations of each lane, and those that lanes share";
+    report.table("lanes", title, lanes);
     let heads = "function|scalar|trig_mul|trig_add|angles|error";
     let sines = Table::new(heads).with(generated.functions.iter().flat_map(sines));
     let title = "sines and cosines by polynomials, errors proved";
@@ -71,6 +75,25 @@ fn operations(generated: &Generated, detail: Detail) -> Table {
     }
     // The operations of polynomials have a table of their own.
     table.without("trig_mul|trig_add").without_zeros("fma|sqrt")
+}
+
+fn lanes_of(function: &GeneratedFunction) -> Option<Vec<Cell>> {
+    let program = &function.program;
+    let all = program.dag.operations().count();
+    let loops = program.loops.iter();
+    let inside: usize = loops.map(|own| own.rows * own.lanes).sum();
+    let joined = |number: fn(&Loop) -> usize| {
+        let numbers = program.loops.iter().map(|own| number(own).to_string());
+        numbers.collect::<Vec<String>>().join(" + ")
+    };
+    (inside > 0).then(|| {
+        cells![
+            function.function.to_string(),
+            joined(|own| own.lanes),
+            joined(|own| own.rows),
+            all - inside,
+        ]
+    })
 }
 
 fn sines(function: &GeneratedFunction) -> impl Iterator<Item = Vec<Cell>> {

@@ -13,7 +13,7 @@ use std::path::Path;
 
 use dalembert_cli::drawing;
 use dalembert_codegen::Function::{Gravity, Inertia, InverseDynamics};
-use dalembert_codegen::{Request, ScalarType, generate};
+use dalembert_codegen::{LimbLayout, Request, ScalarType, generate};
 use dalembert_import::{OpenError, Options, open};
 use dalembert_model::robot::{JointKind, Robot};
 use serde::Deserialize;
@@ -137,6 +137,8 @@ impl Entry {
         let (arm, robot) = (&self.arm, &self.robot);
         let mut request = Request::new(&[InverseDynamics, Gravity, Inertia]);
         request.scalars = vec![ScalarType::F64];
+        // What others count has no lanes.
+        request.limbs = LimbLayout::Apart;
         let generated = generate(robot, &request).map_err(|why| format!("{}: {why}", arm.name))?;
         let mut row = format!("| [{}](#{}) |", arm.title, arm.name);
         for group in robot.joints.chunk_by(|a, b| a.kind == b.kind) {

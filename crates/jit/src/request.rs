@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use dalembert_codegen::{Asked, Problem, Request, ScalarType, SinCos, Watch};
+use dalembert_codegen::{Asked, LimbLayout, Problem, Request, ScalarType, SinCos, Watch};
 use dalembert_model::read::Reading;
 
 use crate::error::LoadError;
@@ -54,6 +54,8 @@ impl Load {
         if request.sincos == SinCos::Auto && !has_tolerance {
             request.sincos = SinCos::Together;
         }
+        // Vectors are of states.
+        request.limbs = LimbLayout::Apart;
         request.watch = self.watch.clone();
         request.work = Request::work_while_compiling(request.effort);
         Ok(request)

@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 
 /// The options by their names, in the order in which they are written, and the word of each that
 /// means as much as leaving it out.
-pub const OPTIONS: [(&str, &str); 13] = [
+pub const OPTIONS: [(&str, &str); 14] = [
     ("outputs", ""),
     ("scalar", ""),
     ("formulation", "auto"),
     ("effort", "quick"),
     ("prefer", "accuracy"),
     ("fma", "off"),
+    ("limbs", "auto"),
     ("sincos", "auto"),
     ("sincos_error", ""),
     ("batch", "off"),

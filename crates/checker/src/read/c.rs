@@ -124,7 +124,15 @@ impl<'r> Reader<'r> {
         let (mut angles, mut called, mut pair) = (Vec::new(), Vec::new(), None);
         let kind = format!("{}_sincos_t", symbols.prefix);
         loop {
-            if self.peek(0) == float {
+            if self.take_all("for (int l = 0; l <")? {
+                let lanes = self.next();
+                self.expect_all("; ++l) {")?;
+                self.lanes(lanes, |own| own.c_statements(symbols, is_told))?;
+            } else if self.peek(0) == float && self.peek(1).starts_with('w') {
+                let [name, rows, lanes] = [1, 3, 6].map(|place| self.peek(place));
+                self.expect_all(&format!("{float} {name}[{rows}][{lanes}];"))?;
+                self.empty_array(name, [rows, lanes])?;
+            } else if self.peek(0) == float {
                 let count = self.peek(3);
                 self.expect_all(&format!(
                     "{float} sines[{count}]; {float} cosines[{count}]; {}_sines_{count}(",
@@ -156,11 +164,16 @@ impl<'r> Reader<'r> {
                     "const {kind} p{number} = {prefix}_sincos({far}, q[{joint}]);"
                 ))?;
                 pair = Some(joint);
-            } else if self.take("const") {
+            } else if self.take_all("static const")? || self.take("const") {
                 self.expect(float)?;
                 let name = self.next();
                 if name == "angles" {
                     angles = self.c_angles()?;
+                } else if self.peek(0) == "[" {
+                    let [rows, lanes] = [self.peek(1), self.peek(4)];
+                    self.expect_all(&format!("[{rows}][{lanes}] = {{"))?;
+                    // Others would be zero.
+                    self.rows(name, ["{", "}"], Some([rows, lanes]))?;
                 } else {
                     self.expect("=")?;
                     self.c_value(name, &called, pair)?;

@@ -142,6 +142,8 @@ pub struct Function {
     pub speeds: Vec<(usize, f64)>,
     /// Operations and results.
     pub program: Program<f64>,
+    /// The loops over lanes: the operations before each, those of a lane, and the lanes.
+    pub loops: Vec<[usize; 3]>,
 }
 
 /// A text as words.

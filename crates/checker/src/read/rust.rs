@@ -52,8 +52,28 @@ impl<'r> Reader<'r> {
     }
 
     fn statements(&mut self, is_part: bool) -> Read<()> {
-        while self.take("let") {
+        loop {
+            if self.take_all("for l in")? {
+                let lanes = self.next().strip_prefix("0..").unwrap_or_default();
+                self.expect("{")?;
+                self.lanes(lanes, |own| own.statements(false))?;
+                continue;
+            }
+            if !self.take("let") {
+                return Ok(());
+            }
             match (self.peek(0), self.peek(1)) {
+                ("mut", name) => {
+                    self.next();
+                    self.next();
+                    let [lanes, rows] = [self.peek(5), self.peek(8)];
+                    self.expect_all(&format!("= [[0.0; {lanes}]; {rows}]"))?;
+                    self.empty_array(name, [rows, lanes])?;
+                }
+                (name, "=") if self.peek(2) == "[" => {
+                    self.at += 3;
+                    self.rows(name, ["[", "]"], None)?;
+                }
                 ("(", "[") => self.together()?,
                 ("(", name) if name.starts_with('t') && !is_part => self.part()?,
                 ("(", _) => {
@@ -78,7 +98,6 @@ impl<'r> Reader<'r> {
             }
             self.expect(";")?;
         }
-        Ok(())
     }
 
     fn sines(&mut self, names: &[(&'r str, bool)]) -> Read<()> {

@@ -1,0 +1,68 @@
+//! Whether limbs are lanes: what was asked, and what cannot be.
+
+use super::Job;
+use crate::dag::Dag;
+use crate::function::Function;
+use crate::language::Language;
+use crate::limbs::{LimbLayout, is_traced, price, side_by_side};
+use crate::program::Program;
+use crate::search::cost;
+use crate::seeds::Start;
+
+/// Returns why limbs of a request can be no lanes, and the fix; none if they can.
+pub(super) fn refusal(job: &Job<'_>) -> Option<[&'static str; 2]> {
+    let request = job.request;
+    if request.language == Language::Cuda {
+        return Some([
+            "on a GPU vectors are of states",
+            "leave `limbs` out, or generate Rust or C",
+        ]);
+    }
+    if request.batch {
+        return Some([
+            "a batch has vectors of states",
+            "leave `batch` or `limbs` out, or generate two files",
+        ]);
+    }
+    if job.tolerance().is_some() {
+        return Some([
+            "what a tolerance leaves out differs from limb to limb",
+            "leave `limbs` out, or take a scene without a tolerance",
+        ]);
+    }
+    if request.start != Start::Auto {
+        return Some([
+            "a formulation alone is taken as it stands",
+            "leave `formulation` or `limbs` out",
+        ]);
+    }
+    None
+}
+
+pub(super) fn may_be_lanes(job: &Job<'_>) -> bool {
+    job.request.limbs != LimbLayout::Apart && refusal(job).is_none()
+}
+
+/// True unless a plan keeps limbs apart that are asked for as lanes.
+pub(super) fn admits(job: &Job<'_>, function: Function, planned: &Program) -> bool {
+    let is_asked = job.request.limbs == LimbLayout::Lanes;
+    !is_asked || !planned.loops.is_empty() || !is_traced(job.setup.task(function))
+}
+
+/// Returns the program of a function whose limbs are lanes, if that is asked for, or if nothing is
+/// and it is cheaper than the program whose limbs are apart.
+pub(super) fn chosen(
+    job: &Job<'_>,
+    function: Function,
+    apart: &Program,
+    accepts: impl Fn(&Dag) -> bool,
+) -> Option<Program> {
+    let request = job.request;
+    if !may_be_lanes(job) {
+        return None;
+    }
+    let lanes = side_by_side(job.setup.task(function), request.effort)?;
+    let is_cheaper = price(&lanes) < cost(&apart.dag);
+    let is_asked = request.limbs == LimbLayout::Lanes;
+    ((is_asked || is_cheaper) && !lanes.loops.is_empty() && accepts(&lanes.dag)).then_some(lanes)
+}

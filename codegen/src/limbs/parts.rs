@@ -1,0 +1,288 @@
+//! The parts of a rolled graph: what all lanes share and what each class of limbs computes, in turns.
+//! Each is a graph that is searched by itself.
+
+use std::collections::BTreeMap;
+
+use dalembert_model::number::Exact;
+use rustc_hash::FxHashMap;
+
+use super::rolled::{Content, Rolled, Value};
+use super::structure::{Limbs, OPAQUE, tuple_input};
+use crate::dag::{Builder, Dag, Edge, Folding, Id, Node};
+use crate::function::Argument;
+use crate::program::Input;
+
+/// A value of another part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Import {
+    Shared(Id),
+    /// A row, in the reader's lane.
+    Row(usize),
+    Lane(usize, usize),
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    /// The class whose lanes compute it; none of what they share.
+    pub class: Option<usize>,
+    /// As lane 0 computes it. Its inputs are the function's, entries of tuples and imports.
+    pub graph: Dag,
+    /// The values that the graph returns.
+    pub exports: Vec<Value>,
+}
+
+pub(super) struct Parts {
+    pub parts: Vec<Part>,
+    pub imports: Vec<Import>,
+    /// Of each row its numbers, one a lane, where it is constant.
+    pub constants: Vec<Option<Vec<Exact>>>,
+}
+
+impl Parts {
+    pub(super) fn import(&self, input: Input) -> Option<Import> {
+        match input {
+            Input::Entry(Argument::Load, entry) => {
+                self.imports.get(entry.checked_sub(OPAQUE)?).copied()
+            }
+            _ => None,
+        }
+    }
+
+    pub(super) fn of(rolled: &Rolled<'_>, limbs: &mut Limbs, base: usize) -> Parts {
+        let constants = rolled.constants(limbs);
+        let phases = Phases::of(rolled, &constants);
+        let mut contents: BTreeMap<(usize, Option<usize>), Vec<Value>> = BTreeMap::new();
+        let live = |id: Id| rolled.dag.node(id).operands().is_some();
+        let reads = rolled.dag.reads();
+        for id in (0..rolled.dag.nodes.len() as Id).filter(|&id| live(id)) {
+            if reads[id as usize] > 0 && rolled.member(id).is_none() {
+                let place = (phases.shared[id as usize], None);
+                contents.entry(place).or_default().push(Value::Shared(id));
+            }
+        }
+        for (index, row) in rolled.rows.iter().enumerate() {
+            if matches!(row.content, Content::Apply(..)) && constants[index].is_none() {
+                let place = (phases.rows[index], Some(row.class));
+                contents.entry(place).or_default().push(Value::Row(index));
+            }
+        }
+        let exported = exported(rolled, &phases);
+        let mut parts = Parts {
+            parts: Vec::new(),
+            imports: Vec::new(),
+            constants,
+        };
+        let mut places = FxHashMap::default();
+        for ((_, class), values) in contents {
+            let mut writer = PartWriter {
+                rolled,
+                limbs: &mut *limbs,
+                base,
+                constants: &parts.constants,
+                imports: &mut parts.imports,
+                places: &mut places,
+                builder: Builder::new(Folding::Syntactic),
+                known: FxHashMap::default(),
+            };
+            for &value in &values {
+                writer.write(value);
+            }
+            let exports = values
+                .into_iter()
+                .filter(|value| exported.contains_key(value));
+            let exports: Vec<Value> = exports.collect();
+            let outputs = exports.iter().map(|value| writer.known[value]).collect();
+            let graph = writer.builder.finish(outputs);
+            parts.parts.push(Part {
+                class,
+                graph,
+                exports,
+            });
+        }
+        parts
+    }
+}
+
+/// The values that other parts or results read.
+fn exported(rolled: &Rolled<'_>, phases: &Phases) -> FxHashMap<Value, ()> {
+    let value = |id: Id| match rolled.member(id) {
+        Some(member) => Value::Row(member.row),
+        None => Value::Shared(id),
+    };
+    let mut exported = FxHashMap::default();
+    for edge in &rolled.dag.outputs {
+        exported.insert(value(edge.node), ());
+    }
+    let reads = rolled.dag.reads();
+    for (id, node) in (0..).zip(&rolled.dag.nodes) {
+        let Some(operands) = node.operands().filter(|_| reads[id as usize] > 0) else {
+            continue;
+        };
+        let reader = value(id);
+        for operand in operands {
+            let other = value(operand);
+            let is_here = match (reader, other) {
+                (Value::Row(reader), Value::Row(other)) => {
+                    phases.rows[reader] == phases.rows[other]
+                }
+                (Value::Shared(reader), Value::Shared(other)) => {
+                    phases.shared[reader as usize] == phases.shared[other as usize]
+                }
+                _ => false,
+            };
+            if !is_here {
+                exported.insert(other, ());
+            }
+        }
+    }
+    exported
+}
+
+/// Even phases are of what lanes share, odd ones of lanes; each reads those before it.
+struct Phases {
+    shared: Vec<usize>,
+    rows: Vec<usize>,
+}
+
+impl Phases {
+    fn of(rolled: &Rolled<'_>, constants: &[Option<Vec<Exact>>]) -> Phases {
+        let mut phases = Phases {
+            shared: vec![0; rolled.dag.nodes.len()],
+            rows: vec![1; rolled.rows.len()],
+        };
+        loop {
+            let mut ends = true;
+            for (id, node) in (0..).zip(&rolled.dag.nodes) {
+                let Some(operands) = node.operands() else {
+                    continue;
+                };
+                let member = rolled.member(id);
+                if member.is_some_and(|member| constants[member.row].is_some()) {
+                    continue;
+                }
+                let phase = |operand: Id| {
+                    let is_leaf = rolled.dag.node(operand).operands().is_none();
+                    match (rolled.member(operand), member) {
+                        (Some(other), _) if is_leaf || constants[other.row].is_some() => 0,
+                        (Some(other), Some(_)) => phases.rows[other.row],
+                        (Some(other), None) => phases.rows[other.row] + 1,
+                        (None, None) => phases.shared[operand as usize],
+                        (None, Some(_)) if is_leaf => 0,
+                        (None, Some(_)) => phases.shared[operand as usize] + 1,
+                    }
+                };
+                let [a, b] = operands.map(phase);
+                let place = match member {
+                    Some(member) => &mut phases.rows[member.row],
+                    None => &mut phases.shared[id as usize],
+                };
+                if a.max(b) > *place {
+                    *place = a.max(b);
+                    ends = false;
+                }
+            }
+            if ends {
+                return phases;
+            }
+        }
+    }
+}
+
+struct PartWriter<'a, 'd> {
+    rolled: &'a Rolled<'d>,
+    limbs: &'a mut Limbs,
+    base: usize,
+    constants: &'a [Option<Vec<Exact>>],
+    imports: &'a mut Vec<Import>,
+    places: &'a mut FxHashMap<Import, usize>,
+    builder: Builder,
+    known: FxHashMap<Value, Edge>,
+}
+
+impl PartWriter<'_, '_> {
+    fn write(&mut self, value: Value) {
+        let (operation, operands) = match value {
+            Value::Row(row) => match self.rolled.rows[row].content {
+                Content::Apply(operation, operands) => (
+                    operation,
+                    operands.map(|operand| self.of_lane(operand, row)),
+                ),
+                Content::Input(_) => return,
+            },
+            Value::Shared(id) => match *self.rolled.dag.node(id) {
+                Node::Apply(operation, operands) => {
+                    (operation, operands.map(|operand| self.shared(operand)))
+                }
+                _ => return,
+            },
+        };
+        let [a, b] = operands;
+        let edge = self.builder.apply(operation, a, b);
+        self.known.insert(value, edge);
+    }
+
+    fn import(&mut self, import: Import) -> Edge {
+        let next = self.imports.len();
+        let place = *self.places.entry(import).or_insert(next);
+        if place == next {
+            self.imports.push(import);
+        }
+        let input = Input::Entry(Argument::Load, OPAQUE + place);
+        self.builder.input(input)
+    }
+
+    fn of_lane(&mut self, operand: Value, reader: usize) -> Edge {
+        match operand {
+            Value::Row(row) => {
+                if let Some(numbers) = &self.constants[row] {
+                    if numbers.iter().all(|number| *number == numbers[0]) {
+                        return self.builder.constant(&numbers[0]);
+                    }
+                    let class = self.rolled.rows[reader].class;
+                    let (tuple, is_negative) = self.limbs.tuple(class, numbers.clone());
+                    let entry = self.builder.input(tuple_input(tuple, 0));
+                    return entry.negated_if(is_negative);
+                }
+                match self.rolled.rows[row].content {
+                    Content::Input(input) => self.builder.input(input),
+                    Content::Apply(..) => match self.known.get(&operand) {
+                        Some(edge) => *edge,
+                        None => self.import(Import::Row(row)),
+                    },
+                }
+            }
+            Value::Shared(id) => match self.rolled.dag.node(id) {
+                Node::Constant(constant) => self.builder.constant(constant),
+                // An entry of a joint of the limbs would be taken for the lane's.
+                Node::Input(input) if self.limbs.lane_of(*input, self.base).is_none() => {
+                    self.builder.input(*input)
+                }
+                _ => self.import(Import::Shared(id)),
+            },
+        }
+    }
+
+    fn shared(&mut self, operand: Id) -> Edge {
+        match (self.rolled.dag.node(operand), self.rolled.member(operand)) {
+            (Node::Constant(constant), _) => self.builder.constant(constant),
+            (node, Some(member)) => {
+                if let Some(numbers) = &self.constants[member.row] {
+                    let number = self.builder.constant(&numbers[member.lane]);
+                    return number.negated_if(member.negative);
+                }
+                match node {
+                    Node::Input(input) => self.builder.input(*input),
+                    _ => {
+                        let import = self.import(Import::Lane(member.row, member.lane));
+                        import.negated_if(member.negative)
+                    }
+                }
+            }
+            (Node::Input(input), None) => self.builder.input(*input),
+            (Node::Apply(..), None) => match self.known.get(&Value::Shared(operand)) {
+                Some(edge) => *edge,
+                None => self.import(Import::Shared(operand)),
+            },
+        }
+    }
+}

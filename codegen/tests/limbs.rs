@@ -1,0 +1,260 @@
+//! Limbs as lanes of loops: the same results, bit for bit, as the operations of each limb by itself;
+//! and no limb in another's place.
+
+use dalembert_codegen::workspace::keep;
+use dalembert_codegen::{Generated, LimbLayout, Plan, generate};
+
+use serde_json::{Value, json};
+
+use crate::certified::Certified;
+use crate::support::compiled::same_bits;
+use crate::support::{Case, changes, source};
+
+/// Limbs on a base that floats or not: no two of them have all numbers alike.
+fn robot(trunk: &str, limbs: usize) -> String {
+    let mut text = format!("name = \"limbs\"\ngravity = [0, 0, -9.81]\n{trunk}");
+    let carrier = if trunk.is_empty() { "base" } else { "trunk" };
+    for (limb, x, y, m) in [
+        ("fl", "0.19", "0.047", "0.76"),
+        ("fr", "0.19", "-0.047", "0.77"),
+        ("rl", "-0.2", "0.047", "0.78"),
+        ("rr", "-0.2", "-0.047", "0.79"),
+    ]
+    .into_iter()
+    .take(limbs)
+    {
+        let side = y.replace("0.047", "0.095");
+        text += &format!(
+            r#"
+[[joint]]
+name = "{limb}_hip"
+parent = "{carrier}"
+kind = "revolute"
+placement = {{ xyz = [{x}, {y}, 0] }}
+axis = [1, 0, 0]
+mass = {m}
+com = [-0.005, {y}, -1e-4]
+inertia = [0.0005, 0.001, 0.0007, -2e-6, -1e-6, 1e-6]
+
+[[joint]]
+name = "{limb}_knee"
+kind = "revolute"
+placement = {{ xyz = [0, {side}, 0] }}
+axis = [0, 1, 0]
+mass = 1.24
+com = [-0.004, {y}, -0.03]
+inertia = [0.006, 0.006, 0.001, 2e-5, -2e-5, 1e-4]
+armature = 0.01
+"#
+        );
+    }
+    text
+}
+
+const TRUNK: &str = r#"
+[[joint]]
+name = "trunk"
+kind = "floating"
+mass = 7.3
+com = [0.02, 0.003, -0.005]
+inertia = [0.026, 0.1, 0.11, 0.0001, -3e-5, 0.0015]
+"#;
+
+fn quadruped() -> String {
+    robot(TRUNK, 4)
+}
+
+const OUTPUTS: [&str; 5] = [
+    "inverse_dynamics",
+    "gravity",
+    "inertia",
+    "forward_dynamics",
+    "inverse_dynamics_derivatives",
+];
+
+fn loops(generated: &Generated) -> Vec<Vec<usize>> {
+    let functions = generated.functions.iter();
+    let lanes = functions.map(|own| own.program.loops.iter().map(|own| own.lanes).collect());
+    lanes.collect()
+}
+
+/// Torques, their slopes, D and accelerations have loops, in both languages and scalars, which the
+/// checker shows.
+#[test]
+fn legs_are_lanes() {
+    let robot = quadruped();
+    for language in ["rust", "c"] {
+        let asked = format!(
+            "outputs: {}; scalar: f64; language: {language}",
+            OUTPUTS.join(", ")
+        );
+        let file = Certified::of(&robot, None, &asked).remove(0);
+        let heads = ["for l in 0..4 {", "for (int l = 0; l < 4; ++l) {"];
+        let count = heads.iter().map(|head| file.text.matches(head).count());
+        assert!(count.sum::<usize>() >= OUTPUTS.len(), "{language}");
+        file.is_shown(OUTPUTS.len(), language);
+    }
+    let single = format!(
+        "outputs: {}; scalar: f32; language: c",
+        OUTPUTS[..3].join(", ")
+    );
+    Certified::of(&robot, None, &single)
+        .remove(0)
+        .is_shown(3, "f32");
+    let fused = format!(
+        "outputs: {}; scalar: f64; fma: on; language: c",
+        OUTPUTS.join(", ")
+    );
+    let file = Certified::of(&robot, None, &fused).remove(0);
+    assert!(file.text.contains("        const double t") && file.text.contains("= fma(u1[0][l]"));
+    file.is_shown(OUTPUTS.len(), "fma");
+}
+
+/// A limb in another's place is refused: its inputs, its numbers, its results; so is a loop that is not
+/// over all of them.
+#[test]
+fn no_limb_is_in_the_place_of_another() {
+    let robot = quadruped();
+    let cases = [
+        (
+            "rust",
+            "
+[qd[6], qd[8], qd[10], qd[12]] → [qd[8], qd[6], qd[10], qd[12]]
+[qd[6], qd[8], qd[10], qd[12]] → [qd[6], qd[8], qd[10]]
+[0.19, 0.19, -0.2, -0.2] → [0.19, -0.2, 0.19, -0.2]
+[c1, c3, c5, c7] → [c3, c1, c5, c7]
+for l in 0..4 { → for l in 0..3 {
+for l in 0..4 { → for l in 0..5 {
+for l in 0..4 { → for l in 1..4 {
+u1[0][l] → u1[0][0]
+u1[0][l] → u1[1][l]
+let mut w1 = [[0.0; 4]; → let mut w1 = [[0.0; 5];
+w1[0][l] = → w1[0][0] =
+w1[0][l] = → w1[1][l] =
+w1[6][0] → w1[6][1]
+w1[7][2] → w1[7][3]
+w1[7][2] → w1[7][4]
+w1[7][2] → w1[7][l]
+",
+        ),
+        (
+            "c",
+            "
+{qd[6], qd[8], qd[10], qd[12]} → {qd[8], qd[6], qd[10], qd[12]}
+{qd[6], qd[8], qd[10], qd[12]} → {qd[6], qd[8], qd[10]}
+{0.19, 0.19, -0.2, -0.2} → {-0.2, 0.19, 0.19, -0.2}
+int l = 0 → int l = 1
+l < 4 → l < 3
+++l → l++
+u1[0][l] → u1[0][0]
+const double u1[ → const double u2[
+double w1[ → double w2[
+static const double k1[ → const float k1[
+w1[6][0] → w1[6][1]
+w1[7][2] → w1[7][3]
+",
+        ),
+    ];
+    for (language, table) in cases {
+        let asked = format!("outputs: inverse_dynamics; scalar: f64; language: {language}");
+        let file = Certified::of(&robot, None, &asked).remove(0);
+        file.is_shown(1, language);
+        for [from, to] in changes(table) {
+            assert!(file.text.contains(&from), "{from}: {}", file.text);
+            let other = file.with(&file.text.replacen(&from, &to, 1));
+            assert!(other.refusal().is_some(), "{from} → {to}");
+        }
+    }
+}
+
+/// Compilers make vectors of the loops, and the bits are those of single operations.
+#[test]
+fn vectors_have_the_bits_of_single_operations() {
+    let outputs = OUTPUTS[..3].join(", ");
+    for fma in ["off", "on"] {
+        let asked = format!(
+            "outputs: {outputs}; scalar: f64, f32; sincos: together; fma: {fma}; limbs: lanes"
+        );
+        let case = Case::read(&quadruped(), &format!("{asked}; language: c"));
+        let flags = ["-O0 -std=c99", "-O2 -std=c99", "-O3 -std=c99 -march=native"];
+        same_bits(&format!("limbs_{fma}"), &case, 5, &flags);
+    }
+}
+
+#[test]
+fn two_arms_are_two_lanes() {
+    let case = Case::read(
+        &robot("", 2),
+        "outputs: inverse_dynamics, inertia; scalar: f64; limbs: lanes",
+    );
+    let generated = case.generated();
+    assert_eq!(loops(&generated), [vec![2], vec![2]]);
+}
+
+#[test]
+fn limbs_are_apart_where_that_is_asked_for_or_lanes_are_of_states() {
+    let robot = quadruped();
+    for asked in ["limbs: apart", "batch: on"] {
+        let case = Case::read(
+            &robot,
+            &format!("outputs: gravity; scalar: f64; {asked}; language: c"),
+        );
+        assert_eq!(loops(&case.generated()), [Vec::<usize>::new()], "{asked}");
+    }
+    for (asked, words) in [
+        ("batch: on", "a batch has vectors of states"),
+        ("language: cuda", "on a GPU vectors are of states"),
+        ("formulation: newton_euler", "a formulation alone"),
+    ] {
+        let case = Case::read(
+            &robot,
+            &format!("outputs: gravity; scalar: f64; limbs: lanes; {asked}"),
+        );
+        let error = generate(case.robot(), &case.request)
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains(words), "{error}");
+    }
+    let serial = source("planar2r", "");
+    let case = Case::read(&serial, "outputs: gravity; scalar: f64; limbs: lanes");
+    let error = generate(case.robot(), &case.request)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("no function has limbs with the same joints"),
+        "{error}"
+    );
+}
+
+/// A plan keeps the loops; one whose lanes are not alike is refused.
+#[test]
+fn a_plan_keeps_lanes() {
+    let case = Case::read(&quadruped(), "outputs: inverse_dynamics; scalar: f64");
+    let generated = case.generated();
+    let plan = keep(case.robot(), &case.request, &generated, None).plan;
+    let text = plan.write();
+    let mut again = case.request.clone();
+    again.plan = Some(Plan::parse(&text).unwrap());
+    let replayed = generate(case.robot(), &again).unwrap();
+    assert!(replayed.functions[0].planned);
+    assert_eq!(replayed.text(), generated.text());
+    again.limbs = LimbLayout::Apart;
+    let apart = generate(case.robot(), &again).unwrap();
+    assert_eq!(loops(&apart), [Vec::<usize>::new()]);
+    let [own] = generated.functions[0].program.loops[..] else {
+        panic!("one loop");
+    };
+    for other in [
+        [own.first + 1, own.rows, own.lanes],
+        [own.first, own.rows, own.lanes + 1],
+        [own.first, own.rows / 2, 2 * own.lanes],
+        [own.first, 0, own.lanes],
+    ] {
+        let mut document: Value = serde_json::from_str(&text).unwrap();
+        let loops = &mut document["functions"][0]["planned"]["loops"];
+        assert_eq!(*loops, json!([[own.first, own.rows, own.lanes]]));
+        *loops = json!([other]);
+        let error = Plan::parse(&document.to_string()).unwrap_err().to_string();
+        assert!(error.contains("lanes have different operations"), "{error}");
+    }
+}
