@@ -310,7 +310,9 @@ fn figures_in_the_prose_are_right() {
         let line = format!("| Table 3, {label} | {} |", cells.join(" | "));
         assert!(guide.contains(&line), "{line}");
     }
-    let results = page("benches/peers/RESULTS_C.md");
+    let results = ["RESULTS_C", "RESULTS_LEGGED"]
+        .map(|name| page(&format!("benches/peers/{name}.md")))
+        .concat();
     let measured = results
         .split('|')
         .filter_map(|cell| cell.split_whitespace().next());
