@@ -1,12 +1,13 @@
 //! Robots whose base floats: every output, shown by the checker; and none in another order.
 
 use dalembert_codegen::{Function, Request, generate};
+use dalembert_model::equations::Formulation;
 use dalembert_model::number::Rational;
 use dalembert_model::read;
 use dalembert_model::robot::Joint;
 
 use crate::certified::Certified;
-use crate::support::{changes, read_robot, source};
+use crate::support::{Case, changes, read_robot, source};
 
 /// What is refused where the base floats, with a word of the reason.
 const REFUSED: [(&str, &str); 4] = [
@@ -53,6 +54,16 @@ fn what_is_of_a_fixed_base_is_refused_with_the_reason() {
             "{error}"
         );
     }
+}
+
+/// It is the way to a tip that makes the formula as written long: twelve joints of four legs are no more
+/// than nine coordinates one after the other.
+#[test]
+fn legs_are_proved_by_the_formula_as_written() {
+    let case = Case::read(&source("go2", ""), "outputs: gravity; scalar: f64");
+    let proof = &case.generated().functions[0].proof;
+    let by = proof.reference_formulation;
+    assert_eq!(by, Some(Formulation::LagrangeEuler));
 }
 
 /// The box has an entry a coordinate, the base's six first: the checker's bound follows it, and lists

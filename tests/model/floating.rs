@@ -23,6 +23,7 @@ fn a_base_is_read_and_written() {
     let carriers: Vec<Option<usize>> = (0..4).map(|row| robot.carrier(row)).collect();
     assert_eq!(carriers, [None, Some(0), None, Some(2)]);
     assert!(robot.is_tree() && robot.branches());
+    assert_eq!(robot.depth(), 8);
     let rows: Vec<Option<usize>> = robot.frames.iter().map(|frame| frame.row).collect();
     assert_eq!(rows, [Some(1), Some(3), None]);
     let text = written(&robot);

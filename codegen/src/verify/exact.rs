@@ -1,8 +1,8 @@
 //! The exact proof: the final program equals Lagrange–Euler as written.
 //!
 //! Both are evaluated with their exact constants modulo p = 2⁶¹ − 45 at four to ten points that
-//! follow from the SHA-256 of robot, scene and program. Above [`WRITTEN_LIMIT`] joints the
-//! reference is the link-frame recursion, itself proved against Lagrange–Euler for every joint
+//! follow from the SHA-256 of robot, scene and program. Above [`WRITTEN_LIMIT`] joints on the way
+//! to a tip, of which a base that floats has six, the reference is the link-frame recursion, itself proved against Lagrange–Euler for every joint
 //! kind and convention at up to that many joints by tests.
 //!
 //! **The chance of a miss.** A difference that does not vanish modulo p is a polynomial of degree
@@ -36,7 +36,7 @@ use dalembert_model::number::Exact;
 const WRITTEN_LIMIT: usize = 10;
 
 pub(super) fn reference_formulation(setup: &Setup) -> Formulation {
-    match setup.robot().rows().len() <= WRITTEN_LIMIT {
+    match setup.robot().depth() <= WRITTEN_LIMIT {
         true => Formulation::LagrangeEuler,
         false => Formulation::NewtonEulerLink,
     }

@@ -52,6 +52,20 @@ impl Robot {
         rows.get(row).and_then(|joint| joint.carrier(row))
     }
 
+    /// Returns the most coordinates from the world to a tip: those of a base that floats, then a row for
+    /// each link on the way.
+    pub fn depth(&self) -> usize {
+        let mut depths: Vec<usize> = Vec::new();
+        for (row, joint) in self.rows().iter().enumerate() {
+            let before = joint.carrier(row).map(|carrier| depths[carrier]);
+            depths.push(1 + before.unwrap_or_else(|| self.base_coordinates()));
+        }
+        depths
+            .into_iter()
+            .max()
+            .unwrap_or_else(|| self.base_coordinates())
+    }
+
     /// Returns true if some link is carried by another than the link before: the links branch, and
     /// their joints are placed.
     pub fn branches(&self) -> bool {
