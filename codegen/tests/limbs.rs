@@ -220,10 +220,7 @@ fn limbs_are_apart_where_that_is_asked_for_or_lanes_are_of_states() {
     let error = generate(case.robot(), &case.request)
         .unwrap_err()
         .to_string();
-    assert!(
-        error.contains("no function has limbs with the same joints"),
-        "{error}"
-    );
+    assert!(error.contains("no function has lanes"), "{error}");
 }
 
 /// A plan keeps the loops; one whose lanes are not alike is refused.

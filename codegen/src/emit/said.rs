@@ -82,7 +82,7 @@ pub(super) fn lanes(program: &Program) -> Vec<String> {
             "Limbs of one structure are lanes of loops: {}. A compiler",
             each.join(", ")
         ),
-        "makes vectors of them, with the bits that each limb has by itself.".to_owned(),
+        "makes vectors of them, with the bits of their operations one after the other.".to_owned(),
     ];
     lines.to_vec()
 }

@@ -349,8 +349,8 @@ fn attempt(job: &Job<'_>) -> Outcome<Found> {
     let mut functions = found?;
     let has_lanes = functions.iter().any(|own| !own.program.loops.is_empty());
     if job.request.limbs == LimbLayout::Lanes && !has_lanes {
-        let message = "`limbs: lanes`: no function has limbs with the same joints whose numbers are zero in \
-                       the same places";
+        let message = "`limbs: lanes`: no function has lanes: torques, D, accelerations and slopes have, of limbs \
+                       with the same joints whose numbers are zero in the same places";
         let help = "leave `limbs` out";
         return Err(GenerateError::refused(None, message, help));
     }

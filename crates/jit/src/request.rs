@@ -54,7 +54,10 @@ impl Load {
         if request.sincos == SinCos::Auto && !has_tolerance {
             request.sincos = SinCos::Together;
         }
-        // Vectors are of states.
+        if request.limbs == LimbLayout::Lanes {
+            let why = "limbs: functions in memory have vectors of states: leave `limbs` out";
+            return Err(LoadError::Request(why.to_owned()));
+        }
         request.limbs = LimbLayout::Apart;
         request.watch = self.watch.clone();
         request.work = Request::work_while_compiling(request.effort);

@@ -18,6 +18,13 @@
 //! assert!(in_world[2] < -0.09);
 //! ```
 //!
+//! An array is not a quaternion, since nothing would say where w stands:
+//!
+//! ```compile_fail,E0308
+//! let orientation = [0.995004165278026, 0.0, 0.0998334166468282, 0.0];
+//! let pose = dalembert_pose::Pose { position: [0.0, 0.0, 0.32], orientation };
+//! ```
+//!
 //! The crate takes `core` alone. [`C_HEADER`] is the same in C99, and returns the same bits.
 
 #![no_std]
