@@ -183,12 +183,15 @@ fn vectors_have_the_bits_of_single_operations() {
 
 #[test]
 fn two_arms_are_two_lanes() {
-    let case = Case::read(
-        &robot("", 2),
-        "outputs: inverse_dynamics, inertia; scalar: f64; limbs: lanes",
-    );
-    let generated = case.generated();
-    assert_eq!(loops(&generated), [vec![2], vec![2]]);
+    // Bare knees: each one's entry of D is a number, and they are two.
+    let alike = robot("", 2);
+    let bare = alike.replace("armature = 0.01\n", "");
+    let unlike = bare.replacen("mass = 1.24", "mass = 1.3", 1);
+    for robot in [alike, unlike] {
+        let asked = "outputs: inverse_dynamics, inertia; scalar: f64; limbs: lanes";
+        let generated = Case::read(&robot, asked).generated();
+        assert_eq!(loops(&generated), [vec![2], vec![2]]);
+    }
 }
 
 #[test]

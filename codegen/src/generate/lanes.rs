@@ -1,4 +1,4 @@
-//! Whether limbs are lanes: what was asked, and what cannot be.
+//! The choice between limbs as lanes and limbs apart, and the requests that lanes cannot meet.
 
 use super::Job;
 use crate::dag::Dag;

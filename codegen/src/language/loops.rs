@@ -53,7 +53,7 @@ pub(super) struct LoopText {
     pub head: String,
     /// The nodes of lane 0, with their lines.
     pub rows: Vec<(Id, String)>,
-    /// What it writes for others, with the nodes of lane 0.
+    /// The lines that write values for others, with the nodes of lane 0.
     pub stores: Vec<(Id, String)>,
 }
 

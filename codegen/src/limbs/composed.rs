@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 
 use super::parts::{Import, Part, Parts};
 use super::rolled::{Rolled, Value};
-use super::structure::{Limbs, MAX_LANES};
+use super::structure::Limbs;
 use crate::dag::{Dag, Edge, Id, Node, Writer};
 use crate::program::{Input, Loop, Operation};
 
@@ -84,9 +84,12 @@ impl<'a, 'd> Composer<'a, 'd> {
 
     fn result(&mut self, id: Id) -> Edge {
         match (self.rolled.dag.node(id), self.rolled.member(id)) {
-            (leaf @ (Node::Constant(_) | Node::Input(_)), _) => {
-                self.writer.leaf(leaf.clone()).into()
+            (Node::Input(input), _) => {
+                let number = self.limbs.number(*input).cloned();
+                let leaf = number.map_or(Node::Input(*input), Node::Constant);
+                self.writer.leaf(leaf).into()
             }
+            (leaf @ Node::Constant(_), _) => self.writer.leaf(leaf.clone()).into(),
             (_, Some(member)) => match &self.parts.constants[member.row] {
                 Some(numbers) => {
                     let number = Node::Constant(numbers[member.lane].clone());
@@ -162,19 +165,13 @@ impl<'a, 'd> Composer<'a, 'd> {
             };
             return (Some(edge), None);
         }
-        let lane_input = match (self.limbs.tuple_of(input), lane, input) {
-            (Some(tuple), Some((_, lane)), _) => {
-                return (None, Some(self.limbs.tuples[tuple].1[lane].clone()));
-            }
-            (Some(tuple), None, Input::Entry(_, entry)) => {
-                return (
-                    None,
-                    Some(self.limbs.tuples[tuple].1[entry % MAX_LANES].clone()),
-                );
-            }
-            (_, Some((class, lane)), input) => self.limbs.in_lane(input, class, lane, self.base),
-            (_, None, input) => input,
+        let lane_input = match lane {
+            Some((class, lane)) => self.limbs.in_lane(input, class, lane, self.base),
+            None => input,
         };
+        if let Some(number) = self.limbs.number(lane_input) {
+            return (None, Some(number.clone()));
+        }
         (Some(self.writer.leaf(Node::Input(lane_input)).into()), None)
     }
 

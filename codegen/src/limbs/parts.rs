@@ -34,7 +34,7 @@ pub(super) struct Part {
 pub(super) struct Parts {
     pub parts: Vec<Part>,
     pub imports: Vec<Import>,
-    /// Of each row its numbers, one a lane, where it is constant.
+    /// The numbers of each row that is constant, one a lane.
     pub constants: Vec<Option<Vec<Exact>>>,
 }
 

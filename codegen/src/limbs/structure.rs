@@ -62,8 +62,9 @@ fn limb(chain: &Chain<Exact>, root: usize) -> Vec<usize> {
         .collect()
 }
 
-/// Of each link: its joint, the place of the one that carries it, and which of its numbers are zero.
-type Structure = Vec<(JointKind, Option<usize>, [bool; 1], i32, Vec<bool>)>;
+/// Each link's joint, the place of the link that carries it, whether its frame may stay behind, the
+/// turns of its axes, and which of its numbers are zero.
+type Structure = Vec<(JointKind, Option<usize>, bool, i32, Vec<bool>)>;
 
 fn structure(chain: &Chain<Exact>, limb: &[usize]) -> Structure {
     let of_link = |&i: &usize| {
@@ -72,7 +73,7 @@ fn structure(chain: &Chain<Exact>, limb: &[usize]) -> Structure {
             .parent
             .and_then(|parent| limb.binary_search(&parent).ok());
         let zeros = numbers(link).iter().map(Scalar::is_zero).collect();
-        (link.kind, parent, [link.spins_freely], link.axes, zeros)
+        (link.kind, parent, link.spins_freely, link.axes, zeros)
     };
     limb.iter().map(of_link).collect()
 }
@@ -203,9 +204,12 @@ impl Limbs {
             Input::Entry(Argument::Position, joint) => {
                 Input::Entry(Argument::Position, moved(joint))
             }
+            Input::Entry(Argument::Load, _) => match self.tuple_of(input) {
+                Some(tuple) => tuple_input(tuple, lane),
+                None => input,
+            },
             Input::Entry(
                 argument @ (Argument::Gravity
-                | Argument::Load
                 | Argument::Payload
                 | Argument::Wrench
                 | Argument::Damping),
@@ -221,6 +225,14 @@ impl Limbs {
             Input::Entry(Argument::Load, entry) if entry < OPAQUE => Some(entry / MAX_LANES),
             _ => None,
         }
+    }
+
+    /// Returns the number that an input stands for, if it is an entry of a tuple.
+    pub(super) fn number(&self, input: Input) -> Option<&Exact> {
+        let Input::Entry(_, entry) = input else {
+            return None;
+        };
+        Some(&self.tuples[self.tuple_of(input)?].1[entry % MAX_LANES])
     }
 
     /// Returns the place of numbers, one a lane, and if they have the other sign.

@@ -48,7 +48,7 @@ pub struct Request {
     /// `true` if a product and the sum that alone reads it are one operation, `mul_add`, and rounded
     /// once. It needs `std`, and a processor that has it.
     pub fma: bool,
-    /// How functions compute limbs of one structure.
+    /// The layout of limbs of one structure in functions.
     pub limbs: LimbLayout,
     /// The source of sines and cosines.
     pub sincos: SinCos,

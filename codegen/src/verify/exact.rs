@@ -2,8 +2,9 @@
 //!
 //! Both are evaluated with their exact constants modulo p = 2⁶¹ − 45 at four to ten points that
 //! follow from the SHA-256 of robot, scene and program. Above [`WRITTEN_LIMIT`] joints on the way
-//! to a tip, of which a base that floats has six, the reference is the link-frame recursion, itself proved against Lagrange–Euler for every joint
-//! kind and convention at up to that many joints by tests.
+//! to a tip, of which a base that floats has six, the reference is the link-frame recursion,
+//! itself proved against Lagrange–Euler for every joint kind and convention at up to that many
+//! joints by tests.
 //!
 //! **The chance of a miss.** A difference that does not vanish modulo p is a polynomial of degree
 //! k in the points' parameters ([`points`](super::points)). It vanishes at a random point with
