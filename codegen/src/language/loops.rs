@@ -19,7 +19,6 @@
 //! order of the lanes.
 
 use std::collections::HashMap;
-use std::ops::Range;
 
 use super::dialect::{Dialect, Lines};
 use super::names::float;
@@ -104,13 +103,16 @@ fn places(code: &Code, ids: &[Id]) -> HashMap<Id, (usize, usize, usize)> {
 /// Lists the rows that something outside of a loop reads, ascending; and if only results do, and all
 /// of them the negative, which the loop then stores.
 fn exports(code: &Code, ids: &[Id], block: &Loop) -> Vec<(usize, bool)> {
-    let span: Range<usize> = block.first..block.end();
-    let inside: HashMap<Id, usize> = span.map(|place| (ids[place], place)).collect();
+    let inside: HashMap<Id, usize> = ids[block.first..block.end()]
+        .iter()
+        .enumerate()
+        .map(|(place, id)| (*id, place % block.rows))
+        .collect();
     // Reads of the value, and of its negative.
     let mut reads = vec![[false; 2]; block.rows];
     let mut read = |id: &Id, is_negative: bool| {
-        if let Some(place) = inside.get(id) {
-            reads[(place - block.first) % block.rows][usize::from(is_negative)] = true;
+        if let Some(row) = inside.get(id) {
+            reads[*row][usize::from(is_negative)] = true;
         }
     };
     for (id, _, operands) in code.dag.operations() {

@@ -148,12 +148,8 @@ fn with_loops(whole: &Program, dag: Dag, loops: Vec<Loop>) -> Option<Program> {
     let program = whole.with_code(dag);
     let is_whole = program.dag.operations().count() == operations;
     let row = |operation: usize| {
-        let mut block = loops
-            .iter()
-            .filter(|block| (block.first..block.end()).contains(&operation));
-        block.next().map_or(operation, |block| {
-            block.first + (operation - block.first) % block.rows
-        })
+        let row = |block: &Loop| Some(block.first + block.place(operation)?[1]);
+        loops.iter().find_map(row).unwrap_or(operation)
     };
     let is_plain = !program.divides() || program.dag.has_needed_steps_alone(row);
     (is_whole && is_plain).then_some(Program { loops, ..program })

@@ -63,6 +63,12 @@ impl Loop {
     pub fn end(&self) -> usize {
         self.first + self.rows * self.lanes
     }
+
+    /// Returns the lane and the row of an operation; none of one that is not in the loop.
+    pub(crate) fn place(&self, operation: usize) -> Option<[usize; 2]> {
+        let inside = operation.checked_sub(self.first)?;
+        (operation < self.end()).then_some([inside / self.rows, inside % self.rows])
+    }
 }
 
 impl Program {
@@ -165,12 +171,9 @@ impl Program {
         let mut cells = vec![(0, 0, 0); self.dag.nodes.len()];
         for (place, (id, ..)) in self.dag.operations().enumerate() {
             let before = self.loops.iter().filter(|own| own.end() <= place).count();
-            let own = self.loops.get(before).filter(|own| own.first <= place);
-            cells[id as usize] = match own {
-                Some(own) => {
-                    let inside = place - own.first;
-                    (2 * before + 1, inside / own.rows, inside % own.rows)
-                }
+            let inside = self.loops.get(before).and_then(|own| own.place(place));
+            cells[id as usize] = match inside {
+                Some([lane, row]) => (2 * before + 1, lane, row),
                 None => (2 * before, 0, place),
             };
         }
@@ -224,16 +227,10 @@ impl Program {
                 return false;
             }
             done = own.end();
+            // The row that an operand is in the lane; nothing of another lane.
             let within = |id: &Id, lane: usize| {
-                let place = places
-                    .get(id)
-                    .and_then(|place| place.checked_sub(own.first));
-                let place = place.filter(|place| *place < own.rows * own.lanes);
-                place.map(|place| {
-                    place
-                        .checked_sub(lane * own.rows)
-                        .filter(|row| *row < own.rows)
-                })
+                let place = places.get(id).and_then(|place| own.place(*place));
+                place.map(|[other, row]| (other == lane).then_some(row))
             };
             (0..own.rows).all(|row| {
                 let (_, operation, operands) = &all[own.first + row];
