@@ -2,6 +2,7 @@
 
 mod accuracy_limit;
 mod arguments;
+mod blocks;
 mod c99;
 mod certified;
 mod certified_hidden;

@@ -64,12 +64,13 @@ fn quadruped() -> String {
     robot(TRUNK, 4)
 }
 
-const OUTPUTS: [&str; 5] = [
+const OUTPUTS: [&str; 6] = [
     "inverse_dynamics",
     "gravity",
     "inertia",
     "forward_dynamics",
     "inverse_dynamics_derivatives",
+    "inertia_blocks",
 ];
 
 fn loops(generated: &Generated) -> Vec<Vec<usize>> {

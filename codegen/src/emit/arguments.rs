@@ -28,7 +28,11 @@ pub(super) fn gravity(robot: &Robot, setup: &Setup) -> String {
 fn placed_names(robot: &Robot) -> Option<Places> {
     let names = robot.joints.iter().map(|joint| joint.name.as_deref());
     let names: Vec<Option<&str>> = names.collect();
-    (robot.is_tree()).then(|| Places::new(&names, robot.floating.is_some()))
+    let starts = robot.limb_starts();
+    let joints = 0..robot.joints.len();
+    let starts = || joints.filter(|joint| starts >> joint & 1 == 1).collect();
+    let limbs = robot.floating.as_ref().map(|_| starts());
+    (robot.is_tree()).then(|| Places::new(&names, limbs))
 }
 
 /// Returns the constants for the places of the base and of joints in arguments.
@@ -63,7 +67,12 @@ pub(super) fn places(robot: &Robot) -> String {
         say(&doc, name, *place);
     }
     let named = "/// The joints' names, in the order of positions.\n";
-    format!("{text}{named}{}\n", places.array())
+    text += &format!("{named}{}\n", places.array());
+    if let Some(limbs) = places.limbs() {
+        let doc = "/// The first joint of each limb, in the order of positions, then the number of joints.\n";
+        text += &format!("{doc}{limbs}\n");
+    }
+    text
 }
 
 /// Returns the lines of [`places`] for a header.
@@ -78,10 +87,14 @@ pub(super) fn places_c(robot: &Robot, names: &Names) -> String {
              * places: linear x, y, z, then angular x, y, z."
         }
     };
+    let limbs = match places.limbs.is_empty() {
+        true => "",
+        false => ", LIMBS one of the\n * first joint of each limb and the number of joints",
+    };
     let header = places.header(&names.macros());
     format!(
         "\n/* The number of joints, and of entries of a velocity; the places of the base and of joints\n\
-         {of} NAMES begins an array of strings. */\n{header}\n"
+         {of} NAMES begins an array of strings{limbs}. */\n{header}\n"
     )
 }
 
@@ -101,6 +114,18 @@ pub(super) fn layout(function: Function, setup: &Setup) -> Vec<String> {
             "linear x, y, z (m/s, m/s², N), angular x, y, z (rad/s, rad/s², N·m). Positions have none.",
         ];
         say(&mut lines, layout);
+    }
+    let of_limbs = |own: &Quantity| own.shape().0.contains(&Axis::Limbs);
+    if function.quantities().iter().any(of_limbs) {
+        let limbs = setup.limbs().into_iter().map(|limb| {
+            let joints = limb.iter().map(|joint| (joint + 1).to_string());
+            joints.collect::<Vec<String>>().join(", ")
+        });
+        let limbs = limbs.collect::<Vec<String>>().join("; ");
+        say(
+            &mut lines,
+            ["", &format!("The joints of each limb: {limbs}.")],
+        );
     }
     if function.quantities().contains(&Quantity::Gravity) {
         let flight = [

@@ -5,7 +5,7 @@ use dalembert_checker::claim::{Claim, Claimed, Planned, Tolerated};
 use dalembert_checker::program::Program as Straight;
 use dalembert_model::equations::BASE_COORDINATES;
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::{RuntimeParameter, Sizes};
+use dalembert_model::outputs::{Axis, RuntimeParameter, Sizes};
 use dalembert_model::robot::Robot;
 
 use super::{Entry, Plan};
@@ -93,6 +93,7 @@ impl Entry {
             passes: passes.collect(),
             joints: exact.joints,
             floats: exact.floating > 0,
+            limbs: limbs(exact),
             rows: exact.rows.iter().map(|row| row + 1).collect(),
             loops: loops(emitted),
             scene: hash,
@@ -113,6 +114,19 @@ impl Entry {
     }
 }
 
+/// Lists the joints with which limbs begin, from one, if results are over limbs.
+fn limbs(program: &Program) -> Vec<usize> {
+    let mut quantities = program.function.quantities().iter();
+    if !quantities.any(|quantity| quantity.shape().0.contains(&Axis::Limbs)) {
+        return Vec::new();
+    }
+    let joints = 0..program.joints;
+    joints
+        .filter(|joint| program.limbs >> joint & 1 == 1)
+        .map(|joint| joint + 1)
+        .collect()
+}
+
 fn loops(program: &Program) -> Vec<[usize; 3]> {
     let loops = program.loops.iter();
     loops.map(|own| [own.first, own.rows, own.lanes]).collect()
@@ -128,10 +142,17 @@ fn entry(own: &Claimed, constants: &[Exact]) -> Result<Entry, Complaint> {
         return Err(unknown("number of joints", &planned.joints.to_string()));
     }
     // Speeds are the robot's, which a plan does not have.
-    let sizes = Sizes {
-        floating: if planned.floats { BASE_COORDINATES } else { 0 },
-        ..Sizes::whole(planned.joints)
-    };
+    let floating = if planned.floats { BASE_COORDINATES } else { 0 };
+    let starts = planned.limbs.iter().map(|start| {
+        let start = start.checked_sub(1).filter(|joint| *joint < planned.joints);
+        let bit = start.map(|joint| 1u64 << joint);
+        bit.ok_or_else(|| complaint("expected the joints with which limbs begin"))
+    });
+    let mut limbs = 0;
+    for start in starts {
+        limbs |= start?;
+    }
+    let sizes = Sizes::floating(floating, planned.joints, limbs);
     let mut empty = Program::empty(function, sizes);
     let most = sizes.coordinates();
     let rows = planned.rows.iter().map(|row| {

@@ -31,6 +31,8 @@ pub struct Program {
     pub joints: usize,
     /// The coordinates of a base that floats: six, or none.
     pub floating: usize,
+    /// The joints with which the limbs of a base that floats begin, a bit each.
+    pub limbs: u64,
     /// The coordinates that the results are over, zero-based, in their order.
     pub rows: Vec<usize>,
     /// The arguments there are, in order.
@@ -78,6 +80,7 @@ impl Program {
             function,
             joints: robot.joints,
             floating: robot.floating,
+            limbs: robot.limbs,
             rows: (0..robot.coordinates()).collect(),
             arguments: function.arguments(),
             load: 0,
@@ -259,9 +262,8 @@ impl Program {
     pub fn sizes(&self) -> Sizes {
         let rows = self.rows.len();
         let whole = Sizes {
-            floating: self.floating,
             load: self.load,
-            ..Sizes::whole(self.joints)
+            ..Sizes::floating(self.floating, self.joints, self.limbs)
         };
         let mut sizes = whole.over(&self.rows);
         if let Columns::Base(_) = self.function.columns() {

@@ -369,6 +369,15 @@ impl Setup {
         }
     }
 
+    /// Returns the joints of each limb of a base that floats, of those that results are over.
+    pub fn limbs(&self) -> Vec<Vec<usize>> {
+        let limbs = Sizes::of(&self.robot).of_limbs(&self.rows).into_iter();
+        let joint = |place: usize| self.robot.joint_of(self.rows[place]);
+        limbs
+            .map(|places| places.into_iter().filter_map(joint).collect())
+            .collect()
+    }
+
     /// Returns the row of the arm that a coordinate is of.
     fn arm_row(&self, coordinate: usize) -> usize {
         match self.robot.joint_of(coordinate) {

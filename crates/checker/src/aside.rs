@@ -69,6 +69,7 @@ impl<'k> Known<'k> {
             let line = |name: &str, place: usize| format!("pub const {name}: usize = {place};");
             items.extend(all.map(|(name, place)| line(name, *place)));
             items.extend([line("NV", coordinates), untabbed(&places.array())]);
+            items.extend(places.limbs());
         }
         for (name, public, count) in [
             ("Gravity", "pub ", 3),

@@ -117,6 +117,9 @@ pub struct Planned {
     /// True if six coordinates of a base that floats come before those of the joints.
     #[serde(default, skip_serializing_if = "is_false")]
     pub floats: bool,
+    /// The joints with which limbs begin, from one, where results are over limbs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub limbs: Vec<usize>,
     /// The coordinates that the results are over, from one.
     pub rows: Vec<usize>,
     /// The loops of the text: the operations before each, those of a lane, and the lanes.

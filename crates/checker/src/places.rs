@@ -6,7 +6,8 @@ use std::collections::BTreeSet;
 use crate::read::{is_letter, is_plain_sign};
 
 /// Names that generated code has for something else, in Rust or in C behind the header's name.
-const TAKEN: &str = "N NV BASE JOINT_NAMES JOINTS COORDINATES BOX H CUH RESTRICT UNFUSED SIMD";
+const TAKEN: &str =
+    "N NV BASE JOINT_NAMES LIMBS JOINTS COORDINATES BOX H CUH RESTRICT UNFUSED SIMD";
 /// The end of the names of constants that hold parameters.
 const PARAMETERS: &str = "PARAMETERS";
 /// The longest name of a joint: with a header's name, compilers tell it from others.
@@ -22,13 +23,18 @@ pub struct Places {
     pub velocities: Vec<(String, usize)>,
     /// The constants of positions; empty where places in velocities are the same.
     pub positions: Vec<(String, usize)>,
+    /// The joints with which the limbs of a base that floats begin, then the number of joints; empty on
+    /// a fixed base.
+    pub limbs: Vec<usize>,
     /// The number of joints, and of entries of a velocity.
     pub counts: [usize; 2],
 }
 
 impl Places {
-    /// Returns the places of joints, in order, by their names in the robot file.
-    pub fn new(names: &[Option<&str>], floats: bool) -> Places {
+    /// Returns the places of joints, in order, by their names in the robot file; `limbs` are the joints
+    /// with which limbs begin where the base floats.
+    pub fn new(names: &[Option<&str>], limbs: Option<Vec<usize>>) -> Places {
+        let floats = limbs.is_some();
         let mut seen: BTreeSet<String> = TAKEN.split(' ').map(str::to_owned).collect();
         let mut constants = Vec::new();
         for (number, name) in (1..).zip(names) {
@@ -59,8 +65,18 @@ impl Places {
                 .chain(own)
                 .collect(),
             positions: positions.filter(|_| floats).collect(),
+            limbs: limbs
+                .into_iter()
+                .flat_map(|starts| [starts, vec![names.len()]].concat())
+                .collect(),
             counts: [names.len(), base + names.len()],
         }
+    }
+
+    /// Returns the array in Rust of the joints with which limbs begin; none on a fixed base.
+    pub fn limbs(&self) -> Option<String> {
+        let (count, limbs) = (self.limbs.len(), &self.limbs);
+        (count > 0).then(|| format!("pub const LIMBS: [usize; {count}] = {limbs:?};"))
     }
 
     /// Returns the array of joint names in Rust, a line each.
@@ -70,7 +86,7 @@ impl Places {
         format!("pub const JOINT_NAMES: [&str; {count}] = [\n{lines}];")
     }
 
-    /// Returns the lines of a header: an enum, and the names as a macro that begins an array.
+    /// Returns the lines of a header: an enum, and the names and the limbs as macros that begin arrays.
     pub fn header(&self, name: &str) -> String {
         let counts = ["N", "NV"].map(str::to_owned).into_iter().zip(self.counts);
         let all = counts.chain(self.velocities.iter().cloned());
@@ -79,7 +95,13 @@ impl Places {
         let lines = lines.collect::<Vec<String>>().join(",\n");
         let names = self.names.iter().map(|name| format!("\"{name}\""));
         let names = names.collect::<Vec<String>>().join(", ");
-        format!("enum {{\n{lines}\n}};\n#define {name}_JOINT_NAMES {{{names}}}")
+        let limbs = self.limbs.iter().map(usize::to_string);
+        let limbs = limbs.collect::<Vec<String>>().join(", ");
+        let limbs = match limbs.is_empty() {
+            true => limbs,
+            false => format!("\n#define {name}_LIMBS {{{limbs}}}"),
+        };
+        format!("enum {{\n{lines}\n}};\n#define {name}_JOINT_NAMES {{{names}}}{limbs}")
     }
 }
 
@@ -118,7 +140,7 @@ mod tests {
             "FL hip", "FL_hip", "N", "", "2nd", "q_a", "a", "\"é\"", "base",
         ]
         .map(Some);
-        let places = Places::new(&names, true);
+        let places = Places::new(&names, Some(vec![0, 4]));
         let own = |(name, place): &(String, usize)| format!("{name} {place}");
         let all: Vec<String> = places.velocities.iter().map(own).collect();
         assert_eq!(
@@ -132,9 +154,11 @@ mod tests {
         assert!(
             places
                 .header("ARM")
-                .ends_with("\"q_a\", \"a\", \"_é_\", \"base\"}")
+                .ends_with("\"q_a\", \"a\", \"_é_\", \"base\"}\n#define ARM_LIMBS {0, 4, 9}")
         );
-        let fixed = Places::new(&[None, Some("elbow")], false);
+        let limbs = "pub const LIMBS: [usize; 3] = [0, 4, 9];";
+        assert_eq!(places.limbs().as_deref(), Some(limbs));
+        let fixed = Places::new(&[None, Some("elbow")], None);
         assert_eq!(
             fixed.header("ARM"),
             "enum {\n    ARM_N = 2,\n    ARM_NV = 2,\n    ARM_JOINT_1 = 0,\n    ARM_ELBOW = 1\n};\n\

@@ -50,9 +50,9 @@ pub(crate) fn run() -> Outcome {
         }
     }
     report.line(
-        "\nn joints, p base parameters. Units are for revolute joints; for a prismatic joint read N for\n\
-         N·m and m for rad. `NAME@FRAME` is an output at a frame, `NAME=A+B` a function with the\n\
-         results of A and B.",
+        "\nn joints, k those of a limb, p base parameters. Units are for revolute joints; for a prismatic\n\
+         joint read N for N·m and m for rad. `NAME@FRAME` is an output at a frame, `NAME=A+B` a function\n\
+         with the results of A and B.",
     );
     report.table("arguments", "", arguments);
     Ok(report.into())
@@ -62,6 +62,7 @@ pub(crate) fn run() -> Outcome {
 fn result(quantity: Quantity) -> [String; 3] {
     let axis = |axis: &Axis| match axis {
         Axis::Coordinates | Axis::Links => "n".to_owned(),
+        Axis::Limbs => "Σk²".to_owned(),
         Axis::Fixed(length) => length.to_string(),
         Axis::LinkParameters => "10n".to_owned(),
         Axis::BaseParameters => "p".to_owned(),
@@ -79,7 +80,7 @@ fn result(quantity: Quantity) -> [String; 3] {
     let sizes = Sizes {
         base: 1,
         load: 1,
-        ..Sizes::whole(2)
+        ..Sizes::floating(0, 2, 1)
     };
     let mut units: Vec<&str> = Vec::new();
     for unit in (0..quantity.len(sizes)).map(|i| quantity.unit(i, &[0, 1], sizes, &robot)) {

@@ -268,6 +268,15 @@ impl Arm {
         Ok(names.zip(values.iter().map(f64::nearest)).collect())
     }
 
+    /// Returns the joints of each limb of a base that floats, in the order in which `inertia_blocks` has
+    /// them; empty on a fixed base.
+    ///
+    /// # Errors
+    /// [`LoadError`]: the robot in its scene cannot be read again.
+    pub fn limbs(&self) -> Result<Vec<Vec<usize>>, LoadError> {
+        Ok(self.setup()?.limbs())
+    }
+
     fn setup(&self) -> Result<Setup, LoadError> {
         let reading = read_robot(&self.entry.robot, "the arm's robot file")?;
         let request = self.load.request(&reading)?;

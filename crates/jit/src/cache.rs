@@ -49,8 +49,10 @@ pub(crate) struct Proved {
     /// The index in `rust`.
     pub(crate) file: usize,
     pub(crate) arguments: Vec<String>,
-    /// Rows, links, joints, coordinates of a base that floats, base parameters and load: [`Sizes`].
-    pub(crate) sizes: [usize; 6],
+    /// Rows, links, joints, coordinates of a base that floats, entries of limbs, base parameters and load:
+    /// [`Sizes`], but for the beginnings of limbs.
+    pub(crate) sizes: [usize; 7],
+    pub(crate) limbs: u64,
     pub(crate) proof: String,
 }
 
@@ -67,11 +69,13 @@ impl Proved {
             scalar: emitted.scalar.name().to_owned(),
             file,
             arguments: arguments.map(|own| own.name().to_owned()).collect(),
+            limbs: sizes.limbs,
             sizes: [
                 sizes.rows,
                 sizes.links,
                 sizes.joints,
                 sizes.floating,
+                sizes.blocks,
                 sizes.base,
                 sizes.load,
             ],
@@ -80,8 +84,10 @@ impl Proved {
     }
 
     pub(crate) fn sizes(&self) -> Sizes {
-        let [rows, links, joints, floating, base, load] = self.sizes;
+        let [rows, links, joints, floating, blocks, base, load] = self.sizes;
         Sizes {
+            limbs: self.limbs,
+            blocks,
             rows,
             links,
             joints,

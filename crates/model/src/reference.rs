@@ -17,7 +17,7 @@ use crate::equations::regressor::{Column, of_links};
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition, SinCosPair, base_position};
 use crate::number::{Exact, Rounded};
 use crate::outputs::{Argument, Axis, Motion, Quantity, Sizes, Written};
-use crate::robot::{JointKind, Robot};
+use crate::robot::{JointKind, Robot, limb_starts};
 use crate::scalar::Divide;
 
 /// The floats that a [`Reference`] computes in: f64 and f32.
@@ -336,11 +336,16 @@ impl<T: Float> Reference<T> {
     }
 
     fn sizes(&self) -> Sizes {
-        Sizes {
-            rows: self.coordinates(),
-            floating: self.arm.base_joints(),
-            ..Sizes::whole(self.joints())
-        }
+        let (base, rows) = (self.arm.base_joints(), self.rows());
+        let limbs = (base..self.arm.links.len()).map(|row| {
+            let followed = self.arm.following.iter().find(|own| own.row == row);
+            let mover = followed.map_or(row, |own| own.leader);
+            let carrier = self.arm.carrier(row);
+            let joint = rows.binary_search(&mover).unwrap_or_default();
+            (carrier.and_then(|row| row.checked_sub(base)), joint - base)
+        });
+        let limbs = if base > 0 { limb_starts(limbs) } else { 0 };
+        Sizes::floating(base, self.joints(), limbs)
     }
 
     fn whole_at(&self, q: &DVector<T>) -> Result<Vec<DhVariables<T>>, WrongLength> {

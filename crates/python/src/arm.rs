@@ -143,6 +143,12 @@ impl Arm {
         base.map_err(|error| raised(&error))
     }
 
+    /// Returns the joints of each limb in the order of `inertia_blocks`.
+    #[getter]
+    fn limbs(&self) -> PyResult<Vec<Vec<usize>>> {
+        self.0.limbs().map_err(|error| raised(&error))
+    }
+
     /// Returns what there is to know of the robot and its functions.
     #[getter]
     fn notes(&self) -> Vec<String> {

@@ -84,6 +84,27 @@ def test_names_in_place_of_numbers(legs):
     assert again.base == "trunk" and again.joints == legs.joints
 
 
+@pytest.mark.parametrize("scene", [None, "squat"])
+def test_inertia_in_blocks(scene):
+    legs = dalembert.load(FILE, outputs=["inertia", "inertia_blocks"], scene=scene)
+    names = ["left_hip", "left_knee", "right_hip"] + (["right_slide"] if scene is None else [])
+    assert legs.limbs == (("left_hip", "left_knee"), tuple(names[2:]))
+    q = given("q")
+    whole, parts = legs.inertia(q), legs.inertia_blocks(q)
+    joints = whole[:, 6:, 6:].copy()
+    first = 0
+    for block in legs.blocks(parts.limbs):
+        rows = slice(first, first + block.shape[-1])
+        assert_allclose(block, joints[:, rows, rows], rtol=0, atol=1e-15)
+        joints[:, rows, rows] = 0
+        first = rows.stop
+    assert first == len(names) and not joints.any()
+    assert_allclose(parts.base, whole[:, :6, :6], rtol=0, atol=1e-14)
+    assert_allclose(parts.coupling, whole[:, :6, 6:], rtol=0, atol=1e-14)
+    with pytest.raises(ValueError, match="blocks: expected"):
+        legs.blocks(parts.base)
+
+
 def test_arguments_have_their_lengths(legs):
     n = len(legs.joints)
     with pytest.raises(ValueError, match=rf"argument `qd` has shape \({n},\), expected \({n + 6},\)"):

@@ -223,7 +223,8 @@ fn spread(
 fn selected(field: &Field, setting: &Setting, values: Vec<Number>) -> Vec<Number> {
     let lengths = field.lengths(setting, 0).into_iter();
     let mut parts = vec![values];
-    let joint_rows = setting.joint_rows();
+    let (joint_rows, blocks) = (setting.joint_rows(), setting.blocks());
+    let coordinates = setting.sizes().coordinates;
     for (axis, length) in field.axes.chars().zip(lengths) {
         // Behind these nothing is over joints.
         if ['l', 'b'].contains(&axis) {
@@ -231,7 +232,8 @@ fn selected(field: &Field, setting: &Setting, values: Vec<Number>) -> Vec<Number
         }
         let all: Vec<usize> = (0..length).collect();
         let (count, rows) = match axis {
-            'n' => (setting.sizes().coordinates, &setting.rows),
+            'n' => (coordinates, &setting.rows),
+            'k' => (coordinates * coordinates, &blocks),
             'j' => (setting.joints(), &joint_rows),
             _ => (length, &all),
         };

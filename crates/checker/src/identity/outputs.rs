@@ -479,6 +479,17 @@ impl<'a> At<'a> {
                 torques
             }
             "base_acceleration" => self.in_flight()[..self.first()].to_vec(),
+            "d_base" => {
+                let base = self.first();
+                let rows = self.inertia().into_iter().take(base);
+                rows.flat_map(|row| row.into_iter().take(base)).collect()
+            }
+            "d_coupling" => {
+                let base = self.first();
+                let rows = self.inertia().into_iter().take(base);
+                rows.flat_map(|row| row.into_iter().skip(base)).collect()
+            }
+            "d_limbs" => self.inertia().concat(),
             "contact_jacobians" => self.contact_jacobians().concat(),
             "contact_bias" => self.contact_bias(),
             "qdd_held" => {

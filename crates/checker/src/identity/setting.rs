@@ -168,8 +168,9 @@ impl Setting<'_> {
             .iter()
             .map(|&row| self.file.joint[row].name.as_deref());
         let names: Vec<Option<&str>> = names.collect();
-        let floats = self.file.floating.is_some();
-        self.file.is_tree().then(|| Places::new(&names, floats))
+        let starts = || self.limbs().iter().map(|limb| limb[0]).collect();
+        let limbs = self.file.floating.as_ref().map(|_| starts());
+        self.file.is_tree().then(|| Places::new(&names, limbs))
     }
 
     /// Returns how many coordinates come before those of the joints.
@@ -199,6 +200,52 @@ impl Setting<'_> {
             .iter()
             .filter_map(|row| row.checked_sub(self.base()));
         joints.collect()
+    }
+
+    /// Returns the limbs of a base that floats, as joints: limbs that alternate, or of which one follows
+    /// another's joint, count as one.
+    fn limbs(&self) -> Vec<Vec<usize>> {
+        let mut spans: Vec<(usize, [usize; 2])> = Vec::new();
+        for (row, own) in self.follows.iter().enumerate() {
+            let joint = self.movers.iter().position(|mover| *mover == own.row);
+            let joint = joint.unwrap_or_default();
+            let carrier = self.file.carrier(row).ok().flatten();
+            let root = carrier.map_or(row, |carrier| spans[carrier].0);
+            spans.push((root, [joint; 2]));
+            let [first, last] = &mut spans[root].1;
+            (*first, *last) = (joint.min(*first), joint.max(*last));
+        }
+        let mut limbs: Vec<Vec<usize>> = Vec::new();
+        for joint in 0..self.joints() {
+            let mut spans = spans.iter().map(|(_, span)| span);
+            if !spans.any(|[first, last]| *first < joint && joint <= *last) {
+                limbs.push(Vec::new());
+            }
+            limbs
+                .last_mut()
+                .into_iter()
+                .for_each(|limb| limb.push(joint));
+        }
+        limbs
+    }
+
+    /// Returns the places in D of the entries of one block a limb, over the rows of results.
+    pub(super) fn blocks(&self) -> Vec<usize> {
+        let (limbs, coordinates) = (self.limbs(), self.sizes().coordinates);
+        let of_limb = |limb: &Vec<usize>| {
+            let is_in = |row: &&usize| {
+                let joint = row.checked_sub(self.base());
+                joint.is_some_and(|joint| limb.contains(&joint))
+            };
+            let rows: Vec<usize> = self.rows.iter().filter(is_in).copied().collect();
+            let line = |row: &usize| {
+                rows.iter()
+                    .map(|column| row * coordinates + column)
+                    .collect()
+            };
+            rows.iter().map(line).collect::<Vec<Vec<usize>>>().concat()
+        };
+        limbs.iter().flat_map(of_limb).collect()
     }
 
     /// Returns how many links there are.

@@ -1,4 +1,4 @@
-//! The 42 outputs: what each reads and returns.
+//! The 43 outputs: what each reads and returns.
 
 use std::sync::LazyLock;
 
@@ -7,7 +7,7 @@ use crate::program::{ARGUMENTS, argument};
 
 /// Every function, its arguments in order, and its results: the field in a struct, what it is where
 /// that is another word, and the lengths of its axes. `n` is the coordinates, `j` the joints, `l` ten
-/// a body, `b` the base parameters.
+/// a body, `b` the base parameters, `k` a block a limb.
 const TABLE: &str = "
     inverse_dynamics: q qd qdd -> tau[n]
     gravity: q -> c[n]
@@ -46,6 +46,7 @@ const TABLE: &str = "
     centroidal_momentum_matrix: q -> centroidal_momentum_matrix[6n]
     centroidal_bias: q qd -> centroidal_bias[6]
     joint_torques_free: q qd qdd -> tau=tau_free[n] base_acceleration[6]
+    inertia_blocks: q -> base=d_base[66] coupling=d_coupling[6j] limbs=d_limbs[k]
     contact_jacobians: q -> contact_jacobians[3n]
     contact_bias: q qd -> contact_bias[3]
     contact_forward_dynamics: q qd tau damping -> qdd=qdd_held[n] forces[3]
@@ -199,7 +200,7 @@ impl Field {
     pub(super) fn is_of_base(&self, floats: bool) -> bool {
         const FIXED: &str = "symbols d_rot d_tran h_rot h_tran";
         let words = if floats {
-            "tau_free base_acceleration"
+            "tau_free base_acceleration d_base d_coupling d_limbs"
         } else {
             FIXED
         };
@@ -218,6 +219,7 @@ impl Field {
             'n' => setting.rows.len(),
             'j' => setting.joint_rows().len(),
             'b' => base,
+            'k' => setting.blocks().len(),
             '3' if self.is_held() => 3 * self.points(),
             '6' if !self.view.rows.is_empty() => self.view.rows.len(),
             axis => length(axis, setting.sizes()),

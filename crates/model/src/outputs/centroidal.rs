@@ -39,7 +39,7 @@ impl Formula for CentreOfMass {
 
 pub(super) struct CentroidalMomentumMatrix;
 
-fn metres(at: &[Index]) -> i32 {
+pub(super) fn metres(at: &[Index]) -> i32 {
     let more = |at: &Index| i32::from(matches!(at, Index::Fixed(3..) | Index::Turning));
     at.iter().map(more).sum()
 }

@@ -27,6 +27,7 @@ mod registry;
 mod runtime;
 mod shape;
 
+mod blocks;
 mod centroidal;
 mod contact;
 mod contacts;
@@ -150,6 +151,9 @@ registry! {
     joint_torques_free: JointTorquesFree { centroidal: FreeTorque, BaseAcceleration }
         "Torques that give the joints q̈ while nothing holds the base, and the base's accelerations then; those in q̈ are not read.",
         structure: Some("JointTorquesFree");
+    inertia_blocks: InertiaBlocks { blocks: BaseInertia, CouplingInertia, LimbInertia }
+        "Inertia matrix D(q) of a robot whose base floats, without the zeros between its limbs: the base's six rows and columns, the coupling of base and joints, and one block a limb.",
+        structure: Some("InertiaBlocks");
     contact_jacobians: ContactJacobians { contacts: ContactJacobians }
         "Velocities of points in contact by each coordinate, 3k×n, in base axes: `contact_jacobians@left_foot,right_foot`.";
     contact_bias: ContactBias { contacts: ContactBias }

@@ -2,6 +2,7 @@
 
 use alloc::format;
 use alloc::string::{String, ToString};
+use alloc::vec;
 use alloc::vec::Vec;
 
 use super::{Argument, Axis, PayloadDependence, Quantity, Shape, Sizes};
@@ -214,26 +215,30 @@ impl Quantity {
         sizes: Sizes,
     ) -> impl Iterator<Item = usize> {
         let places = self.shape().places(index, sizes.over(rows)).into_iter();
-        places.filter_map(move |(axis, place)| coordinate(axis, place, rows, sizes))
+        places.flat_map(move |(axis, place)| coordinates(axis, place, rows, sizes))
     }
 
     /// Returns the unit of an entry over these rows of a robot.
     pub fn unit(self, index: usize, rows: &[usize], sizes: Sizes, robot: &Robot) -> &'static str {
-        let turns = |axis: Axis, place: usize| {
-            let coordinate = coordinate(axis, place, rows, sizes);
-            coordinate.is_some_and(|coordinate| robot.turns(coordinate))
+        let kind = |coordinate: usize| match robot.turns(coordinate) {
+            true => Index::Turning,
+            false => Index::Sliding,
         };
-        let axes = self.shape().places(index, sizes.over(rows));
-        let indices = axes.into_iter().map(|(axis, place)| match axis {
-            Axis::Fixed(_) => Index::Fixed(self.component(place)),
-            Axis::Coordinates | Axis::Links if turns(axis, place) => Index::Turning,
-            Axis::Coordinates | Axis::Links => Index::Sliding,
-            Axis::LinkParameters => {
-                Index::Parameter(LinkParameter::ALL[place % LinkParameter::COUNT])
+        let mut indices: Vec<Index> = Vec::new();
+        for (axis, place) in self.shape().places(index, sizes.over(rows)) {
+            match axis {
+                Axis::Fixed(_) => indices.push(Index::Fixed(self.component(place))),
+                Axis::Coordinates | Axis::Links | Axis::Limbs => {
+                    indices.extend(coordinates(axis, place, rows, sizes).map(kind));
+                }
+                Axis::LinkParameters => {
+                    let parameter = LinkParameter::ALL[place % LinkParameter::COUNT];
+                    indices.push(Index::Parameter(parameter));
+                }
+                Axis::BaseParameters | Axis::Load => indices.push(Index::Base),
             }
-            Axis::BaseParameters | Axis::Load => Index::Base,
-        });
-        (self.facts().unit)(&indices.collect::<Vec<_>>())
+        }
+        (self.facts().unit)(&indices)
     }
 
     fn component(self, place: usize) -> usize {
@@ -251,15 +256,21 @@ impl Quantity {
     pub fn entry(self, index: usize, rows: &[usize], sizes: Sizes) -> String {
         let letter = self.facts().letter;
         let sizes = sizes.over(rows);
-        let number = |(axis, place): (Axis, usize)| match coordinate(axis, place, rows, sizes) {
-            Some(coordinate) if axis == Axis::Links => coordinate - sizes.floating + 1,
-            Some(coordinate) => coordinate + 1,
-            None => place + 1,
+        let numbers = |(axis, place): (Axis, usize)| {
+            let base = match axis {
+                Axis::Coordinates => 0,
+                _ => sizes.floating,
+            };
+            let own: Vec<usize> = coordinates(axis, place, rows, sizes).collect();
+            match own.is_empty() {
+                true => vec![place + 1],
+                false => own.into_iter().map(|row| row - base + 1).collect(),
+            }
         };
         let is_long =
             sizes.coordinates() > 9 || self.shape().lengths(sizes).any(|length| length > 9);
         let places = self.shape().places(index, sizes).into_iter();
-        let digits: Vec<String> = places.map(|at| number(at).to_string()).collect();
+        let digits: Vec<String> = places.flat_map(numbers).map(|at| at.to_string()).collect();
         match digits.as_slice() {
             [] => letter.to_string(),
             digits => format!("{letter}_{}", digits.join(if is_long { "," } else { "" })),
@@ -278,8 +289,13 @@ impl Quantity {
         let shape = self.shape();
         let lengths: Vec<usize> = shape.lengths(sizes.over_all(from.len())).collect();
         for (place, axis) in shape.0.iter().enumerate() {
-            if *axis == Axis::Coordinates && !self.is_of_links() {
-                let stride = lengths[place + 1..].iter().product();
+            let stride: usize = lengths[place + 1..].iter().product();
+            let strides = match axis {
+                Axis::Coordinates | Axis::Links if !self.is_of_links() => vec![stride],
+                Axis::Limbs => vec![stride * from.len(), stride],
+                _ => Vec::new(),
+            };
+            for stride in strides {
                 gather(following, from, stride, &mut values);
             }
         }
@@ -296,6 +312,10 @@ impl Quantity {
             let at = axes.fold(0, |at, (axis, place)| match axis {
                 Axis::Coordinates => at * from.len() + places[place],
                 Axis::Links => at * from.len() + places[base + place],
+                Axis::Limbs => {
+                    let entry = sizes.of_blocks(place, to).into_iter().flatten();
+                    entry.fold(at, |at, place| at * from.len() + places[place])
+                }
                 other => at * other.length(sizes) + place,
             });
             values[at].clone()
@@ -304,14 +324,26 @@ impl Quantity {
     }
 }
 
-/// Returns the coordinate at a place along an axis over these rows; none of other axes.
-fn coordinate(axis: Axis, place: usize, rows: &[usize], sizes: Sizes) -> Option<usize> {
+/// Returns the coordinates at a place along an axis over these rows: one, or two of a limb's block;
+/// none of other axes.
+fn coordinates(
+    axis: Axis,
+    place: usize,
+    rows: &[usize],
+    sizes: Sizes,
+) -> impl Iterator<Item = usize> {
     let over = sizes.over(rows);
-    match axis {
-        Axis::Coordinates => rows.get(place).copied(),
-        Axis::Links => rows.get(over.rows - over.links + place).copied(),
-        _ => None,
-    }
+    let places = match axis {
+        Axis::Coordinates => [Some(place), None],
+        Axis::Links => [Some(over.rows - over.links + place), None],
+        Axis::Limbs => match sizes.of_blocks(place, rows) {
+            Some(entry) => entry.map(Some),
+            None => [None; 2],
+        },
+        _ => [None; 2],
+    };
+    let rows = places.map(|place| rows.get(place?).copied());
+    rows.into_iter().flatten()
 }
 
 pub(super) fn load(at: &[Index]) -> &'static str {

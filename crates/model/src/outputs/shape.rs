@@ -17,6 +17,9 @@ pub enum Axis {
     Fixed(usize),
     /// An entry an inertial parameter, link by link, in a scene too.
     LinkParameters,
+    /// Of a matrix over joints one block a limb, one behind the other, each row by row; in a scene, over
+    /// the joints that results are over.
+    Limbs,
     /// An entry a base parameter: how many there are, the arm says, and the scene.
     BaseParameters,
     /// An entry a regrouped parameter that a payload changes.
@@ -34,6 +37,10 @@ pub struct Sizes {
     pub joints: usize,
     /// The coordinates of a base that floats: six, or none.
     pub floating: usize,
+    /// The joints with which the limbs of a base that floats begin, a bit each; none on a fixed base.
+    pub limbs: u64,
+    /// The entries of the limbs' blocks.
+    pub blocks: usize,
     /// The base parameters; zero where nothing is over these.
     pub base: usize,
     /// The regrouped parameters that a payload changes; zero where there is none at run time.
@@ -49,6 +56,8 @@ impl Sizes {
             links: joints,
             joints,
             floating: 0,
+            limbs: 0,
+            blocks: 0,
             base: 0,
             load: 0,
         }
@@ -56,11 +65,23 @@ impl Sizes {
 
     /// Returns the sizes of results over all coordinates of a robot.
     pub fn of(robot: &Robot) -> Sizes {
-        Sizes {
-            rows: robot.coordinates(),
-            floating: robot.base_coordinates(),
-            ..Sizes::whole(robot.joints.len())
-        }
+        let limbs = match robot.floating {
+            Some(_) => robot.limb_starts(),
+            None => 0,
+        };
+        Sizes::floating(robot.base_coordinates(), robot.joints.len(), limbs)
+    }
+
+    /// Returns the sizes of results over all coordinates of a robot with limbs that begin with these
+    /// joints.
+    pub fn floating(floating: usize, joints: usize, limbs: u64) -> Sizes {
+        let sizes = Sizes {
+            floating,
+            limbs,
+            ..Sizes::whole(joints)
+        };
+        let rows: Vec<usize> = (0..floating + joints).collect();
+        sizes.over(&rows)
     }
 
     /// Returns the number of coordinates of a velocity.
@@ -74,16 +95,48 @@ impl Sizes {
         Sizes {
             rows: rows.len(),
             links: rows.iter().filter(|row| **row >= self.floating).count(),
+            blocks: self
+                .of_limbs(rows)
+                .iter()
+                .map(|limb| limb.len().pow(2))
+                .sum(),
             ..self
         }
     }
 
-    /// Returns the same over all rows of an arm that has so many.
+    /// Returns each limb's places among these coordinates, as [`Axis::Limbs`] has them; limbs that none of
+    /// them is of are left out.
+    pub fn of_limbs(self, rows: &[usize]) -> Vec<Vec<usize>> {
+        let joints = |row: usize| row.checked_sub(self.floating).filter(|joint| *joint < 64);
+        let limb = |row: usize| joints(row).map(|joint| (self.limbs << (63 - joint)).count_ones());
+        let places = |own: u32| {
+            let places = rows.iter().enumerate();
+            let places = places.filter(|(_, row)| limb(**row) == Some(own));
+            places.map(|(place, _)| place).collect::<Vec<usize>>()
+        };
+        let limbs = (1..=self.limbs.count_ones()).map(places);
+        limbs.filter(|places| !places.is_empty()).collect()
+    }
+
+    /// Returns the places among these coordinates of the row and the column of an entry of limbs' blocks.
+    pub(super) fn of_blocks(self, mut entry: usize, rows: &[usize]) -> Option<[usize; 2]> {
+        for limb in self.of_limbs(rows) {
+            let length = limb.len();
+            if entry < length * length {
+                return Some([limb[entry / length], limb[entry % length]]);
+            }
+            entry -= length * length;
+        }
+        None
+    }
+
+    /// Returns the same over all rows of an arm that has so many: a limb's block is then the whole matrix.
     #[must_use]
     pub fn over_all(self, rows: usize) -> Sizes {
         Sizes {
             rows,
             links: rows,
+            blocks: rows * rows,
             ..self
         }
     }
@@ -136,6 +189,7 @@ impl Axis {
             Axis::LinkParameters => {
                 LinkParameter::COUNT * (sizes.joints + usize::from(sizes.floating > 0))
             }
+            Axis::Limbs => sizes.blocks,
             Axis::BaseParameters => sizes.base,
             Axis::Load => sizes.load,
         }

@@ -41,6 +41,7 @@ pub(crate) use findings::Findings;
 pub use findings::{Finding, RobotWarning, Severity};
 pub use floating::{BaseLimits, FloatingBase};
 pub use follower::Follower;
+pub(crate) use tree::limb_starts;
 pub use tree::{Parent, Placed};
 
 pub(crate) use units::shown;

@@ -66,6 +66,13 @@ impl Robot {
             .unwrap_or_else(|| self.base_coordinates())
     }
 
+    /// Returns the joints with which limbs begin, a bit each, the lowest for joint 0. A limb is what hangs
+    /// on the base by one link; limbs whose joints alternate, or follow one another's, count as one.
+    pub fn limb_starts(&self) -> u64 {
+        let rows = 0..self.rows().len();
+        limb_starts(rows.map(|row| (self.carrier(row), self.mover_of(row))))
+    }
+
     /// Returns true if some link is carried by another than the link before: the links branch, and
     /// their joints are placed.
     pub fn branches(&self) -> bool {
@@ -80,6 +87,28 @@ impl Robot {
         let is_tip = |row: &usize| !carriers.contains(&Some(*row));
         (0..rows.len()).filter(is_tip).collect()
     }
+}
+
+/// Returns the joints with which limbs begin, a bit each, from each row's carrier and the joint by whose
+/// motion it moves.
+pub(crate) fn limb_starts(rows: impl Iterator<Item = (Option<usize>, usize)>) -> u64 {
+    let mut roots: Vec<usize> = Vec::new();
+    // The first and the last joint of each root's limb.
+    let mut spans: Vec<[usize; 2]> = Vec::new();
+    for (row, (carrier, joint)) in rows.enumerate() {
+        let root = carrier.map_or(row, |carrier| roots[carrier]);
+        roots.push(root);
+        spans.push([joint; 2]);
+        let [first, last] = &mut spans[root];
+        (*first, *last) = (joint.min(*first), joint.max(*last));
+    }
+    let joints = spans.iter().map(|[_, last]| last + 1).max().unwrap_or(0);
+    let is_start = |joint: &usize| {
+        let mut spans = spans.iter();
+        !spans.any(|[first, last]| (first + 1..=*last).contains(joint))
+    };
+    let starts = (0..joints.min(Robot::MAX_JOINTS)).filter(is_start);
+    starts.fold(0, |bits, joint| bits | 1 << joint)
 }
 
 impl Joint {

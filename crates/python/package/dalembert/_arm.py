@@ -140,6 +140,25 @@ class Arm:
         moved = np.moveaxis(values, axis, 0)
         return {name: moved[place] for name, place in places.items()}
 
+    @functools.cached_property
+    def limbs(self) -> tuple[tuple[str, ...], ...]:
+        """The joints of each limb of a base that floats, as ``inertia_blocks`` has them: in a scene
+        without what is locked. Empty on a fixed base."""
+        names = tuple(self._positions)
+        return tuple(tuple(names[joint] for joint in limb) for limb in self._native.limbs)
+
+    def blocks(self, limbs: ArrayLike) -> list[Any]:
+        """Return one matrix a limb, (…, k, k), from the field ``limbs`` of ``inertia_blocks``."""
+        import numpy as np
+
+        values = np.asarray(limbs)
+        sizes = [len(limb) for limb in self.limbs]
+        length = sum(size * size for size in sizes)
+        if values.shape[-1:] != (length,):
+            raise ValueError(f"blocks: expected (…, {length}), found {values.shape}")
+        parts = np.split(values, np.cumsum([size * size for size in sizes])[:-1], axis=-1)
+        return [part.reshape(*values.shape[:-1], n, n) for part, n in zip(parts, sizes)]
+
     @property
     def frames(self) -> tuple[str, ...]:
         """The frames that outputs may be at, as in ``jacobian@camera``; the hand is where no links branch."""
