@@ -169,3 +169,97 @@ fn points_in_contact_are_told_apart() {
         assert!(refusal.contains(words), "{refusal}");
     }
 }
+
+/// Lines of a scene, the outputs, and lines that make it another scene, whose claim is refused.
+const SCENES: [(&str, &str, &str); 3] = [
+    (
+        "lock = { trunk = \"level\" }",
+        "inverse_dynamics, gravity, inertia, inverse_dynamics_derivatives, coriolis_matrix, \
+         dynamic_coefficients, potential_energy, forward_dynamics, jacobian@left_foot, regressor, \
+         centroidal_momentum_matrix",
+        "lock = { trunk = \"level\" }\ngravity = [0, 0, -9.8]",
+    ),
+    (
+        "lock = { base = \"level\", right_slide = 0.05 }\ngravity = [0, 3, -9]",
+        "inverse_dynamics, gravity, manipulator_equation, contact_jacobians@left_foot,right_foot",
+        "lock = { right_slide = 0.05 }\ngravity = [0, 3, -9]",
+    ),
+    (
+        "payload = { link = \"trunk\", mass = 2, com = [0.1, -0.2, 0.3], inertia = [0.1, 0.1, 0.1, 0, 0, 0] }",
+        "inverse_dynamics, gravity, inertia, forward_dynamics, inertia_blocks, joint_torques_free",
+        "payload = { link = \"trunk\", mass = 2, com = [0.1, -0.2, 0.31], inertia = [0.1, 0.1, 0.1, 0, 0, 0] }",
+    ),
+];
+
+fn two_legs_in(lines: &str) -> String {
+    let robot = source("two_legs", "");
+    let (robot, _) = robot.split_once("[scene.").unwrap();
+    format!("{robot}[scene.test]\n{lines}\n")
+}
+
+/// A scene locks the base, or puts a payload on it: every function is shown, and of no other scene.
+#[test]
+fn scenes_of_a_base_are_shown() {
+    for (lines, outputs, other) in SCENES {
+        let robot = two_legs_in(lines);
+        for language in ["rust", "c"] {
+            let asked =
+                format!("scene: test; outputs: {outputs}; scalar: f64; language: {language}");
+            let file = Certified::of(&robot, Some("test"), &asked).remove(0);
+            file.is_shown(outputs.split(", ").count(), lines);
+            let is_held = lines.contains("level");
+            let places = ["pub const BASE:", "TWO_LEGS_TEST_BASE = 0"];
+            let has_base = places.iter().any(|place| file.text.contains(place));
+            assert_eq!(has_base, !is_held, "{lines}");
+            assert_eq!(
+                file.text.contains("JOINTS"),
+                is_held && language == "rust",
+                "{lines}"
+            );
+            let another = Certified {
+                robot: two_legs_in(other),
+                ..file
+            };
+            assert!(another.refusal().is_some(), "{other}");
+        }
+    }
+}
+
+/// Torques of a base that is locked are those of one that floats and is at rest.
+#[test]
+fn a_locked_base_is_at_rest() {
+    let [held, free] = ["lock = { trunk = \"level\" }", ""].map(|lines| {
+        let asked = "scene: test; outputs: inverse_dynamics; scalar: f64";
+        Case::read(&two_legs_in(lines), asked)
+    });
+    let (_, states) = held.runtime(20, 5);
+    let [held, free] = [held, free].map(|case| case.generated().emitted.remove(0));
+    for mut state in states {
+        let found = held.run(&state);
+        for rates in [&mut state.qd, &mut state.qdd] {
+            rates.splice(0..0, [0.0; 6]);
+        }
+        state.g = vec![0.0, 0.0, -9.81];
+        let expected = free.run(&state).split_off(6);
+        let size = expected.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        for (found, expected) in found.iter().zip(&expected) {
+            assert!((found - expected).abs() <= 1e-14 * size);
+        }
+    }
+}
+
+#[test]
+fn a_frame_on_a_locked_base_is_refused() {
+    let robot = two_legs_in("lock = { trunk = \"level\" }");
+    for (output, words) in [
+        ("jacobian@imu", "is on the base, which does not move"),
+        ("inertia_blocks", "scene `test` locks the base"),
+    ] {
+        let case = Case::read(
+            &robot,
+            &format!("scene: test; outputs: {output}; scalar: f64"),
+        );
+        let error = case.refusal();
+        assert!(error.contains(words), "{error}");
+    }
+}

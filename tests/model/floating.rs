@@ -7,6 +7,7 @@ use dalembert_model::number::Rounded;
 use dalembert_model::outputs::{Quantity, Sizes};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::{JointKind, Parent};
+use dalembert_model::scene;
 use nalgebra::DVector;
 use serde_json::Value;
 
@@ -204,4 +205,129 @@ fn the_runtime_has_six_coordinates_more() {
     assert_eq!(Quantity::LinkPoses.len(sizes), 4 * 12);
     assert_eq!(Quantity::LinkRegressor.len(sizes), 10 * 50);
     assert_eq!(Quantity::Wrench.entry(6, &rows, sizes), "w_2,1");
+}
+
+fn in_scene(lines: &str) -> String {
+    let (robot, _) = two_legs()
+        .split_once("[scene.")
+        .map(|(a, b)| (a.to_owned(), b.to_owned()))
+        .unwrap();
+    format!("{robot}[scene.stand]\n{lines}\n")
+}
+
+/// A base that is locked is that of a fixed tree; gravity is the file's, or the scene's.
+#[test]
+fn a_scene_locks_the_base() {
+    let reading = reading(&in_scene(
+        "lock = { trunk = \"level\", right_slide = 0.05 }",
+    ));
+    let [scene] = reading.scenes.as_slice() else {
+        panic!("one scene");
+    };
+    assert!(scene.lock_base && scene.lock.len() == 1);
+    let held = scene.apply(&reading.robot);
+    assert!(held.floating.is_none() && held.is_tree());
+    assert_eq!((held.coordinates(), held.depth()), (4, 2));
+    let frames: Vec<&str> = held.frames.iter().map(|own| own.name.as_str()).collect();
+    assert_eq!(frames, ["left_foot", "right_foot"]);
+    let text = scene::write(scene);
+    assert!(
+        text.contains("lock = { base = \"level\", 4 = 0.05 }"),
+        "{text}"
+    );
+    let head = written(&reading.robot);
+    assert_eq!(
+        crate::support::reading(&format!("{head}{text}")).scenes[0],
+        *scene
+    );
+    // The same torques as of a base that floats and is at rest.
+    let [fixed, floating] = [&held, &reading.robot].map(Reference::from_robot);
+    let vector = |n: usize| DVector::from_fn(n, |i, _| 0.3 - 0.2 * i as f64);
+    let (q, qd) = (vector(4), vector(4) * 2.0);
+    let found = fixed.inverse_dynamics(&q, &qd, &qd).unwrap();
+    let wide =
+        |rates: &DVector<f64>| DVector::from_fn(10, |i, _| if i < 6 { 0.0 } else { rates[i - 6] });
+    let expected = floating
+        .inverse_dynamics(&q, &wide(&qd), &wide(&qd))
+        .unwrap();
+    assert!((found - expected.rows(6, 4)).amax() < 1e-14);
+}
+
+/// A payload on the base is felt by the base alone while no joint moves: F = m (a - g), and r x F.
+#[test]
+fn a_base_carries_a_payload() {
+    let reading = reading(&in_scene(
+        "payload = { link = \"trunk\", mass = 2, com = [0.1, -0.2, 0.3] }",
+    ));
+    let scene = &reading.scenes[0];
+    assert_eq!(scene.payload_link, Some(Parent::Base));
+    let text = scene::write(scene);
+    assert!(text.contains("link = \"base\""), "{text}");
+    let head = written(&reading.robot);
+    assert_eq!(
+        crate::support::reading(&format!("{head}{text}")).scenes[0],
+        *scene
+    );
+    let [loaded, bare] = [&scene.apply(&reading.robot), &reading.robot].map(Reference::from_robot);
+    let zero = DVector::zeros(10);
+    let a = [0.5, -1.5, 2.0];
+    let qdd = DVector::from_fn(10, |i, _| a.get(i).copied().unwrap_or(0.0));
+    let q = DVector::from_fn(4, |i, _| 0.2 * i as f64);
+    let [loaded, bare] = [loaded, bare].map(|own| own.inverse_dynamics(&q, &zero, &qdd).unwrap());
+    let more = loaded - bare;
+    let force = [2.0 * a[0], 2.0 * a[1], 2.0 * (a[2] + 9.81)];
+    let r = [0.1, -0.2, 0.3];
+    let moment = |i: usize| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        r[j] * force[k] - r[k] * force[j]
+    };
+    for i in 0..3 {
+        assert!((more[i] - force[i]).abs() < 1e-12, "{more}");
+        assert!((more[3 + i] - moment(i)).abs() < 1e-12, "{more}");
+    }
+    assert!(more.rows(6, 4).amax() < 1e-12);
+}
+
+/// Lines of a scene, and of its error: the message and the help.
+const SCENES: &[(&str, &str, &str)] = &[
+    (
+        "lock = { trunk = 0 }",
+        "expected \"level\"",
+        "trunk = \"level\"",
+    ),
+    (
+        "lock = { trunk = \"tilted\" }",
+        "tilted",
+        "trunk = \"level\"",
+    ),
+    (
+        "lock = { torso = \"level\" }",
+        "there is no joint `torso`",
+        "",
+    ),
+    (
+        "lock = { base = \"level\" }\npayload = { link = \"trunk\", mass = 1, com = [0, 0, 0] }",
+        "on the base, which does not move",
+        "",
+    ),
+    (
+        "lock = { base = \"level\" }\nbox = { velocity = [1, 1, 1, 1, 1, 1, 1, 1, 1, 1] }",
+        "10 entries, but the robot has 4 joints",
+        "one entry a joint",
+    ),
+    (
+        "payload = { mass = 1, com = [0, 0, 0] }",
+        "no link that holds it",
+        "link =",
+    ),
+];
+
+#[test]
+fn scenes_of_a_base_are_refused_with_the_reason() {
+    for (lines, message, help) in SCENES {
+        let all = errors(&in_scene(lines));
+        has(only(&all), message, help);
+    }
+    let level = "lock = { base = \"level\" }\nbox = { velocity = [1, 1, 1, 1] }";
+    assert_eq!(reading(&in_scene(level)).scenes.len(), 1);
 }

@@ -141,7 +141,7 @@ pub(crate) fn write(
              #else\n#define {simd}\n#endif\n"
         );
     }
-    text += &places_c(robot, &names);
+    text += &places_c(setup.robot(), &names);
     for &(scalar, ref codes) in codes {
         let names = Names::new(&name, request.language, scalar);
         let mut lines = header(robot, setup, functions, scalar);
@@ -186,7 +186,7 @@ pub(crate) fn write(
             }
             doc.push(String::new());
             for argument in &program.arguments {
-                let (name, meaning) = (argument.name(), meaning(*argument, robot));
+                let (name, meaning) = (argument.name(), meaning(*argument, setup.robot()));
                 let length = match c99::argument_structure(*argument, &names) {
                     Some(_) => String::new(),
                     None => format!("[{}]", argument.length(sizes)),
@@ -196,7 +196,7 @@ pub(crate) fn write(
             for quantity in function.quantities() {
                 let rows = setup.rows();
                 let count = quantity.len(sizes);
-                let units = (0..count).map(|i| quantity.unit(i, rows, sizes, robot));
+                let units = (0..count).map(|i| quantity.unit(i, rows, sizes, setup.robot()));
                 let mut units: Vec<&str> = units.collect();
                 units.dedup();
                 units.truncate(4);

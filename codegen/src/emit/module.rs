@@ -2,7 +2,7 @@
 //! structs and functions.
 
 use dalembert_model::number::{Angle, Rational};
-use dalembert_model::robot::{Convention, Follower, JointKind, Position, Robot};
+use dalembert_model::robot::{Convention, Follower, JointKind, Parent, Position, Robot};
 use dalembert_model::scene::Scene;
 
 use super::escape::{escaped, sentence};
@@ -33,10 +33,10 @@ pub(crate) fn write(
     // Only this way of telling it so is stable as an inner attribute.
     text += &format!("#![cfg_attr(rustfmt, rustfmt_skip)]\n#![allow({ALLOWED})]\n\n");
     text += &format!("/// The number of joints.\npub const N: usize = {n};\n");
-    text += &arguments::places(robot);
+    text += &arguments::places(setup.robot());
     let rows = setup.rows();
     if setup.scene().is_some() {
-        let (over, what) = match robot.floating {
+        let (over, what) = match setup.robot().floating {
             None => ("JOINTS", "joints"),
             Some(_) => ("COORDINATES", "coordinates of the velocity"),
         };
@@ -311,6 +311,9 @@ fn describe(scene: &Scene, robot: &Robot) -> Vec<String> {
         scene.name,
         scene.short_hash()
     )];
+    if scene.lock_base {
+        lines.push("- the base at rest, its axes those of gravity;".to_owned());
+    }
     for (joint, at) in &scene.lock {
         let at = match at {
             Position::Angle(angle) => format!("{angle} rad"),
@@ -332,7 +335,10 @@ fn describe(scene: &Scene, robot: &Robot) -> Vec<String> {
     if let Some(payload) = &scene.payload {
         let mass = decimal(&payload.mass);
         let com = list(payload.com.iter().map(decimal));
-        let named = |row| link_name(robot, row);
+        let named = |link| match link {
+            Parent::Base => "the base".to_owned(),
+            Parent::Row(row) => link_name(robot, row),
+        };
         let link = (scene.payload_link).map_or_else(|| "the last link".to_owned(), named);
         lines.push(format!(
             "- a payload of {mass} kg at ({com}) m in the frame of {link};"

@@ -7,6 +7,7 @@ use crate::program::ScalarType;
 use crate::tolerance::refusals::ToleranceError;
 use crate::verify::exact::Disproof;
 use crate::words::{Complaint, complaint};
+use dalembert_model::scene::Scene;
 
 /// Why nothing was generated.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,11 +110,14 @@ impl GenerateError {
         GenerateError::refused(function, message, help)
     }
 
-    pub(super) fn is_fixed(function: Function) -> GenerateError {
+    pub(super) fn is_fixed(function: Function, scene: Option<&Scene>) -> GenerateError {
         let message =
             format!("`{function}` is not there where the base is fixed: something holds it");
-        let help =
-            "a base floats whose first `[[joint]]` is of kind `floating`; `import --floating`";
+        let help = match scene {
+            Some(scene) if scene.lock_base => format!("scene `{}` locks the base", scene.name),
+            _ => "a base floats whose first `[[joint]]` is of kind `floating`; `import --floating`"
+                .to_owned(),
+        };
         GenerateError::refused(function, message, help)
     }
 

@@ -30,7 +30,7 @@ use crate::parallel;
 use crate::program::{Code, Program, ScalarType};
 use crate::search::Effort;
 use crate::seeds::depends_on_coulomb;
-use crate::setup::{ParametersKey, input_hash};
+use crate::setup::{ParametersKey, Setup, input_hash};
 use crate::task::{Job, Prefer, Request};
 pub use crate::tolerance::refusals::ToleranceError;
 use crate::tolerance::refusals::{FLOATS, FOLLOWS, FRICTION, unbounded};
@@ -126,8 +126,8 @@ pub const MAX_OUTPUTS: usize = 20_000;
 pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateError> {
     let asked = request;
     let request = &*language::with_short_name(robot, asked);
-    check(robot, request)?;
     let setup = &request.setup(robot)?;
+    check(robot, setup, request)?;
     let job = &Job {
         robot,
         setup,
@@ -209,7 +209,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     })
 }
 
-fn check(robot: &Robot, request: &Request) -> Outcome<()> {
+fn check(robot: &Robot, setup: &Setup, request: &Request) -> Outcome<()> {
     if request.functions.is_empty() || request.scalars.is_empty() {
         return Err(GenerateError::empty());
     }
@@ -227,15 +227,16 @@ fn check(robot: &Robot, request: &Request) -> Outcome<()> {
         }
     }
     for &function in &functions {
-        check_frames(robot, function)?;
+        check_frames(robot, setup, function)?;
         if !robot.followers.is_empty() && !function.takes_followers() {
             return Err(GenerateError::follows(function));
         }
-        if robot.floating.is_some() && !function.takes_floating_base() {
+        let floats = setup.robot().floating.is_some();
+        if floats && !function.takes_floating_base() {
             return Err(GenerateError::floats(function));
         }
-        if robot.floating.is_none() && !function.takes_fixed_base() {
-            return Err(GenerateError::is_fixed(function));
+        if !floats && !function.takes_fixed_base() {
+            return Err(GenerateError::is_fixed(function, setup.scene()));
         }
     }
     language::check(robot, request, &functions)?;
@@ -247,7 +248,7 @@ fn check(robot: &Robot, request: &Request) -> Outcome<()> {
     let scene = request.scene.as_ref();
     let has_tolerance = scene.is_some_and(|scene| scene.tolerance.is_some());
     let refused = |&function: &Function| {
-        let why = match (robot.followers.is_empty(), &robot.floating) {
+        let why = match (robot.followers.is_empty(), &setup.robot().floating) {
             (false, _) => complaint(FOLLOWS),
             (true, Some(_)) => complaint(FLOATS),
             (true, None) => unbounded(function)?,
@@ -262,7 +263,20 @@ fn check(robot: &Robot, request: &Request) -> Outcome<()> {
     Err(GenerateError::Tolerance(function, why))
 }
 
-fn check_frames(robot: &Robot, function: Function) -> Outcome<()> {
+fn check_frames(robot: &Robot, setup: &Setup, function: Function) -> Outcome<()> {
+    let scene = setup.scene().filter(|scene| scene.lock_base);
+    let of_base = robot.frames.iter().filter(|frame| frame.row.is_none());
+    let of_base: Vec<&str> = of_base.map(|frame| frame.name.as_str()).collect();
+    let frames = function.frames();
+    if let Some(scene) = scene
+        && let Some(frame) = frames.iter().find(|frame| of_base.contains(frame))
+    {
+        let text = function.text();
+        let message = format!("`{text}`: the frame `{frame}` is on the base, which does not move");
+        let help = format!("scene `{}` locks the base", scene.name);
+        return Err(GenerateError::refused(function, message, &help));
+    }
+    let robot = setup.robot();
     // Frames at the ends of limbs are most often meant.
     let tips = robot.tips();
     let (ends, others): (Vec<&Frame>, Vec<&Frame>) = robot

@@ -1,10 +1,11 @@
 //! A robot in its scene: what that fixes, and what it asks for.
 //!
 //! Every stage works on a [`Setup`]; without a scene it is the whole robot.
-//! Three things a scene changes, each in its own place:
+//! Four things a scene changes, each in its own place:
 //!
 //! - payload and gravity are parameters: the scene's [`robot`](Setup::robot)
 //!   has them, exactly, before anything is traced;
+//! - a base that is locked is a fixed one: the scene's robot has none that floats;
 //! - locked joints and zero rates are inputs that are constants:
 //!   [`Setup::motion`] puts them in the place of the state's;
 //! - joints that nobody asks for are results that are left out
@@ -110,7 +111,7 @@ impl Setup {
         let locks: Vec<_> = (0..n).map(|i| scene.locked(i).map(position)).collect();
         let joints = scene.rows(n);
         let is_chained = |i: &usize| locks[*i].is_none() || joints.contains(i);
-        let base = robot.base_coordinates();
+        let base = scene.base_coordinates(robot);
         let rows = (0..base).chain(joints.iter().map(|joint| base + joint));
         Ok(Setup {
             scene: Some(scene.clone()),
@@ -196,7 +197,7 @@ impl Setup {
     pub fn has_whole_model(&self) -> bool {
         let changes = |scene: &Scene| {
             let still = scene.velocity_zero || scene.acceleration_zero;
-            still || scene.gravity.is_some() || scene.payload.is_some()
+            still || scene.lock_base || scene.gravity.is_some() || scene.payload.is_some()
         };
         let same = !self.scene.as_ref().is_some_and(changes);
         same && self.rows.iter().copied().eq(0..self.coordinates())

@@ -61,12 +61,14 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
     let setup = request.setup(robot).map_err(GenerateError::from)?;
     let states = setup.states(args.states, SEED);
     let claimed = claims(&setup, &generated, &mut done)?;
+    let scenic = setup.clone();
     let bench = Bench::new(setup);
     if let Some((file, states)) = args.given.as_ref().zip(given) {
         // A state rounded to f32 is another state.
         let emitted = generated.emitted.iter();
         let double = emitted.filter(|own| own.scalar == ScalarType::F64);
-        let compared = double.flat_map(|own| given::compare(own, bench.runtime(), robot, &states));
+        let compared =
+            double.flat_map(|own| given::compare(own, bench.runtime(), scenic.robot(), &states));
         let compared: Vec<Compared> = compared.collect();
         given::describe(&file.display().to_string(), &states, &compared, &mut done);
     }
@@ -111,7 +113,8 @@ fn given_states(
 ) -> Result<Vec<GivenState>, Failure> {
     let shown = file.display();
     let fail = |why: String| Failure::Input(format!("error: {shown}: {why}"));
-    let states = given::read(&text(file, MAX_STATES_BYTES)?, &source.robot);
+    let setup = request.setup(&source.robot).map_err(GenerateError::from)?;
+    let states = given::read(&text(file, MAX_STATES_BYTES)?, setup.robot());
     let states = states.map_err(fail)?;
     let known = states.iter().flat_map(|state| state.known.keys().copied());
     let known: BTreeSet<Quantity> = known.collect();

@@ -69,6 +69,7 @@ impl Function {
 pub struct Arm {
     source: String,
     robot: Robot,
+    floats: bool,
     entry: Entry,
     functions: Vec<Function>,
     load: Load,
@@ -144,10 +145,13 @@ impl Arm {
         is_from_cache: bool,
     ) -> Result<Arm, LoadError> {
         let reading = read_robot(&entry.robot, "the arm's robot file")?;
+        let scene = load.request(&reading)?.scene;
+        let floats = reading.robot.floating.is_some() && !scene.is_some_and(|own| own.lock_base);
         let functions = entry.functions.iter();
         let functions = functions.map(|proved| compiled(&entry, proved));
         Ok(Arm {
             robot: reading.robot,
+            floats,
             source: source.to_owned(),
             functions: functions.collect::<Result<_, _>>()?,
             entry,
@@ -159,6 +163,12 @@ impl Arm {
     /// Returns the robot.
     pub fn robot(&self) -> &Robot {
         &self.robot
+    }
+
+    /// Returns true if its base floats, and the scene does not lock it: then velocities, accelerations
+    /// and torques begin with six entries of the base.
+    pub fn floats(&self) -> bool {
+        self.floats
     }
 
     /// Returns the text that it was loaded from, a robot file's or a URDF's.

@@ -51,10 +51,11 @@ impl Arm {
         (1..).zip(&self.0.robot().joints).map(of).collect()
     }
 
-    /// Returns the name of the base if it floats.
+    /// Returns the name of the base if it floats, and no scene locks it.
     #[getter]
     fn base(&self) -> Option<String> {
-        let base = self.0.robot().floating.as_ref()?;
+        let base = self.0.robot().floating.as_ref();
+        let base = base.filter(|_| self.0.floats())?;
         Some(base.name.clone().unwrap_or_else(|| "base".to_owned()))
     }
 

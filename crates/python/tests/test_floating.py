@@ -105,6 +105,18 @@ def test_inertia_in_blocks(scene):
         legs.blocks(parts.base)
 
 
+def test_a_scene_locks_the_base(legs, tmp_path):
+    file = tmp_path / "legs.toml"
+    file.write_text(FILE.read_text() + '\n[scene.stand]\nlock = { trunk = "level" }\n')
+    held = dalembert.load(file, outputs=["inverse_dynamics"], scene="stand")
+    assert held.base is None and held.limbs == ()
+    assert held.places == {joint.name: place for place, joint in enumerate(held.joints)}
+    q, qd = np.full(4, 0.3), np.linspace(-1, 1, 4)
+    tau = held.inverse_dynamics(q, qd, qd)
+    wide = np.concatenate([np.zeros(6), qd])
+    assert_allclose(tau, legs.inverse_dynamics(q, wide, wide, [0, 0, -9.81])[6:], rtol=0, atol=1e-13)
+
+
 def test_arguments_have_their_lengths(legs):
     n = len(legs.joints)
     with pytest.raises(ValueError, match=rf"argument `qd` has shape \({n},\), expected \({n + 6},\)"):

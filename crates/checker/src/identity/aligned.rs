@@ -161,7 +161,8 @@ fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Vec<
     all.push(Part::new("payload_frame", held.rows()));
     if let Some(own) = payload {
         let body = Digits.body(Some(&own.mass), Some(&own.com), own.inertia.as_ref())?;
-        let holder = &links[file.holder(own.link.as_ref())?];
+        let holder = file.holder(own.link.as_ref())?;
+        let holder = holder.map_or(&base, |row| &links[row]);
         let frame = match has_frame {
             true => &holder.then(&Digits.placement(file.payload_frame.as_ref())?),
             false => holder,

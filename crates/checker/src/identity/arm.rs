@@ -324,7 +324,8 @@ impl Arm {
         }
         let locked = (0..setting.joints()).filter(|&own| setting.is_locked(own));
         let locked = locked.map(|joint| setting.base() + joint);
-        let body = file.floating.as_ref().map(|own| point.floating(file, own));
+        let body = file.floating.as_ref().filter(|_| setting.floats);
+        let body = body.map(|own| point.floating(file, own));
         let mut arm = Arm {
             base: body.transpose()?,
             movers: setting.movers.clone(),
@@ -340,8 +341,10 @@ impl Arm {
         };
         if let Some((own, frame)) = carried {
             let carried = point.body(Some(&own.mass), Some(&own.com), own.inertia.as_ref())?;
-            let row = file.holder(own.link.as_ref())?;
-            arm.carry(row, carried, &point.placement(frame)?);
+            match file.holder(own.link.as_ref())? {
+                Some(row) => arm.carry(row, carried, &point.placement(frame)?),
+                None => arm.carry_on_base(carried)?,
+            }
         }
         Ok(arm)
     }
@@ -381,6 +384,13 @@ impl Arm {
         }
     }
 
+    fn carry_on_base(&mut self, (body, centre): (Body, Pose)) -> Result<(), String> {
+        let base = self.base.as_mut();
+        let base = base.ok_or("a payload on a base that does not move")?;
+        *base = base.plus(&body.moved(&centre));
+        Ok(())
+    }
+
     /// In the frame of the robot file: mass, centre of mass, and the tensor about it.
     pub(super) fn carrying(
         mut self,
@@ -392,7 +402,7 @@ impl Arm {
         let mut body = Body::new(own);
         let centre = Pose::shift(std::mem::take(&mut body.first));
         let frame = point.placement(setting.file.payload_frame.as_ref())?;
-        let row = setting.file.holder(None)?;
+        let row = setting.file.holder(None)?.unwrap_or_default();
         self.carry(row, (body, centre), &frame);
         Ok(self)
     }

@@ -244,20 +244,24 @@ impl File {
             .any(|row| self.carrier(row) != Ok(Some(row - 1)))
     }
 
-    /// Returns the row whose link holds a payload: the last, but where links branch.
+    /// Returns the row whose link holds a payload: the last, but where links branch; none for a base that
+    /// floats.
     ///
     /// # Errors
     /// A link that is not named, or is another than the last one of a chain.
-    pub(super) fn holder(&self, link: Option<&String>) -> Result<usize, String> {
+    pub(super) fn holder(&self, link: Option<&String>) -> Result<Option<usize>, String> {
+        if self.floating.is_some() && link.is_some_and(|word| self.is_base(word)) {
+            return Ok(None);
+        }
         let last = self.joint.len().saturating_sub(1);
         let row = link.map(|link| self.row(link)).transpose()?;
         match (row, self.is_tree()) {
-            (Some(row), true) => Ok(row),
+            (Some(row), true) => Ok(Some(row)),
             (None, true) => Err("a payload, and no link that holds it".into()),
             (Some(row), false) if row != last => {
                 Err("a payload on another than the last link".into())
             }
-            _ => Ok(last),
+            _ => Ok(Some(last)),
         }
     }
 

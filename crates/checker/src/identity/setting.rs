@@ -29,6 +29,8 @@ pub struct Setting<'f> {
     pub(super) locks: Vec<Option<&'f String>>,
     /// `true` where q̇, and q̈, is zero.
     pub(super) still: [bool; 2],
+    /// True if the base floats, and the scene does not lock it.
+    pub(super) floats: bool,
     /// The coordinates that results are over, from zero.
     pub rows: Vec<usize>,
 }
@@ -62,8 +64,13 @@ impl File {
         let movers: Vec<usize> = movers.collect();
         let joint = |word: &str| find(word, movers.iter().map(|row| &self.joint[*row]));
         let mut locks = vec![None; movers.len()];
+        let mut floats = self.floating.is_some();
         for (word, position) in &scene.lock {
-            locks[joint(word)?] = Some(position);
+            match self.floating.is_some() && self.is_base(word) {
+                true if position == "level" => floats = false,
+                true => return Err("the base is locked, and not `level`".into()),
+                false => locks[joint(word)?] = Some(position),
+            }
         }
         let free = (0..movers.len()).filter(|&own| locks[own].is_none());
         let joints: Vec<usize> = match &scene.joints {
@@ -73,7 +80,7 @@ impl File {
                 .collect::<Result<_, _>>()?,
             None => free.collect(),
         };
-        let base = self.base_coordinates();
+        let base = if floats { 6 } else { 0 };
         for list in [&scene.r#box.velocity, &scene.r#box.acceleration] {
             if list
                 .as_ref()
@@ -90,13 +97,9 @@ impl File {
             movers,
             locks,
             still: [scene.velocity.is_some(), scene.acceleration.is_some()],
+            floats,
             rows: rows.collect(),
         })
-    }
-
-    /// Returns how many coordinates are those of a base that floats: six, or none.
-    pub(super) fn base_coordinates(&self) -> usize {
-        if self.floating.is_some() { 6 } else { 0 }
     }
 
     /// Returns the row of a joint's number, from one, or of its name.
@@ -169,13 +172,13 @@ impl Setting<'_> {
             .map(|&row| self.file.joint[row].name.as_deref());
         let names: Vec<Option<&str>> = names.collect();
         let starts = || self.limbs().iter().map(|limb| limb[0]).collect();
-        let limbs = self.file.floating.as_ref().map(|_| starts());
+        let limbs = self.floats.then(starts);
         self.file.is_tree().then(|| Places::new(&names, limbs))
     }
 
     /// Returns how many coordinates come before those of the joints.
     pub fn base(&self) -> usize {
-        self.file.base_coordinates()
+        if self.floats { 6 } else { 0 }
     }
 
     /// Returns the numbers that lengths follow from.
@@ -183,7 +186,7 @@ impl Setting<'_> {
         Sizes {
             joints: self.joints(),
             coordinates: self.base() + self.joints(),
-            bodies: self.links() + usize::from(self.file.floating.is_some()),
+            bodies: self.links() + usize::from(self.floats),
         }
     }
 
@@ -467,7 +470,8 @@ impl Setting<'_> {
     pub fn is_unlimited(&self) -> bool {
         let given = &self.scene.r#box;
         let [rates, more] = [given.velocity.is_none(), given.acceleration.is_none()];
-        let base = self.file.floating.as_ref().map(|own| &own.limits);
+        let base = self.file.floating.as_ref().filter(|_| self.floats);
+        let base = base.map(|own| &own.limits);
         let is_free = base.is_some_and(|own| {
             rates && own.velocity.is_none() || more && own.acceleration.is_none()
         });

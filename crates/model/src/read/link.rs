@@ -27,9 +27,10 @@ pub(super) fn read(cx: &mut Context, joints: &[Joint], value: &Value, help: &str
 
 /// Returns true if a value names the base: by its name, where it floats.
 pub(super) fn is_base(robot: &Robot, value: &Value) -> bool {
-    let Some(text) = value.as_str() else {
-        return false;
-    };
+    (value.as_str()).is_some_and(|text| is_named_base(robot, text))
+}
+
+pub(super) fn is_named_base(robot: &Robot, text: &str) -> bool {
     let name = robot
         .floating
         .as_ref()

@@ -11,7 +11,7 @@ use super::link;
 use super::report::quote;
 use super::table::{Table, locate};
 use super::value::{Context, bytes_of, payloads};
-use crate::robot::{Follower, Joint, JointKind, Position, Robot};
+use crate::robot::{Follower, Joint, JointKind, Parent, Position, Robot};
 use crate::scene::{Float, MotionBox, Payload, Scale, Scene, Tolerance};
 
 pub(super) fn read(cx: &mut Context, robot: &Robot, root: &Value, scenes: &Value) -> Vec<Scene> {
@@ -58,6 +58,7 @@ fn scene(cx: &mut Context, robot: &Robot, name: &str, keys: &mut Table) -> Scene
         Some((payload, link)) => (Some(payload), link),
         None => (None, None),
     };
+    let (lock_base, lock) = lock(cx, robot, keys).unwrap_or_default();
     Scene {
         name: name.to_string(),
         outputs: outputs.unwrap_or_default(),
@@ -68,7 +69,8 @@ fn scene(cx: &mut Context, robot: &Robot, name: &str, keys: &mut Table) -> Scene
                 None => cx.wanted(item, "a joint", JOINTS),
             })
         }),
-        lock: lock(cx, robot, keys).unwrap_or_default(),
+        lock_base,
+        lock,
         gravity: keys.optional(cx, "gravity", |cx, value| {
             cx.array(value, GRAVITY, Context::number)
         }),
@@ -118,7 +120,12 @@ fn kind_of_rate(robot: &Robot, coordinate: usize) -> Option<JointKind> {
     }
 }
 
-fn lock(cx: &mut Context, robot: &Robot, keys: &mut Table) -> Option<Vec<(usize, Position)>> {
+/// Returns true if the base is locked, and the joints that are, with their positions.
+fn lock(
+    cx: &mut Context,
+    robot: &Robot,
+    keys: &mut Table,
+) -> Option<(bool, Vec<(usize, Position)>)> {
     let place = keys.place_of("lock");
     keys.optional(cx, "lock", |cx, value| {
         let named = value
@@ -133,15 +140,25 @@ fn lock(cx: &mut Context, robot: &Robot, keys: &mut Table) -> Option<Vec<(usize,
             "lock = {{ {name} = 0 }}: each joint, by its name or number, with its position"
         );
         let table = Table::open(cx, value, place, "lock", &help)?;
-        let mut locks = Vec::new();
+        let (mut locks, mut lock_base) = (Vec::new(), false);
         for (key, value) in table.entries() {
+            if robot.floating.is_some() && link::is_named_base(robot, &key.name) {
+                let help = format!(
+                    "lock = {{ {} = \"level\" }}: its axes are those of gravity; for another place, give \
+                     the scene its `gravity`",
+                    key.name
+                );
+                lock_base |= cx.word(value, &[(Scene::LEVEL, ())], &help).is_some();
+                continue;
+            }
             let joint = joint(cx, robot, &key.name, bytes_of(key.span));
             locks.push(joint.and_then(|joint| {
                 let at = cx.position(value, kind(robot, joint))?;
                 Some((joint, at))
             }));
         }
-        locks.into_iter().collect()
+        let locks: Option<Vec<(usize, Position)>> = locks.into_iter().collect();
+        Some((lock_base, locks?))
     })
 }
 
@@ -153,8 +170,8 @@ fn zero(cx: &mut Context, keys: &mut Table, key: &'static str) -> bool {
     read.is_some()
 }
 
-/// Returns the payload, and the row whose link holds it.
-fn payload(cx: &mut Context, robot: &Robot, keys: &mut Table) -> Option<(Payload, Option<usize>)> {
+/// Returns the payload, and the link that holds it.
+fn payload(cx: &mut Context, robot: &Robot, keys: &mut Table) -> Option<(Payload, Option<Parent>)> {
     const HELP: &str = "payload = { mass = 2.5, com = [0, 0, 0.05], inertia = [0.01, 0.01, 0.01, 0, 0, 0] }, in the last link's frame; `link = \"left_hand\"` names another where links branch";
     const COM: &str = "com = [x, y, z], in the frame of the last link, m";
     let rows: Vec<Joint> = robot.rows().into_iter().cloned().collect();
@@ -165,7 +182,10 @@ fn payload(cx: &mut Context, robot: &Robot, keys: &mut Table) -> Option<(Payload
         });
         // Without an inertia it is a point mass.
         let inertia = keys.optional(cx, "inertia", Context::inertia);
-        let link = keys.optional(cx, "link", |cx, value| link::read(cx, &rows, value, HELP));
+        let link = keys.optional(cx, "link", |cx, value| match link::is_base(robot, value) {
+            true => Some(Parent::Base),
+            false => link::read(cx, &rows, value, HELP).map(Parent::Row),
+        });
         let payload = Payload {
             mass: mass?,
             com: com?,

@@ -7,11 +7,12 @@ use num_traits::Zero;
 use super::{Payload, Scene};
 use crate::number::Rational;
 use crate::placed::frame;
-use crate::robot::{Inertia, Joint, Robot};
+use crate::robot::{Inertia, Joint, Parent, Robot};
 
 impl Scene {
     /// Returns the robot with the scene's gravity and payload, and with the box as
-    /// its limits. Locks change no parameter: they fix positions.
+    /// its limits. Locks of joints change no parameter: they fix positions. A base that is locked is a
+    /// fixed one, without the frames that are on it.
     ///
     /// The scene must be valid for the robot ([`Scene::validate`]).
     pub fn apply(&self, robot: &Robot) -> Robot {
@@ -20,10 +21,25 @@ impl Scene {
             robot.gravity = gravity.clone();
         }
         let payload = self.carried(&robot);
-        let last = (robot.joints.len() + robot.followers.len()).checked_sub(1);
-        let holder = self.payload_link.or(last);
-        if let (Some(payload), Some(link)) = (payload, holder.and_then(|row| robot.row_mut(row))) {
-            carry(link, &payload);
+        if let Some(payload) = payload {
+            let last = robot.rows().len().saturating_sub(1);
+            match (self.payload_link, &mut robot.floating) {
+                (Some(Parent::Base), Some(base)) => {
+                    let mut body = base.body();
+                    carry(&mut body, &payload);
+                    (base.mass, base.com, base.inertia) = (body.mass, body.com, body.inertia);
+                }
+                (Some(Parent::Base), None) => {}
+                (Some(Parent::Row(row)), _) => robot.carry(row, &payload),
+                (None, _) => robot.carry(last, &payload),
+            }
+        }
+        if self.lock_base && robot.floating.take().is_some() {
+            robot.frames.retain(|frame| frame.row.is_some());
+            // Its joints stay placed, as those of a tree, where one limb alone is left, too.
+            if let Some(first) = robot.row_mut(0) {
+                first.parent = Some(Parent::Base);
+            }
         }
         if let Some(range) = &self.bounds.payload {
             robot.payload_range = Some(range.clone());
@@ -59,6 +75,14 @@ impl Scene {
             None => payload.clone(),
             Some(frame) => frame::moved(payload, &frame::pose(frame), &frame.size()),
         })
+    }
+}
+
+impl Robot {
+    fn carry(&mut self, row: usize, payload: &Payload) {
+        if let Some(link) = self.row_mut(row) {
+            carry(link, payload);
+        }
     }
 }
 

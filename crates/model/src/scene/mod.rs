@@ -15,7 +15,7 @@ use alloc::vec::Vec;
 use crate::number::Rational;
 use crate::outputs::Function;
 use crate::robot::values::word;
-use crate::robot::{Limit, PayloadRange, Position};
+use crate::robot::{Limit, Parent, PayloadRange, Position, Robot};
 
 pub use crate::placed::Body as Payload;
 pub use write::write;
@@ -32,6 +32,8 @@ pub struct Scene {
     pub joints: Option<Vec<usize>>,
     /// Joints that stay where they are, with their positions, in the order of the file.
     pub lock: Vec<(usize, Position)>,
+    /// True if a base that floats stays where it is, its axes those of gravity.
+    pub lock_base: bool,
     /// Instead of the robot's.
     pub gravity: Option<[Rational; 3]>,
     /// q̇ = 0: the velocity terms vanish, and so does the argument.
@@ -41,8 +43,9 @@ pub struct Scene {
     /// The payload on the last link, given in that one's own frame: in the robot's
     /// [`payload_frame`](crate::robot::Robot::payload_frame).
     pub payload: Option<Payload>,
-    /// The row whose link holds the payload, in the link's frame: where links have several ends.
-    pub payload_link: Option<usize>,
+    /// The link that holds the payload, in the link's frame, where links have several ends: that of a
+    /// row, or a base that floats.
+    pub payload_link: Option<Parent>,
     /// The ranges of the motion, instead of the robot's limits.
     pub bounds: MotionBox,
     /// The accuracy that may be given up.
@@ -135,10 +138,22 @@ impl Float {
 }
 
 impl Scene {
+    /// The word for the place of a base that is locked: its axes are those of gravity.
+    pub const LEVEL: &'static str = "level";
+
     /// Returns the position a joint is locked at.
     pub fn locked(&self, joint: usize) -> Option<&Position> {
         let mut locks = self.lock.iter();
         locks.find(|(at, _)| *at == joint).map(|(_, q)| q)
+    }
+
+    /// Returns the coordinates of a base that floats in the scene: six, or none.
+    pub fn base_coordinates(&self, robot: &Robot) -> usize {
+        if self.lock_base {
+            0
+        } else {
+            robot.base_coordinates()
+        }
     }
 
     /// Returns the scene without its tolerance.

@@ -15,7 +15,9 @@ use core::fmt::Display;
 use num_traits::Signed;
 
 use super::Scene;
-use crate::robot::{Finding, Findings, Joint, JointKind, Robot, RobotWarning, is_plain, reach};
+use crate::robot::{
+    Finding, Findings, Joint, JointKind, Parent, Robot, RobotWarning, is_plain, reach,
+};
 
 impl Scene {
     /// Returns every error and warning about the scene. Every later stage accepts a scene
@@ -68,6 +70,11 @@ impl<'a> Check<'a> {
         self.robot.joints.get(index)
     }
 
+    /// The coordinates of a base that floats in the scene.
+    fn base(&self) -> usize {
+        self.scene.base_coordinates(self.robot)
+    }
+
     fn list(&mut self, key: &str, joints: &[usize], twice: &str) {
         for (index, &joint) in joints.iter().enumerate() {
             let place = format!("{key}/#{}", index + 1);
@@ -96,6 +103,10 @@ impl<'a> Check<'a> {
     }
 
     fn locks(&mut self) {
+        if self.scene.lock_base && self.robot.floating.is_none() {
+            let message = "the base is locked, and it does not float";
+            self.error("lock", message, "leave it out: it stands still");
+        }
         let joints: Vec<usize> = self.scene.lock.iter().map(|(joint, _)| *joint).collect();
         self.list("lock", &joints, "locked already");
         for (entry, (index, at)) in self.scene.lock.iter().enumerate() {
@@ -136,11 +147,18 @@ impl<'a> Check<'a> {
         };
         let rows = self.robot.rows().len();
         let message = match (self.scene.payload_link, self.robot.branches()) {
-            (Some(link), _) if link >= rows => Some("the payload is on no link of the robot"),
-            (None, true) => {
+            (Some(Parent::Base), _) if self.base() == 0 => {
+                Some("a payload on the base, which does not move: no torque feels it")
+            }
+            (Some(Parent::Row(link)), _) if link >= rows => {
+                Some("the payload is on no link of the robot")
+            }
+            (None, branches) if branches || self.robot.floating.is_some() => {
                 Some("a payload of a robot whose links branch, and no link that holds it")
             }
-            (Some(link), false) if link + 1 != rows => {
+            (Some(Parent::Row(link)), false)
+                if link + 1 != rows && self.robot.floating.is_none() =>
+            {
                 Some("a payload on another than the last link")
             }
             _ => None,

@@ -1,10 +1,12 @@
 //! The text of a scene: one for one scene, as for robots.
 
+use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::{Float, Scene};
+use crate::robot::Parent;
 use crate::robot::values::{
     lines, list, number, numbers, payloads, position, quoted, range, short_hash, table, word,
 };
@@ -18,7 +20,8 @@ pub fn write(scene: &Scene) -> String {
     locks.sort_by_key(|(joint, _)| *joint);
     let locks = locks.iter();
     let locks = locks.map(|(joint, at)| ((joint + 1).to_string(), Some(position(at))));
-    let locks: Vec<(String, Option<String>)> = locks.collect();
+    let base = (scene.lock_base).then(|| (Parent::BASE.to_owned(), Some(quoted(Scene::LEVEL))));
+    let locks: Vec<(String, Option<String>)> = base.into_iter().chain(locks).collect();
     let lock = locks.iter().map(|(joint, at)| (joint.as_str(), at.clone()));
     let zero = |is_zero: bool| is_zero.then(|| quoted("zero"));
     let payload = scene.payload.as_ref().and_then(|payload| {
@@ -26,7 +29,13 @@ pub fn write(scene: &Scene) -> String {
             ("mass", Some(number(&payload.mass))),
             ("com", Some(numbers(&payload.com))),
             ("inertia", Some(numbers(payload.inertia.entries()))),
-            ("link", scene.payload_link.map(|row| format!("{}", row + 1))),
+            (
+                "link",
+                scene.payload_link.map(|link| match link {
+                    Parent::Base => quoted(Parent::BASE),
+                    Parent::Row(row) => (row + 1).to_string(),
+                }),
+            ),
         ])
     });
     let bounds = &scene.bounds;

@@ -14,7 +14,7 @@ const BEYOND: &str = "bounds hold over the whole range; taken as it stands";
 impl Check<'_> {
     pub(super) fn bounds(&mut self) {
         let n = self.robot.joints.len();
-        let (bounds, rates) = (&self.scene.bounds, self.robot.coordinates());
+        let (bounds, rates) = (&self.scene.bounds, self.base() + n);
         for (key, length, expected) in [
             ("position", bounds.position.as_ref().map(Vec::len), n),
             ("velocity", bounds.velocity.as_ref().map(Vec::len), rates),
@@ -92,6 +92,8 @@ impl Check<'_> {
                 self.error(place, message, help);
                 continue;
             }
+            // Of a base that is locked, nothing is in the list.
+            let index = index + self.robot.base_coordinates() - self.base();
             let joint = self.robot.joint_of(index);
             let is_locked = joint.is_some_and(|joint| self.scene.locked(joint).is_some());
             let limit = self.robot.limit_of(index, rate);
