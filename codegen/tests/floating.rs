@@ -6,6 +6,8 @@ use dalembert_model::number::Rational;
 use dalembert_model::read;
 use dalembert_model::robot::Joint;
 
+use serde_json::Value;
+
 use crate::certified::Certified;
 use crate::support::{Case, changes, read_robot, source};
 
@@ -262,4 +264,129 @@ fn a_frame_on_a_locked_base_is_refused() {
         let error = case.refusal();
         assert!(error.contains(words), "{error}");
     }
+}
+
+/// Lines of a scene with a tolerance, and its output: of a base that floats rates, limits of the wrench
+/// and tolerances begin with six entries.
+const TOLERATED: [(&str, &str); 3] = [
+    (
+        "box = { position = [[-1, 1], [-1, 1], [-1, 1], [0, 0.1]] }\n\
+         tolerance = { value = 1e-2, relative_to = \"range\" }",
+        "gravity",
+    ),
+    (
+        "box = { position = [[-1, 1], [-1, 1], [-1, 1], [0, 0.1]], velocity = [0, 0, 0, 2, 2, 2, 5, 5, 5, 0] }\n\
+         tolerance = { value = [1e-2, 1e-2, 1e-2, 2e-2, 2e-2, 2e-2, 1e-2, 1e-2, 1e-2, 1e-2], relative_to = \"range\" }",
+        "coriolis",
+    ),
+    (
+        "box = { position = [[-0.1, 0.1], [-0.1, 0.1], [-0.1, 0.1], [0, 0.1]] }\n\
+         lock = { left_knee = 0, right_hip = 0, right_slide = 0.05 }\n\
+         tolerance = { value = 1e-3, relative_to = \"range\" }",
+        "inertia",
+    ),
+];
+
+/// The checker shows what a tolerance leaves of functions of a base that floats, whatever the direction
+/// of gravity; errors at states are below what it shows; and a stricter tolerance refuses it.
+#[test]
+fn tolerances_of_a_base_are_shown() {
+    for (lines, output) in TOLERATED {
+        let robot = two_legs_in(&format!("outputs = [\"{output}\"]\n{lines}"));
+        let asked = format!("scene: test; outputs: {output}; scalar: f64; sincos: libm");
+        let case = Case::read(&robot, &asked);
+        let file = Certified::from(&case, &robot, Some("test")).remove(0);
+        file.is_shown(1, output);
+        let generated = case.generated();
+        let admitted = generated.functions[0].admitted.as_ref().unwrap();
+        let variant = &admitted.variants[0];
+        assert!(admitted.is_other(), "{output}: nothing was left out");
+        let (exact, own) = (variant.exact.in_doubles(), variant.emitted.in_doubles());
+        let (_, states) = case.runtime(200, 8);
+        for mut state in states {
+            // Of the box, and as long as gravity is.
+            let length = state.g.iter().map(|x| x * x).sum::<f64>().sqrt();
+            state.g.iter_mut().for_each(|x| *x *= 9.81 / length);
+            let [found, expected] = [&own, &exact].map(|code| code.run_at(&state));
+            for (index, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                let bound = variant.bounds[index].total() * variant.scales[index];
+                assert!((found - expected).abs() <= bound, "{output} {index}");
+            }
+        }
+        let strict = Certified {
+            robot: file
+                .robot
+                .replace("value = 1e-2", "value = 1e-4")
+                .replace("1e-2, 1e-2", "1e-5, 1e-5")
+                .replace("value = 1e-3", "value = 1e-6"),
+            ..file
+        };
+        assert!(strict.refusal().is_some(), "{output}");
+    }
+}
+
+/// No state of a claim has a longer gravity than the robot file: T would be larger, and errors smaller.
+#[test]
+fn gravity_is_no_longer_than_the_files() {
+    let (lines, output) = TOLERATED[0];
+    let robot = two_legs_in(&format!("outputs = [\"{output}\"]\n{lines}"));
+    let asked = format!("scene: test; outputs: {output}; scalar: f64; sincos: libm");
+    let file = Certified::of(&robot, Some("test"), &asked).remove(0);
+    let mut claim: Value = serde_json::from_str(&file.claim).unwrap();
+    for (factor, is_refused) in [(1.0, false), (1.0 / 1.0001, false), (1.0001, true)] {
+        let state = state_of(&mut claim);
+        assert_eq!(state.len(), 4 + 3);
+        for entry in &mut state[4..] {
+            *entry = (entry.as_f64().unwrap() * factor).into();
+        }
+        let other = Certified {
+            claim: claim.to_string(),
+            ..file.clone()
+        };
+        let refusal = other.refusal();
+        assert_eq!(refusal.is_some(), is_refused, "{refusal:?}");
+        for entry in &mut state_of(&mut claim)[4..] {
+            *entry = (entry.as_f64().unwrap() / factor).into();
+        }
+    }
+}
+
+fn state_of(claim: &mut Value) -> &mut Vec<Value> {
+    claim["functions"][0]["tolerated"]["reached"][0]
+        .as_array_mut()
+        .unwrap()
+}
+
+/// Errors are relative to the limits of the wrench on the base, and of the actuators.
+#[test]
+fn the_wrench_on_the_base_has_limits() {
+    let lines = "outputs = [\"gravity\"]\n\
+                 box = { position = [[-1, 1], [-1, 1], [-1, 1], [0, 0.1]] }\n\
+                 tolerance = { value = 1e-2, relative_to = \"actuator\" }";
+    let limits = "limits = { torque = 20 }\nviscous";
+    let limited = two_legs_in(lines).replace("viscous = 0.3", &format!("{limits} = 0.3"));
+    let names = ["left_knee", "right_hip", "right_slide"];
+    let limited = names.iter().fold(limited, |text, name| {
+        text.replace(
+            &format!("name = \"{name}\""),
+            &format!("name = \"{name}\"\nlimits = {{ torque = 10 }}"),
+        )
+    });
+    let asked = "scene: test; outputs: gravity; scalar: f64; sincos: libm";
+    let case = Case::read(&limited, asked);
+    let generated = case.generated();
+    let variant = &generated.functions[0].admitted.as_ref().unwrap().variants[0];
+    let scales: Vec<f64> = variant.scales.iter().map(|own| own.round()).collect();
+    assert_eq!(
+        scales,
+        [
+            100.0, 100.0, 300.0, 40.0, 40.0, 40.0, 20.0, 10.0, 10.0, 10.0
+        ]
+    );
+    Certified::from(&case, &limited, Some("test"))
+        .remove(0)
+        .is_shown(1, "actuator");
+    let without = limited.replace(", torque = [100, 100, 300, 40, 40, 40]", "");
+    let error = read::parse(&without).unwrap_err().to_string();
+    assert!(error.contains("torque limit of the base"), "{error}");
 }

@@ -130,9 +130,14 @@ fn bound(
         let Some(variant) = generated.variant(scalar).filter(reads) else {
             return;
         };
-        for (joint, place) in column.iter_mut().enumerate() {
-            if setup.lock(joint).is_none()
-                && let Some(range) = held(variant, setup, argument, joint)
+        let base = match argument {
+            Argument::Position => 0,
+            _ => setup.robot().base_coordinates(),
+        };
+        for (index, place) in column.iter_mut().enumerate() {
+            let joint = index.checked_sub(base);
+            if joint.is_none_or(|joint| setup.lock(joint).is_none())
+                && let Some(range) = held(variant, setup, argument, index)
             {
                 *place = Some(narrower(*place, range));
             }

@@ -79,14 +79,36 @@ fn states(variant: &Variant, setup: &Setup) -> Vec<String> {
         format!("| joint | {} |", names.join(" | ")),
         format!("|{}", "---|".repeat(columns.len() + 1)),
     ];
-    for joint in 0..limits.joints() {
-        let range = |&argument: &Argument| match held(variant, setup, argument, joint) {
-            _ if setup.lock(joint).is_some() => "locked".to_owned(),
-            Some(range) => inside(range.low(), range.high()),
-            None => "any".to_owned(),
+    let robot = setup.robot();
+    for coordinate in 0..robot.coordinates() {
+        let joint = robot.joint_of(coordinate);
+        let range = |&argument: &Argument| {
+            let index = match argument {
+                Argument::Position => joint,
+                _ => Some(coordinate),
+            };
+            let range = index.map(|index| held(variant, setup, argument, index));
+            match range {
+                None => String::new(),
+                _ if joint.is_some_and(|joint| setup.lock(joint).is_some()) => "locked".to_owned(),
+                Some(Some(range)) => inside(range.low(), range.high()),
+                Some(None) => "any".to_owned(),
+            }
         };
         let ranges: Vec<String> = columns.iter().map(range).collect();
-        lines.push(format!("| {} | {} |", joint + 1, ranges.join(" | ")));
+        let label = match joint {
+            Some(joint) => (joint + 1).to_string(),
+            None => robot.coordinate_label(coordinate),
+        };
+        lines.push(format!("| {label} | {} |", ranges.join(" | ")));
+    }
+    if variant.emitted.arguments.contains(&Argument::Gravity) {
+        let most = limits.gravity.first().map_or(0.0, |range| range.high());
+        lines.push(String::new());
+        lines.push(format!(
+            "Gravity `g` has any direction and a length in {}, m/s²: [`in_box`] does not ask for it.",
+            inside(0.0, most)
+        ));
     }
     if variant.load.is_some() {
         lines.push(String::new());

@@ -33,7 +33,7 @@ use crate::seeds::depends_on_coulomb;
 use crate::setup::{ParametersKey, Setup, input_hash};
 use crate::task::{Job, Prefer, Request};
 pub use crate::tolerance::refusals::ToleranceError;
-use crate::tolerance::refusals::{FLOATS, FOLLOWS, FRICTION, unbounded};
+use crate::tolerance::refusals::{FOLLOWS, FRICTION, unbounded};
 use crate::verify::exact::prove;
 use crate::verify::measure::Emitted;
 use crate::verify::parameters::prove_base;
@@ -248,10 +248,9 @@ fn check(robot: &Robot, setup: &Setup, request: &Request) -> Outcome<()> {
     let scene = request.scene.as_ref();
     let has_tolerance = scene.is_some_and(|scene| scene.tolerance.is_some());
     let refused = |&function: &Function| {
-        let why = match (robot.followers.is_empty(), &setup.robot().floating) {
-            (false, _) => complaint(FOLLOWS),
-            (true, Some(_)) => complaint(FLOATS),
-            (true, None) => unbounded(function)?,
+        let why = match robot.followers.is_empty() {
+            false => complaint(FOLLOWS),
+            true => unbounded(function, setup.robot().floating.is_some())?,
         };
         Some((function, why))
     };

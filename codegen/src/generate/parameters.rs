@@ -19,13 +19,14 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
         return Ok(());
     };
     let scene = request.scene.as_ref();
+    let floats = job.setup.robot().floating.is_some();
     if job.tolerance().is_some() {
         let mut functions = request.functions.iter();
         let taking = functions.find_map(|&function| {
             let taken = request.parameters.iter();
             let mut taken = taken.filter(|parameter| function.depends_on(**parameter));
             let argument =
-                taken.find_map(|own| Some(own.argument()).filter(|own| !is_bounded(*own)));
+                taken.find_map(|own| Some(own.argument()).filter(|own| !is_bounded(*own, floats)));
             Some((function, argument?))
         });
         if let Some((function, argument)) = taking {

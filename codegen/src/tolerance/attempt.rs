@@ -7,7 +7,6 @@
 use super::input_box::InputBox;
 use super::sample::climb;
 use super::variant::Variant;
-use crate::function::Argument;
 use crate::language::read::{Signature, TextError};
 use crate::program::{Code, ScalarType};
 use crate::random::Random;
@@ -185,14 +184,14 @@ fn nudged(
     random: &mut Random,
 ) -> JointState {
     let mut next = state.clone();
-    let n = state.q.len();
+    let entries = limits.entries();
     for _ in 0..coordinates {
-        let coordinate = random.below(3 * n);
-        let (argument, joint) = (Argument::STATE[coordinate / n], coordinate % n);
-        let range = limits.of_argument(argument)[joint];
-        let x = &mut next.entries_mut(argument)[joint];
+        let (argument, index) = entries[random.below(entries.len())];
+        let range = limits.of_argument(argument)[index];
+        let x = &mut next.entries_mut(argument)[index];
         *x = (*x + reach * range.width() * (random.unit() - 0.5)).clamp(range.low(), range.high());
     }
+    limits.hold(&mut next);
     next
 }
 

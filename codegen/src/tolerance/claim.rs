@@ -64,7 +64,8 @@ pub(crate) fn tolerated(first: &Variant, constants: &mut Written) -> Option<Tole
     let [steps, returns] = exact.map_or_else(Default::default, |own| code(own, constants));
     let is_given = |own: &Argument| program.arguments.contains(own);
     let reached = first.reached.iter().map(|at| {
-        let given = Argument::STATE.iter().filter(|own| is_given(own));
+        let state = Argument::STATE.iter().chain(&[Argument::Gravity]);
+        let given = state.filter(|own| is_given(own));
         // A payload is a point there.
         let point = at.payload.iter().skip(1).take(3);
         let given = given.flat_map(|own| at.entries(*own)).chain(point);

@@ -72,10 +72,13 @@ pub(crate) fn is_definite(
 pub(super) fn complaint_about(program: &Program, limits: &InputBox) -> Complaint {
     complaint(match negative(program, limits) {
         Some(row) => format!(
-            "D is not positive definite: at some position of the box a motion of joint {} and \
+            "D is not positive definite: at some position of the box a motion of {} and \
              those after it has a negative kinetic energy, so a link that they move has an inertia \
              that no body has: correct its `inertia`, `mass` or `com`",
-            program.rows[row] + 1
+            match program.rows[row].checked_sub(program.floating) {
+                Some(joint) => format!("joint {}", joint + 1),
+                None => "the base".to_owned(),
+            }
         ),
         None => {
             "D could not be shown to be positive definite over the box: a link has no inertia, or \

@@ -11,6 +11,7 @@ use crate::program::ScalarType;
 use crate::setup::Setup;
 use crate::sincos::interval::Interval;
 use crate::sincos::stated;
+use crate::states::JointState;
 use crate::words::{Complaint, complaint};
 
 /// Intervals of joint positions, of velocities and accelerations, one a coordinate, and of a load.
@@ -22,6 +23,8 @@ pub struct InputBox {
     pub velocity: Vec<Interval>,
     /// q̈
     pub acceleration: Vec<Interval>,
+    /// The entries of gravity in the axes of a base that floats: those of a ball; none on a fixed base.
+    pub gravity: Vec<Interval>,
     /// The bodies that a payload may be, where it is an argument.
     pub payload: Option<Body>,
     /// The entries of the load that it makes; [`Budget`](super::budget::Budget) knows them.
@@ -84,6 +87,7 @@ impl InputBox {
             position: Vec::new(),
             velocity: Vec::new(),
             acceleration: Vec::new(),
+            gravity: Vec::new(),
             payload: arguments.contains(&Argument::Load).then(|| payloads(setup)),
             load: Vec::new(),
         };
@@ -133,6 +137,9 @@ impl InputBox {
         let Some(base) = &setup.robot().floating else {
             return;
         };
+        let gravity = setup.robot().gravity.each_ref().map(f64::nearest_rational);
+        let length = libm::sqrt(gravity.iter().map(|x| x * x).sum());
+        self.gravity = vec![Interval::symmetric(length); 3];
         for (argument, limit, all) in [
             (Argument::Velocity, Limit::Velocity, &mut self.velocity),
             (
@@ -158,8 +165,26 @@ impl InputBox {
             Argument::Position => &self.position,
             Argument::Velocity => &self.velocity,
             Argument::Acceleration => &self.acceleration,
+            Argument::Gravity => &self.gravity,
             Argument::Load => &self.load,
             _ => &[],
+        }
+    }
+
+    /// Lists the entries of the state, with gravity where the base floats.
+    pub(super) fn entries(&self) -> Vec<(Argument, usize)> {
+        let arguments = Argument::STATE.into_iter().chain([Argument::Gravity]);
+        let of =
+            |argument| (0..self.of_argument(argument).len()).map(move |index| (argument, index));
+        arguments.flat_map(of).collect()
+    }
+
+    /// Shortens gravity to the length that it has.
+    pub(super) fn hold(&self, state: &mut JointState) {
+        let most = self.gravity.first().map_or(0.0, |range| range.high());
+        let length = libm::sqrt(state.g.iter().map(|x| x * x).sum());
+        if length > most {
+            state.g.iter_mut().for_each(|own| *own *= most / length);
         }
     }
 

@@ -45,11 +45,14 @@ pub(super) struct Verdict {
     pub(super) positions: Vec<Vec<f64>>,
 }
 
-/// Returns the file of a robot in its scene; gravity, payload and box are in the robot already.
+/// Returns the file of a robot in its scene; a base that is locked, gravity, payload and box are in the
+/// robot already.
 pub(super) fn source(setup: &Setup) -> (String, Option<Scene>) {
     let scene = setup.scene().map(|scene| Scene {
+        lock_base: false,
         gravity: None,
         payload: None,
+        payload_link: None,
         bounds: Default::default(),
         ..scene.clone()
     });

@@ -30,10 +30,7 @@ pub(crate) const FRICTION: &str = "it has Coulomb friction in it, which divides 
 pub(crate) const FOLLOWS: &str = "joints of the robot follow others (`mimic`), and what may be \
     left out of links that share a coordinate is not bounded: leave the tolerance out of the scene";
 
-pub(crate) const FLOATS: &str = "the base of the robot floats, and what may be left out of its \
-    functions is not bounded: leave the tolerance out of the scene";
-
-pub(crate) fn unbounded(function: Function) -> Option<Complaint> {
+pub(crate) fn unbounded(function: Function, floats: bool) -> Option<Complaint> {
     if function.columns() != Columns::None {
         let why = "its entries multiply parameters of any size";
         return Some(no_bound(why));
@@ -42,7 +39,7 @@ pub(crate) fn unbounded(function: Function) -> Option<Complaint> {
         return Some(no_bound(DIVIDES));
     }
     let mut arguments = function.arguments().into_iter();
-    let other = arguments.find(|argument| !is_bounded(*argument));
+    let other = arguments.find(|argument| !is_bounded(*argument, floats));
     other.map(reads)
 }
 
@@ -52,12 +49,13 @@ pub(super) fn unbounded_by(program: &Program) -> Option<Complaint> {
     }
     let rubs = !program.speeds.is_empty();
     let friction = rubs.then(|| complaint(FRICTION));
-    friction.or_else(|| unbounded(program.function))
+    friction.or_else(|| unbounded(program.function, program.floating > 0))
 }
 
-/// Returns true for an argument that a box has ranges for.
-pub(crate) fn is_bounded(argument: Argument) -> bool {
-    Argument::STATE.contains(&argument) || argument == Argument::Load
+/// Returns true for an argument that a box has ranges for: gravity has a length where the base floats.
+pub(crate) fn is_bounded(argument: Argument, floats: bool) -> bool {
+    let is_gravity = argument == Argument::Gravity && floats;
+    Argument::STATE.contains(&argument) || argument == Argument::Load || is_gravity
 }
 
 pub(crate) fn reads(argument: Argument) -> Complaint {

@@ -28,6 +28,7 @@ pub fn draw(limits: &InputBox, random: &mut Random) -> JointState {
         let ranges = limits.of_argument(argument).iter();
         ranges.map(|&range| entry(argument, range)).collect()
     });
+    limits.hold(&mut state);
     if let Some(body) = limits.payload {
         state.payload = body.draw(&mut || random.unit());
     }
@@ -53,20 +54,20 @@ pub fn climb(
     error: &mut impl FnMut(&JointState) -> f64,
 ) -> (JointState, f64) {
     let (mut best, mut most) = (from.clone(), error(&from));
-    let n = limits.joints();
+    let (n, entries) = (limits.joints(), limits.entries());
     let mut reach = 0.5;
     for step in 0..moves {
-        let coordinate = random.below(3 * n);
-        let (argument, joint) = (Argument::STATE[coordinate / n], coordinate % n);
-        let range = limits.of_argument(argument)[joint];
+        let (argument, index) = entries[random.below(entries.len())];
+        let range = limits.of_argument(argument)[index];
         let mut next = best.clone();
-        let x = &mut next.entries_mut(argument)[joint];
+        let x = &mut next.entries_mut(argument)[index];
         *x = match random.below(4) {
             0 => range.low(),
             1 => range.high(),
             _ => *x + reach * range.width() * (random.unit() - 0.5),
         }
         .clamp(range.low(), range.high());
+        limits.hold(&mut next);
         if next != best {
             let value = error(&next);
             if value > most {

@@ -23,8 +23,9 @@ pub(super) struct Samples {
     rates: [Vec<(usize, f64)>; 2],
     /// The places of each two velocities.
     pairs: Vec<(usize, usize)>,
-    /// Behind the joints' positions the load.
+    /// Behind the joints' positions gravity in the axes of a base that floats, then the load.
     pub(super) positions: Vec<Vec<f64>>,
+    joints: usize,
     loads: Vec<Interval>,
     random: Random,
 }
@@ -44,10 +45,12 @@ impl Samples {
             pairs: pairs.collect(),
             rates: [velocities, of(Argument::Acceleration, &limits.acceleration)],
             positions: Vec::new(),
+            joints: limits.joints(),
             loads: limits.load.clone(),
             random: random.clone(),
         };
-        let drawn: Vec<_> = (0..count).map(|_| draw(limits, &mut random).q).collect();
+        let drawn = (0..count).map(|_| draw(limits, &mut random));
+        let drawn: Vec<_> = drawn.map(|state| [state.q, state.g].concat()).collect();
         samples.add(drawn);
         samples
     }
@@ -85,6 +88,9 @@ impl Samples {
                 Input::Entry(Argument::Position, joint) => all.resize(from + m, q[joint]),
                 Input::Entry(Argument::Load, index) => {
                     all.resize(from + m, q[q.len() - self.loads.len() + index]);
+                }
+                Input::Entry(Argument::Gravity, index) => {
+                    all.resize(from + m, q[self.joints + index]);
                 }
                 Input::Entry(argument, joint) => {
                     all.resize(from + m, 0.0);

@@ -72,10 +72,16 @@ fn wrong(setup: &Setup, emitted: &Program, input: Input) -> Option<&'static str>
             let wrong = (index >= length).then_some("the load has no such number");
             (Argument::Load, wrong)
         }
-        Input::Entry(argument, joint) => {
-            let slides = argument == Argument::Position;
-            let kind = slides.then_some(JointKind::Prismatic);
-            (argument, of(joint, kind))
+        Input::Entry(Argument::Gravity, index) => {
+            let wrong = (index >= 3).then_some("gravity has three entries");
+            (Argument::Gravity, wrong)
+        }
+        Input::Entry(Argument::Position, joint) => {
+            (Argument::Position, of(joint, Some(JointKind::Prismatic)))
+        }
+        Input::Entry(argument, coordinate) => {
+            let joint = setup.robot().joint_of(coordinate);
+            (argument, joint.and_then(|joint| of(joint, None)))
         }
     };
     let missing = !emitted.arguments.contains(&argument);

@@ -2,12 +2,16 @@
 //!
 //! With ω_i the angular velocity of link i, λ_i at most its moments about axes through its centre of
 //! mass, and a_i armatures, q̇ᵀD q̇ ≥ Σ λ_i |ω_i|² + Σ a_i q̇_i². A joint that turns has |q̇_i| =
-//! |ω_i − ω_(i−1)| ≤ |ω_i| + |ω_(i−1)|. So D with entries that are off by e at most is positive definite
-//! if diag(a) − e is, or, where all joints turn, diag(λ) − Bᵀe′B, where B has ones at (i, i) and
-//! (i, i−1), and e′ is e of which a is taken off, down to zero.
+//! |ω_i − ω_c| ≤ |ω_i| + |ω_c|, c being the link that carries i. A base that floats adds m |u|², u being
+//! the velocity of its centre of mass: each component of its origin's is at most |u| + |s| |ω|, s being
+//! where that centre is. So D with entries that are off by e at most is positive definite if diag(a) − e
+//! is, or, where all joints turn, diag(λ) − Bᵀe′B, where each row of B has these factors of a
+//! coordinate, and e′ is e of which a is taken off, down to zero.
+
+use std::iter::successors;
 
 use dalembert_model::number::{Rational, Rounded};
-use dalembert_model::robot::{Defect, Joint, JointKind, Robot};
+use dalembert_model::robot::{Defect, FloatingBase, Joint, JointKind, Robot};
 use num_traits::{Signed, Zero};
 
 use super::definite::eliminated;
@@ -19,11 +23,14 @@ pub(super) struct Turning {
     kinds: Vec<JointKind>,
     moments: Vec<f64>,
     armatures: Vec<f64>,
+    /// The links that carry those of the joints.
+    carriers: Vec<Option<usize>>,
+    /// Of a base that floats its mass, its least moment, and how far away its centre of mass is.
+    base: Option<[f64; 3]>,
 }
 
 impl Turning {
-    /// Returns none if a mass or a moment is negative, if joints follow others, if links branch,
-    /// or if the base floats.
+    /// Returns none if a mass or a moment is negative, or if joints follow others.
     pub(super) fn new(robot: &Robot) -> Option<Turning> {
         let is_body = |joint: &Joint| {
             let defect = joint.inertia.defect(&joint.mass);
@@ -31,49 +38,100 @@ impl Turning {
         };
         let joints = || robot.joints.iter();
         let armature = |joint: &Joint| f64::nearest_rational(&joint.armature) * SLACK;
-        let is_chain = robot.followers.is_empty() && !robot.is_tree();
-        (joints().all(is_body) && is_chain).then(|| Turning {
+        let base = robot.floating.as_ref().map(FloatingBase::body);
+        let are_bodies = joints().chain(&base).all(is_body);
+        let of_base = |body: &Joint| {
+            let square: Rational = body.com.iter().map(|x| x * x).sum();
+            let away = libm::sqrt(f64::nearest_rational(&square)) / SLACK;
+            [
+                f64::nearest_rational(&body.mass) * SLACK,
+                least_moment(body),
+                away,
+            ]
+        };
+        (are_bodies && robot.followers.is_empty()).then(|| Turning {
             kinds: joints().map(|joint| joint.kind).collect(),
             moments: joints().map(least_moment).collect(),
             armatures: joints().map(armature).collect(),
+            carriers: (0..robot.joints.len())
+                .map(|row| robot.carrier(row))
+                .collect(),
+            base: base.as_ref().map(of_base),
         })
     }
 
-    /// Returns true if D of these joints is positive definite with errors of at most so much.
+    /// Returns true if D of these coordinates is positive definite with errors of at most so much.
     pub(super) fn bears(&self, rows: &[usize], errors: impl Fn(usize, usize) -> f64) -> bool {
-        // From the base on: rows are in any order.
-        let mut order: Vec<usize> = (0..rows.len()).collect();
-        order.sort_by_key(|place| rows[*place]);
-        let joints: Vec<usize> = order.iter().map(|place| rows[*place]).collect();
-        let errors = |i: usize, j: usize| errors(order[i], order[j]);
-        let square = |entry: &dyn Fn(usize, usize) -> f64| {
-            let row = |i: usize| (0..joints.len()).map(|j| entry(i, j)).collect();
-            (0..joints.len()).map(row).collect::<Vec<Vec<f64>>>()
+        let count = rows.len();
+        let first = self.base.map_or(0, |_| FloatingBase::COORDINATES);
+        let square = |size: usize, entry: &dyn Fn(usize, usize) -> f64| {
+            let row = |i: usize| (0..size).map(|j| entry(i, j)).collect();
+            (0..size).map(row).collect::<Vec<Vec<f64>>>()
         };
-        let armature = |i: usize, j: usize| match i == j {
-            true => self.armatures[joints[i]],
-            false => 0.0,
+        let joint = |place: usize| rows[place].checked_sub(first);
+        let armature = |i: usize, j: usize| match joint(i) {
+            Some(joint) if i == j => self.armatures[joint],
+            _ => 0.0,
         };
-        if eliminated(square(&|i, j| armature(i, j) - errors(i, j))).is_ok() {
+        if eliminated(square(count, &|i, j| armature(i, j) - errors(i, j))).is_ok() {
             return true;
         }
         let slides = |joint: &usize| self.kinds[*joint] != JointKind::Revolute;
-        if joints.iter().any(slides) {
+        if (0..count).filter_map(joint).any(|joint| slides(&joint)) {
             return false;
         }
-        // Links behind a joint that stands still turn with those before it.
-        let moment = |i: usize| {
-            let end = joints.get(i + 1).copied().unwrap_or(self.moments.len());
-            self.moments[joints[i]..end].iter().sum::<f64>() * SLACK
+        // The motions: of a base that floats |u| and |ω|, then |ω| of each joint's link. Links behind
+        // a joint that stands still turn with those before it.
+        let of_base = if first > 0 { 2 } else { 0 };
+        let joints: Vec<usize> = (0..count).filter_map(joint).collect();
+        let turning = |link: Option<usize>| {
+            let mut links = successors(link, |&link| self.carriers[link]);
+            let place = links.find_map(|link| joints.iter().position(|joint| *joint == link));
+            place
+                .map(|place| of_base + place)
+                .or(of_base.checked_sub(1))
         };
-        let left = square(&|i, j| match errors(i, j) - armature(i, j) {
+        let mut least = vec![0.0; of_base + joints.len()];
+        let mut shares = vec![vec![0.0; least.len()]; count];
+        if let Some([mass, moment, away]) = self.base {
+            (least[0], least[1]) = (mass, moment);
+            for (place, share) in shares.iter_mut().enumerate() {
+                match rows[place] {
+                    0..3 => (share[0], share[1]) = (1.0, away),
+                    3..6 => share[1] = 1.0,
+                    _ => {}
+                }
+            }
+        }
+        for (link, moment) in self.moments.iter().enumerate() {
+            if let Some(motion) = turning(Some(link)) {
+                least[motion] += moment;
+            }
+        }
+        for (place, share) in shares.iter_mut().enumerate() {
+            let Some(joint) = joint(place) else { continue };
+            for motion in [Some(joint), self.carriers[joint]]
+                .map(turning)
+                .into_iter()
+                .flatten()
+            {
+                share[motion] += 1.0;
+            }
+        }
+        let left = square(count, &|i, j| match errors(i, j) - armature(i, j) {
             off if off <= 0.0 => 0.0,
             off => off,
         });
-        let below = |i: usize, j: usize| left.get(i).and_then(|row| row.get(j)).unwrap_or(&0.0);
-        eliminated(square(&|i, j| {
-            let off = left[i][j] + below(i + 1, j) + below(i, j + 1) + below(i + 1, j + 1);
-            if i == j { moment(i) - off } else { -off }
+        let taken = |i: usize, j: usize| {
+            let of_row = |(share, own): (&Vec<f64>, &Vec<f64>)| {
+                let columns = shares.iter().zip(own);
+                share[i] * columns.map(|(other, off)| off * other[j]).sum::<f64>()
+            };
+            shares.iter().zip(&left).map(of_row).sum::<f64>() / SLACK
+        };
+        eliminated(square(least.len(), &|i, j| {
+            let own = if i == j { least[i] * SLACK } else { 0.0 };
+            own - taken(i, j)
         }))
         .is_ok()
     }

@@ -13,7 +13,7 @@ use crate::identity::table::{self, Field, length};
 use crate::interval::UNIT;
 use crate::load::literals;
 use crate::payload::Body;
-use crate::program::{ARGUMENTS, LOAD, Operand, Program, argument};
+use crate::program::{ARGUMENTS, GRAVITY, LOAD, Operand, Program, argument};
 use crate::read::{self, Head, Source};
 use crate::rounding::{Bounds, Ranges, Rounding};
 use crate::sample::{LANES, Lanes, Near, Sampler, State};
@@ -25,7 +25,7 @@ use crate::work::Work;
 pub const RATE: f64 = 10.0;
 /// The ranges of arguments that no robot file has limits of.
 const WRENCH: f64 = 100.0;
-const GRAVITY: f64 = 9.81;
+const EARTH: f64 = 9.81;
 const DAMPING: [f64; 2] = [1e-3, 1e-1];
 /// The states at which a function that divides is measured, and at which the size of the results of
 /// others is.
@@ -352,12 +352,12 @@ fn worse(before: f64, own: f64) -> f64 {
 }
 
 pub(crate) fn ranges(setting: &Setting, body: Body) -> Result<Ranges, String> {
-    let sizes = setting.sizes();
+    let (sizes, gravity) = (setting.sizes(), setting.gravity().unwrap_or(EARTH));
     let of = |&(name, axis): &(&str, char)| {
         let rate = if name == "tau" { WRENCH } else { RATE };
         let own = setting.ranges(name, rate)?;
         let [low, high] = match name {
-            "g" => [-GRAVITY, GRAVITY],
+            GRAVITY => [-gravity, gravity],
             "wrench" => [-WRENCH, WRENCH],
             "damping" => DAMPING,
             "payload" => return Ok(body.ranges()),

@@ -85,10 +85,11 @@ impl Domain {
     }
 
     /// Decides whether a magnitude is at most `wanted`, and returns a position where it is large, if one
-    /// was looked at.
+    /// was looked at; behind it stands gravity in the axes of a base that floats.
     pub fn decide(&self, own: &Polynomial, wanted: f64) -> (Decision, Vec<f64>) {
         let found = maximum::decide(own, &self.ring, wanted, PURSE);
-        let position = self.ring.positions(&found.angles);
+        let mut position = self.ring.positions(&found.angles);
+        position.extend(self.ring.gravity(&found.angles));
         (found, position)
     }
 

@@ -17,6 +17,9 @@ pub const ARGUMENTS: [(&str, char); 12] = [
     ("multiplier", 'n'),
 ];
 
+/// The argument that has the acceleration of gravity.
+pub(crate) const GRAVITY: &str = "g";
+
 /// The function that makes a load, and the argument that takes it.
 pub(crate) const LOAD: &str = "load";
 

@@ -12,7 +12,7 @@ use crate::identity::exact::Point;
 use crate::identity::setting::Setting;
 use crate::interval::sin_cos;
 use crate::polynomial::{Key, MAX_JOINTS, MAX_LOADS, Polynomial, Variable, exponent};
-use crate::program::{ARGUMENTS, Operand, argument};
+use crate::program::{ARGUMENTS, GRAVITY, Operand, argument};
 use crate::rounding::Ranges;
 use crate::work::Work;
 
@@ -30,10 +30,12 @@ pub struct Ring {
     positions: Vec<[Option<Polynomial>; 3]>,
     /// q̇, q̈ and the load.
     linear: [Vec<Polynomial>; 3],
+    /// Gravity in the axes of a base that floats.
+    gravity: Vec<Polynomial>,
     /// The ranges of the positions, and the sign with which the angle before is taken off.
     places: Vec<([f64; 2], f64)>,
     /// The range of each joint's angle φ; `None` where it goes all the way round, or
-    /// stands for a position between two ends.
+    /// stands for a position between two ends. Behind them are two by which gravity turns.
     pub angles: Vec<Option<[f64; 2]>>,
     /// The ranges of these in their units.
     units: [Vec<[f64; 2]>; 3],
@@ -74,14 +76,21 @@ impl Ring {
     pub fn new(setting: &Setting, ranges: &Ranges, work: &Work) -> Result<Ring, Fault> {
         let of_robot = |why| Fault::Robot("joint".into(), why);
         let count = setting.joints();
-        if count > MAX_JOINTS {
-            let why = format!("under a tolerance at most {MAX_JOINTS} joints are checked");
+        if setting.sizes().coordinates > MAX_JOINTS {
+            let why = match setting.base() {
+                0 => format!("under a tolerance at most {MAX_JOINTS} joints are checked"),
+                base => format!(
+                    "under a tolerance at most {} joints are checked where the base floats",
+                    MAX_JOINTS - base
+                ),
+            };
             return Err(of_robot(why));
         }
         let arm = Arm::read(setting, &Point::new(&["axes"])).map_err(of_robot)?;
         let mut ring = Ring {
             positions: Vec::new(),
             linear: Default::default(),
+            gravity: Vec::new(),
             places: Vec::new(),
             angles: Vec::new(),
             units: Default::default(),
@@ -104,6 +113,18 @@ impl Ring {
                 [Some(sin), Some(cos), None]
             });
             ring.places.push((position, sign.unwrap_or(0.0)));
+        }
+        if let Some(length) = setting.gravity() {
+            // |g| (sin α, -cos α sin β, -cos α cos β) are all directions: results are linear in g, so that
+            // none is larger where g is shorter.
+            ring.angles.extend([None; 2]);
+            let [sin, cos] = pair(count, None, work)?;
+            ring.gravity
+                .push(sin.times(&Polynomial::constant(length, 0.0), work)?);
+            for other in pair(count + 1, None, work)? {
+                let share = other.times(&Polynomial::constant(-length, 0.0), work)?;
+                ring.gravity.push(cos.times(&share, work)?);
+            }
         }
         let place = |own: &(Variable, &str)| argument(own.1).and_then(|place| ranges.get(place));
         let lists = LINEAR.each_ref().map(place);
@@ -137,6 +158,31 @@ impl Ring {
         .collect()
     }
 
+    /// Returns gravity at the variables' angles, m/s²; nothing on a fixed base.
+    pub fn gravity(&self, angles: &[f64]) -> Vec<f64> {
+        let value = |own: &Polynomial| {
+            let term = |(key, value): &(Key, f64)| {
+                let each = angles.iter().enumerate().map(|(joint, angle)| {
+                    let (sin, cos) = sin_cos(*angle);
+                    let [s, c] =
+                        [Variable::Sin, Variable::Cos].map(|own| exponent(*key, own, joint));
+                    sin.powi(s as i32) * cos.powi(c as i32)
+                });
+                value * each.product::<f64>()
+            };
+            own.terms.iter().map(term).sum()
+        };
+        self.gravity.iter().map(value).collect()
+    }
+
+    /// Returns how many joints and coordinates variables are of.
+    pub fn width(&self) -> usize {
+        self.units[..2]
+            .iter()
+            .map(Vec::len)
+            .fold(self.angles.len(), usize::max)
+    }
+
     /// None for other operands, and for a joint that is locked.
     pub fn leaf<C>(&self, own: &Operand<C>) -> Option<Polynomial> {
         match own {
@@ -146,6 +192,9 @@ impl Ring {
             Operand::Entry(0, joint) => self.positions.get(*joint)?[2].clone(),
             Operand::Entry(place, index) => {
                 let name = ARGUMENTS.get(*place)?.0;
+                if name == GRAVITY {
+                    return self.gravity.get(*index).cloned();
+                }
                 let which = LINEAR.iter().position(|own| own.1 == name)?;
                 self.linear[which].get(*index).cloned()
             }
@@ -173,7 +222,7 @@ impl Ring {
         }
         let errors = [Variable::EvenError, Variable::OddError];
         let has = |joint: usize| errors.iter().any(|own| exponent(key, *own, joint) > 0);
-        if (0..self.angles.len()).any(has) {
+        if (0..self.width()).any(has) {
             let most = low.abs().max(high.abs());
             (low, high) = (-most, most);
         }

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 
 use crate::interval::Interval;
 use crate::polynomial::SLACK;
-use crate::program::{LOAD, Operand, Program, argument};
+use crate::program::{GRAVITY, LOAD, Operand, Program, argument};
 use crate::read::{Function, Source};
 use crate::sines::{self, Scalar};
 
@@ -248,27 +248,38 @@ impl<'f> Rounding<'f> {
         Some(Value::new(exact, error))
     }
 
-    /// |c x ± s y| is at most √(x² + y²), c and s being of one angle.
+    /// |c x ± s y| is at most √(x² + y²), c and s being of one angle. Of two entries of gravity that is
+    /// its length.
     fn turned(&self, operands: &[Operand<f64>; 2], given: &Given) -> Option<f64> {
         let steps = &self.function.program.steps;
         let product = |own: &Operand<f64>| match own {
             Operand::Step(step) => match &steps[*step] {
                 ('*' | '×', [Operand::Sine(joint, is_sine), other])
                 | ('*' | '×', [other, Operand::Sine(joint, is_sine)]) => {
-                    let other = self.operand(other, given);
-                    Some((*joint, *is_sine, other.exact.magnitude()))
+                    let size = self.operand(other, given).exact.magnitude();
+                    let entry = match other {
+                        Operand::Entry(place, entry) if argument(GRAVITY) == Some(*place) => {
+                            Some(*entry)
+                        }
+                        _ => None,
+                    };
+                    Some((*joint, *is_sine, size, entry))
                 }
                 _ => None,
             },
             _ => None,
         };
-        let (joint, is_sine, x) = product(&operands[0])?;
-        let (other, is_other, y) = product(&operands[1])?;
+        let (joint, is_sine, x, one) = product(&operands[0])?;
+        let (other, is_other, y, two) = product(&operands[1])?;
         // What polynomials return is no point of the circle.
         let is_off = [true, false].map(|own| self.polynomial(joint, own).is_some());
         let is_pair = joint == other && is_sine != is_other;
         let is_circle = given.is_exact || is_off == [false; 2];
-        (is_pair && is_circle).then(|| x.hypot(y) * (1.0 + 1e-12))
+        let length = match one.is_some() && two.is_some() && one != two {
+            true => x.max(y),
+            false => x.hypot(y),
+        };
+        (is_pair && is_circle).then_some(length * (1.0 + 1e-12))
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::fault::Fault;
 use crate::identity::number::Draws;
 use crate::payload::Body;
-use crate::program::{ARGUMENTS, argument};
+use crate::program::{ARGUMENTS, GRAVITY, argument};
 use crate::rounding::Ranges;
 use crate::sample::{LANES, State};
 
@@ -71,6 +71,17 @@ impl States<'_> {
     }
 
     fn rounded(&self, mut state: State) -> State {
+        if let Some(place) = argument(GRAVITY) {
+            // The ends of its ranges are those of a ball.
+            let ends = self.ranges.get(place).into_iter().flatten();
+            let most = ends.fold(0.0, |most: f64, range| most.max(range[1]));
+            let length = state[place].iter().map(|x| x * x).sum::<f64>().sqrt();
+            if length > most {
+                state[place]
+                    .iter_mut()
+                    .for_each(|own| *own *= most / length);
+            }
+        }
         if self.is_single {
             let all = state.iter_mut().flatten();
             all.for_each(|own| *own = f64::from(*own as f32));

@@ -18,7 +18,7 @@ use crate::load::load_of_point;
 use crate::maximum::{self, length};
 use crate::payload::Body;
 use crate::polynomial::SLACK;
-use crate::program::{ARGUMENTS, LOAD, Operand, Program, argument};
+use crate::program::{ARGUMENTS, GRAVITY, LOAD, Operand, Program, argument};
 use crate::read;
 use crate::ring::Ring;
 use crate::rounding::{Ranges, Rounding};
@@ -261,20 +261,29 @@ impl Subject<'_> {
     /// Returns T, which the exact program reaches at the claim's state of each result: positions, rates,
     /// and the point where a payload is.
     fn reached(&self, ranges: &Ranges) -> Result<Vec<f64>, Fault> {
-        let (states, count) = (&self.own.reached, self.setting.joints());
+        let states = &self.own.reached;
         let of_robot = |why| Fault::Robot("limits".into(), why);
         let Body { mass, radius } = self.setting.body().map_err(of_robot)?.unwrap_or_default();
         let places = &self.function.arguments;
         let wrong = "`reached`: expected a state of the box for each result";
         unless(states.len() == self.exact.outputs.len(), wrong)?;
-        let places: Vec<usize> = places.iter().copied().filter(|own| *own < 3).collect();
+        let of_state = |own: &usize| *own < 3 || Some(*own) == argument(GRAVITY);
+        let places: Vec<usize> = places.iter().copied().filter(of_state).collect();
+        let count = |place: &usize| self.setting.entries(*place);
+        let total = places.iter().map(count).sum::<usize>();
+        let gravity = self.setting.gravity().unwrap_or_default();
         let least = |(result, state): (usize, &Vec<f64>)| {
             let mut given = vec![Vec::new(); ARGUMENTS.len()];
-            let (state, point) = state.split_at(state.len().min(count * places.len()));
-            let mut is_inside = state.len() == count * places.len();
-            for (place, list) in places.iter().zip(state.chunks(count.max(1))) {
+            let (mut state, point) = state.split_at(state.len().min(total));
+            let mut is_inside = state.len() == total;
+            for place in &places {
+                let (list, others) = state.split_at(count(place).min(state.len()));
+                state = others;
                 let mut pairs = list.iter().zip(&ranges[*place]);
                 is_inside &= pairs.all(|(at, own)| is_within(*at, *own));
+                // Ranges of its entries are those of a ball.
+                let square = list.iter().map(|x| x * x).sum::<f64>();
+                is_inside &= *place < 3 || is_within(square.sqrt(), [0.0, gravity]);
                 given[*place] = list.iter().copied().map(Interval::point).collect();
             }
             match (self.load, <[f64; 3]>::try_from(point)) {
@@ -299,14 +308,21 @@ impl Setting<'_> {
     /// Returns the box: ranges of q, q̇ and q̈, of zero where they are no argument. Refuses a joint
     /// that the file does not limit.
     pub(crate) fn state_box(&self, places: &[usize], is_single: bool) -> Result<Ranges, Fault> {
-        let is_bounded = |place: &usize| *place < 3 || Some(*place) == argument(LOAD);
+        let gravity = self.gravity();
+        let is_bounded = |place: &usize| match ARGUMENTS[*place].0 {
+            "q" | "qd" | "qdd" | LOAD => true,
+            name => name == GRAVITY && gravity.is_some(),
+        };
         let are_bounded = places.iter().all(is_bounded);
         unless(are_bounded, "an argument that no box bounds")?;
         let of_robot = |why: String| Fault::Robot("limits".into(), why);
         let mut all: Ranges = vec![Vec::new(); ARGUMENTS.len()];
+        if let (Some(place), Some(most)) = (argument(GRAVITY), gravity) {
+            all[place] = vec![[-most, most]; 3];
+        }
         for place in 0..3 {
             if !places.contains(&place) {
-                all[place].resize(self.joints(), [0.0; 2]);
+                all[place].resize(self.entries(place), [0.0; 2]);
                 continue;
             }
             let name = ARGUMENTS[place].0;

@@ -7,6 +7,7 @@ use dalembert_checker::certify::{Bounded, Cost, Demand, Line, RATE, Shown, certi
 use dalembert_checker::file::MOST_BYTES;
 use dalembert_codegen::workspace::{bound_of, input_hash};
 use dalembert_import::ChainArgs;
+use dalembert_model::scene::Scene;
 use dalembert_stamp::Stamp;
 
 use crate::args::values::{certified_parser, positive_parser};
@@ -60,12 +61,19 @@ pub(crate) fn run(args: &CertifyArgs, context: &Context) -> Outcome {
 
 const RESULTS: &str = "result|joint|T|real|rounding|E|.tolerance";
 
-/// Values are relative to T; absolute if T is zero.
-fn row(own: &Bounded) -> Vec<Cell> {
+/// The coordinates of a base that floats.
+const BASE: [&str; 6] = ["v_x", "v_y", "v_z", "ω_x", "ω_y", "ω_z"];
+
+/// Values are relative to T; absolute if T is zero. `base` is the number of coordinates of a base that
+/// floats.
+fn row(own: &Bounded, base: usize) -> Vec<Cell> {
     let cell = |x: f64| Cell::of(bound_of(x, 4), x);
     let bound = own.relative();
     // An entry of D has two: its row and its column.
-    let joints = own.joints.iter().map(|joint| (joint + 1).to_string());
+    let joints = own.joints.iter().map(|own| match own.checked_sub(base) {
+        Some(joint) => (joint + 1).to_string(),
+        None => BASE[*own].to_owned(),
+    });
     cells![
         own.field.clone(),
         joints.collect::<Vec<_>>().join(", "),
@@ -114,6 +122,12 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
         report.line(format!("Scene `{scene}`."));
     }
     report.value("scene", scene);
+    let of_name = |own: &&Scene| Some(own.name.as_str()) == scene;
+    let locks_base = (robot.scenes.iter().find(of_name)).is_some_and(|own| own.lock_base);
+    let base = match locks_base {
+        true => 0,
+        false => robot.robot.base_coordinates(),
+    };
     if found.is_unlimited {
         let rates =
             format!("Joints without limits: velocities and accelerations up to {RATE} (SI).");
@@ -135,7 +149,7 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
         let own = line.result.as_ref().ok();
         let worst = own.and_then(worst);
         if let Some(own) = own.filter(|own| !own.results.is_empty()) {
-            let results = Table::new(RESULTS).with(own.results.iter().map(row));
+            let results = Table::new(RESULTS).with(own.results.iter().map(|own| row(own, base)));
             report.value(&format!("within/{}", line.name), results.json());
             report.rows(results);
         }

@@ -46,7 +46,9 @@ impl Terms {
         let function = exact.function;
         let mut quantities = function.quantities().iter();
         let is_regrouped = quantities.all(|quantity| quantity.is_regrouped());
-        let is_plain = setup.load().is_none() && !setup.takes_any(function);
+        // What a base that floats adds is of no link.
+        let is_fixed = setup.robot().floating.is_none();
+        let is_plain = setup.load().is_none() && !setup.takes_any(function) && is_fixed;
         if exact.dag.outputs.len() != exact.rows.len() || !is_regrouped || !is_plain {
             return None;
         }

@@ -18,6 +18,8 @@ const MOST_JOINTS: usize = 64;
 const MOST_TURNS: i64 = 16;
 /// Neither masses nor lengths are so large.
 const MOST_PAYLOAD: f64 = 1e9;
+/// Whoever turns gravity into the axes of a base makes it longer by rounding: in f32, by less than this.
+const GRAVITY_SLACK: f64 = 1e-6;
 
 /// A robot in a scene, or by itself.
 pub struct Setting<'f> {
@@ -361,7 +363,17 @@ impl Setting<'_> {
         self.scene.r#box.position.is_some() || own.is_some()
     }
 
-    /// Returns how far the results of each joint may be off, and relative to which scale; none where
+    /// Returns how long gravity is in the axes of a base that floats, m/s², however that is turned; none
+    /// on a fixed base.
+    pub(crate) fn gravity(&self) -> Option<f64> {
+        let own = self.scene.gravity.as_ref().unwrap_or(&self.file.gravity);
+        let square = |text: &String| Some(number(text)?.to_f64()?.powi(2));
+        let squares = own.iter().map(square).collect::<Option<Vec<f64>>>()?;
+        let length = squares.iter().sum::<f64>().sqrt() * (1.0 + GRAVITY_SLACK);
+        self.floats.then_some(length)
+    }
+
+    /// Returns how far the results of each coordinate may be off, and relative to which scale; none where
     /// no tolerance is given.
     ///
     /// # Errors
@@ -370,15 +382,20 @@ impl Setting<'_> {
         let Some(own) = &self.scene.tolerance else {
             return Ok(None);
         };
+        let (base, count) = (self.base(), self.base() + self.links());
         let each = match &own.value {
-            OneOrEach::One(one) => vec![one; self.links()],
+            OneOrEach::One(one) => vec![one; count],
             OneOrEach::Each(each) => each.iter().collect(),
         };
-        let wrong = "`tolerance`: expected a number, or one a joint";
+        let wrong = match base {
+            0 => "`tolerance`: expected a number, or one a joint",
+            _ => "`tolerance`: expected a number, or six of the base and one a joint",
+        };
         // Down, so that nothing is allowed that the decimal does not allow.
-        let read = |row: &usize| Some(number(each.get(*row)?)?.to_f64()?.next_down());
-        let read: Option<Vec<f64>> = self.movers.iter().map(read).collect();
-        let read = read.filter(|_| each.len() == self.links());
+        let read = |place: usize| Some(number(each.get(place)?)?.to_f64()?.next_down());
+        let places = (0..base).chain(self.movers.iter().map(|row| base + row));
+        let read: Option<Vec<f64>> = places.map(read).collect();
+        let read = read.filter(|_| each.len() == count);
         Ok(Some((read.ok_or(wrong)?, &own.relative_to)))
     }
 

@@ -163,7 +163,7 @@ impl Terms {
 /// Returns the factor of each group, and the number of velocities whose signs matter.
 fn factors(groups: &[Powers], ring: &Ring) -> (Vec<Factor>, usize) {
     use Variable::{Acceleration, EvenError, OddError};
-    let joints = ring.angles.len();
+    let joints = ring.width();
     // One or two velocities, with nothing else, that are as large backwards as forwards.
     let product = |group: &Powers| -> Option<Vec<usize>> {
         let own = group.unmarked();

@@ -1,8 +1,10 @@
 //! The tolerance, and what it needs of the robot: a box, and limits of torque
 //! if these are what it is relative to.
 
+use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::String;
+use alloc::vec::Vec;
 
 use num_traits::{One, Signed, Zero};
 
@@ -18,9 +20,15 @@ impl Check<'_> {
             return;
         };
         let (n, found) = (self.robot.joints.len(), tolerance.value.len());
-        if found != 1 && found != n {
-            let message = format!("{found} tolerances, but the robot has {n} joints");
-            let help = "one for all joints, or one a joint";
+        if found != 1 && found != self.base() + n {
+            let (has, help) = match self.base() {
+                0 => (format!("{n} joints"), "one for all joints, or one a joint"),
+                _ => (
+                    format!("a base that floats and {n} joints"),
+                    "one for all, or six of the base, linear over angular, then one a joint",
+                ),
+            };
+            let message = format!("{found} tolerances, but the robot has {has}");
             self.error("tolerance", message, help);
         }
         for (index, value) in tolerance.value.iter().enumerate() {
@@ -66,23 +74,32 @@ impl Check<'_> {
     fn needs(&mut self, scale: Scale) {
         let scene = self.scene;
         let robot = scene.apply(self.robot);
-        let rows = scene.rows(robot.joints.len());
+        let (base, joints) = (self.base(), scene.rows(robot.joints.len()));
+        let rows: Vec<usize> = (0..base)
+            .chain(joints.iter().map(|joint| base + joint))
+            .collect();
         let velocity = !scene.velocity_zero && self.reads(Argument::Velocity);
         let acceleration = !scene.acceleration_zero && self.reads(Argument::Acceleration);
         // Functions that only the request names are generation's to judge.
         let inertia = self.is_scaled(ErrorScale::Inertia);
         let coefficients = self.is_scaled(ErrorScale::Coefficient);
-        for (index, joint) in robot.joints.iter().enumerate() {
-            let limits = &joint.limits;
-            if scene.locked(index).is_none() {
+        for coordinate in 0..robot.coordinates() {
+            let joint = robot.joint_of(coordinate);
+            if joint.is_none_or(|joint| scene.locked(joint).is_none()) {
                 // The sines and cosines of an angle are bounded anyway.
-                let slides = joint.kind == JointKind::Prismatic;
-                self.range(index, "position", slides && limits.position.is_none());
-                self.range(index, "velocity", velocity && limits.velocity.is_none());
-                let lacks = acceleration && limits.acceleration.is_none();
-                self.range(index, "acceleration", lacks);
+                let free = joint.map(|joint| &robot.joints[joint]).filter(|own| {
+                    own.kind == JointKind::Prismatic && own.limits.position.is_none()
+                });
+                self.range(coordinate, "position", free.is_some());
+                for (rate, is_read) in [
+                    (Limit::Velocity, velocity),
+                    (Limit::Acceleration, acceleration),
+                ] {
+                    let lacks = is_read && robot.limit_of(coordinate, rate).is_none();
+                    self.range(coordinate, rate.key(), lacks);
+                }
             }
-            if scale != Scale::Actuator || !rows.contains(&index) {
+            if scale != Scale::Actuator || !rows.contains(&coordinate) {
                 continue;
             }
             for (rate, of, is_needed) in [
@@ -91,37 +108,58 @@ impl Check<'_> {
                 (Limit::Velocity, " of h_ikm", coefficients),
             ] {
                 if is_needed {
-                    self.above_zero(index, rate, of, limits.rate(rate));
+                    self.above_zero(coordinate, rate, of, robot.limit_of(coordinate, rate));
                 }
             }
         }
     }
 
-    fn range(&mut self, joint: usize, what: &str, lacks: bool) {
-        if lacks {
-            let name = self.robot.joint_label(joint);
+    /// The label of a coordinate of the robot in the scene. Of a base, all six are missing at once.
+    fn label(&self, coordinate: usize) -> String {
+        match coordinate.checked_sub(self.base()) {
+            Some(joint) => self.robot.joint_label(joint),
+            None => "the base".to_owned(),
+        }
+    }
+
+    fn range(&mut self, coordinate: usize, what: &str, lacks: bool) {
+        let is_said = (1..self.base()).contains(&coordinate);
+        if lacks && !is_said {
+            let name = self.label(coordinate);
             let message = format!("a tolerance needs the range of the {what} of {name}");
-            let help = format!("give `{what}` in the scene's box or in the joint's limits");
+            let of = if coordinate < self.base() {
+                "base"
+            } else {
+                "joint"
+            };
+            let help = format!("give `{what}` in the scene's box or in the {of}'s limits");
             self.error("tolerance", message, &help);
         }
     }
 
-    fn above_zero(&mut self, joint: usize, rate: Limit, of: &str, limit: Option<&Rational>) {
-        let (name, what) = (self.robot.joint_label(joint), rate.key());
+    fn above_zero(&mut self, coordinate: usize, rate: Limit, of: &str, limit: Option<&Rational>) {
+        let (name, what) = (self.label(coordinate), rate.key());
         match limit {
+            None if (1..self.base()).contains(&coordinate) => {}
             None => {
                 let message = format!(
                     "a tolerance{of} relative to the actuator needs the {what} limit of {name}"
                 );
+                let of = if coordinate < self.base() {
+                    "base"
+                } else {
+                    "joint"
+                };
                 let help =
-                    format!("give `{what}` in the joint's limits, or relative_to = \"range\"");
+                    format!("give `{what}` in the {of}'s limits, or relative_to = \"range\"");
                 self.error("tolerance", message, &help);
             }
             Some(limit) if limit.is_zero() => {
                 let place = match self.scene.bounds.rate(rate).is_some() {
-                    true => self.place(format_args!("box/{what}/#{}", joint + 1)),
+                    true => self.place(format_args!("box/{what}/#{}", coordinate + 1)),
                     false => {
-                        let row = self.robot.row_of(joint) + 1;
+                        let joint = coordinate.checked_sub(self.base());
+                        let row = joint.map_or(0, |joint| self.robot.row_of(joint) + 1);
                         format!("joint/#{row}/limits/{what}")
                     }
                 };
