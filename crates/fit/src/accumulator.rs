@@ -21,7 +21,7 @@ const VERSION: u16 = 1;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accumulator {
     fingerprint: [u8; 32],
-    /// The columns of each joint's row, without the torque.
+    /// The columns of each row, without the torque.
     rows: Vec<Vec<usize>>,
     triangles: Vec<Triangle>,
     states: u64,
@@ -56,7 +56,9 @@ impl Row<'_> {
 impl Accumulator {
     /// Returns the accumulator of no states.
     pub fn new(model: &Model) -> Accumulator {
-        let rows: Vec<Vec<usize>> = (0..model.joints()).map(|i| model.row(i).to_vec()).collect();
+        let rows: Vec<Vec<usize>> = (0..model.coordinates())
+            .map(|i| model.row(i).to_vec())
+            .collect();
         Accumulator {
             fingerprint: *model.fingerprint(),
             triangles: rows.iter().map(|of| Triangle::new(of.len() + 1)).collect(),
@@ -70,7 +72,8 @@ impl Accumulator {
         self.states
     }
 
-    /// Adds a state: positions, velocities, accelerations and measured torques.
+    /// Adds a state: positions, velocities, accelerations and measured torques. Where the base floats, as
+    /// of [`Model::lengths`]: torques begin with the force and the moment on the base.
     ///
     /// # Errors
     /// [`Error::Length`], [`Error::Value`] and [`Error::OtherModel`]; then nothing is added.
@@ -122,11 +125,15 @@ impl Accumulator {
         check("qd", qd, n * states)?;
         check("tau", tau, n * states)?;
         check("y", y, n * base * states)?;
+        let of_base = n - model.joints();
         let ones = vec![1.0; states];
         let column = |of: &[f64], i: usize| i * states..of.len().min((i + 1) * states);
         for (i, (row, triangle)) in self.rows.iter().zip(&mut self.triangles).enumerate() {
             let rates = &qd[column(qd, i)];
-            let coulomb: Vec<f64> = rates.iter().map(|qd| model.coulomb(i, qd)).collect();
+            let coulomb: Vec<f64> = match i.checked_sub(of_base) {
+                Some(joint) => rates.iter().map(|qd| model.coulomb(joint, qd)).collect(),
+                None => Vec::new(),
+            };
             let entries = row.iter().map(|k| match model.columns()[*k] {
                 Column::Base(k) => &y[column(y, i * base + k)],
                 Column::Coulomb(_) => &coulomb[..],

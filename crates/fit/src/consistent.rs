@@ -57,7 +57,7 @@ const NOTHING: f64 = 1e-6;
 /// Parameters of bodies and drives that exist.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bodies {
-    /// Of each link the ten of a full regressor: m, m x, m y, m z, Ixx, Iyy, Izz, Ixy, Iyz and
+    /// Of a base that floats, then of each link, the ten of a full regressor: m, m x, m y, m z, Ixx, Iyy, Izz, Ixy, Iyz and
     /// Ixz about the origin and in the axes of its own frame.
     pub links: Vec<[f64; 10]>,
     /// Rotor inertias; the robot file's where they are not identified.
@@ -95,8 +95,8 @@ impl Bodies {
 /// An entry of θ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Unknown {
-    /// A link's, its place among ten.
-    Link(usize, usize),
+    /// A body's, of a base that floats and the links, and its place among ten.
+    Body(usize, usize),
     Armature(usize),
     Viscous(usize),
     Coulomb(usize),
@@ -204,8 +204,9 @@ fn newton(
 }
 
 fn unknowns(model: &Model) -> Vec<Unknown> {
-    let links = |joint| (0..10).map(move |k| Unknown::Link(joint, k));
-    let mut unknowns: Vec<Unknown> = (0..model.joints()).flat_map(links).collect();
+    let of_body = |body| (0..10).map(move |k| Unknown::Body(body, k));
+    let bodies = 0..model.joints() + model.first_link();
+    let mut unknowns: Vec<Unknown> = bodies.flat_map(of_body).collect();
     for (unknown, _) in model.columns().iter().flat_map(|own| terms(model, *own)) {
         if !unknowns.contains(&unknown) {
             unknowns.push(unknown);
@@ -216,9 +217,8 @@ fn unknowns(model: &Model) -> Vec<Unknown> {
 
 fn terms(model: &Model, column: Column) -> Vec<(Unknown, f64)> {
     let unknown = |parameter: Parameter| match parameter {
-        // No model has one: `Model::new` refuses a base that floats.
-        Parameter::Base(own) => Unknown::Link(0, place(own)),
-        Parameter::Link(joint, own) => Unknown::Link(joint, place(own)),
+        Parameter::Base(own) => Unknown::Body(0, place(own)),
+        Parameter::Link(joint, own) => Unknown::Body(model.first_link() + joint, place(own)),
         Parameter::Armature(joint) => Unknown::Armature(joint),
         Parameter::Viscous(joint) => Unknown::Viscous(joint),
     };

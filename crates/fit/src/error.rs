@@ -23,7 +23,7 @@ pub enum Error {
     OtherModel,
     /// Bytes are not an accumulator of this version.
     Bytes(&'static str),
-    /// There are fewer states than parameters of a joint.
+    /// There are fewer states than parameters of a torque, which its place among all tells.
     TooFew {
         joint: usize,
         states: u64,
@@ -75,7 +75,7 @@ impl fmt::Display for Error {
                 needed,
             } => write!(
                 f,
-                "joint {} has {needed} parameters at least, and there are {states} states: \
+                "torque {} has {needed} parameters at least, and there are {states} states: \
                  {} or more are needed",
                 joint + 1,
                 needed + 1

@@ -39,6 +39,23 @@ impl Limits {
         each.collect()
     }
 
+    /// Reads the limits of each coordinate of a base that floats, which has no positions; none of a fixed
+    /// base. Where the file has none: 1 m/s, 2 rad/s, 5 m/s², 10 rad/s².
+    pub fn of_base(robot: &Robot) -> Vec<Limits> {
+        let base = robot.floating.as_ref().map(|base| {
+            let number = |all: &Option<[Rational; 6]>, k: usize, usual: [f64; 2]| {
+                let own = all.as_ref().map(|all| f64::nearest_rational(&all[k]));
+                own.unwrap_or(usual[usize::from(k >= 3)])
+            };
+            [0, 1, 2, 3, 4, 5].map(|k| Limits {
+                position: [0.0; 2],
+                velocity: number(&base.limits.velocity, k, [1.0, 2.0]),
+                acceleration: number(&base.limits.acceleration, k, [5.0, 10.0]),
+            })
+        });
+        base.into_iter().flatten().collect()
+    }
+
     pub(crate) fn moves(&self) -> bool {
         let all = [self.reach(), self.velocity, self.acceleration];
         all.iter().all(|limit| *limit > 0.0 && limit.is_finite())

@@ -5,6 +5,10 @@
 //! torque tells apart is one parameter. After them come Coulomb friction, q̇/√(q̇² + w²) times its
 //! force at the width w of the robot file, and an offset of each joint's torque sensor. An offset
 //! that another parameter gives as well, as the weight of a slide that hangs, has no column.
+//!
+//! Of a robot whose base floats, rates and torques have six entries of the base first, and behind the
+//! positions stands gravity in the base's axes. Its first six rows are the force and the moment on the
+//! base: what the ground gives, or zero in flight.
 
 mod derive;
 mod evaluate;
@@ -42,6 +46,8 @@ pub struct Model {
     robot: Robot,
     rotors: bool,
     limits: Vec<Limits>,
+    /// Those of the coordinates of a base that floats.
+    base_limits: Vec<Limits>,
     columns: Vec<Column>,
     combinations: Vec<Vec<(Parameter, f64)>>,
     chain: Chain<f64>,
@@ -73,18 +79,13 @@ impl Model {
             "joints that follow others (`mimic`) are not identified: fit the arm without them, \
              locked",
         )?;
-        ensure(
-            robot.floating.is_none(),
-            "a base that floats is not identified: fit the limbs with the base held, as a robot \
-             whose base is fixed",
-        )?;
         let limits = Limits::of(&robot);
         ensure(
             limits.iter().all(Limits::moves),
             "each joint's limits have to let it move: its range, velocity and acceleration \
              have to be more than zero",
         )?;
-        let n = robot.joints.len();
+        let (n, rows) = (robot.joints.len(), robot.coordinates());
         let scene = Setup::whole(&candidates(&robot, rotors));
         let base = scene.base(Quantity::BaseRegressor);
         let base = base.map_err(|why| Error::NoBaseParameters(why.to_string()))?;
@@ -94,6 +95,7 @@ impl Model {
         for segment in &mut skeleton.links {
             segment.link.body = Body::zero();
         }
+        skeleton.base = skeleton.base.map(|_| Body::zero());
         let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
         let each = |terms: &Vec<(Parameter, Exact)>| {
             terms.iter().map(|(of, x)| (*of, f64::nearest(x))).collect()
@@ -108,11 +110,12 @@ impl Model {
         let mut model = Model {
             rotors,
             limits,
+            base_limits: Limits::of_base(&robot),
             combinations: base.combinations.iter().map(each).collect(),
             chain: chain.map(f64::nearest),
             widths: robot.joints.iter().map(width).collect(),
             robot,
-            rows: vec![(0..columns.len()).collect(); n],
+            rows: vec![(0..columns.len()).collect(); rows],
             columns,
             parameters: Vec::new(),
             fingerprint: [0; 32],
@@ -143,6 +146,50 @@ impl Model {
         self.robot.joints.len()
     }
 
+    /// Returns the number of rows of Y: those of a base that floats, then one a joint.
+    pub fn coordinates(&self) -> usize {
+        self.robot.coordinates()
+    }
+
+    /// Returns the place of the first link among the bodies: behind a base that floats.
+    pub(crate) fn first_link(&self) -> usize {
+        usize::from(self.robot.floating.is_some())
+    }
+
+    /// Returns the lengths of q, q̇ and q̈: where the base floats, gravity in its axes stands behind the
+    /// positions.
+    pub fn lengths(&self) -> [usize; 3] {
+        let gravity = match self.robot.floating {
+            Some(_) => 3,
+            None => 0,
+        };
+        [
+            self.joints() + gravity,
+            self.coordinates(),
+            self.coordinates(),
+        ]
+    }
+
+    /// Draws a state within limits so many times as wide; gravity has any direction.
+    pub(crate) fn state(&self, factor: f64, random: &mut Random) -> [Vec<f64>; 3] {
+        let mut draw = |all: &[Limits], of: &dyn Fn(&Limits) -> [f64; 2]| -> Vec<f64> {
+            let drawn = |[middle, largest]: [f64; 2]| middle + within(random, largest);
+            all.iter().map(of).map(drawn).collect()
+        };
+        let mut q = draw(&self.limits, &|of| [of.middle(), of.reach()]);
+        if self.robot.floating.is_some() {
+            let along = draw(&self.base_limits[..3], &|_| [0.0, 1.0]);
+            let length = libm::sqrt(along.iter().map(|x| x * x).sum());
+            let gravity = self.robot.gravity.each_ref().map(f64::nearest_rational);
+            let most = libm::sqrt(gravity.iter().map(|x| x * x).sum());
+            q.extend(along.iter().map(|x| x * most / length));
+        }
+        let all = [&self.base_limits[..], &self.limits].concat();
+        let qd = draw(&all, &|of| [0.0, factor * of.velocity]);
+        let qdd = draw(&all, &|of| [0.0, factor * of.acceleration]);
+        [q, qd, qdd]
+    }
+
     /// Returns what each column of Y, and each entry of π, is of.
     pub fn columns(&self) -> &[Column] {
         &self.columns
@@ -158,9 +205,9 @@ impl Model {
         &self.combinations[base]
     }
 
-    /// Returns the columns that are not zero in the row of a joint.
-    pub fn row(&self, joint: usize) -> &[usize] {
-        &self.rows[joint]
+    /// Returns the columns that are not zero in a row.
+    pub fn row(&self, row: usize) -> &[usize] {
+        &self.rows[row]
     }
 
     /// Returns π of the robot file; offsets are zero.
@@ -194,18 +241,6 @@ pub fn without_rotors(robot: &Robot) -> Robot {
         joint.armature = Rational::zero();
     }
     robot
-}
-
-pub(crate) fn state(limits: &[Limits], factor: f64, random: &mut Random) -> [Vec<f64>; 3] {
-    let mut draw = |of: &dyn Fn(&Limits) -> [f64; 2]| -> Vec<f64> {
-        let drawn = |[middle, largest]: [f64; 2]| middle + within(random, largest);
-        limits.iter().map(of).map(drawn).collect()
-    };
-    [
-        draw(&|of| [of.middle(), of.reach()]),
-        draw(&|of| [0.0, factor * of.velocity]),
-        draw(&|of| [0.0, factor * of.acceleration]),
-    ]
 }
 
 /// Writes a sum of terms, by their names and factors, cut after three.

@@ -7,7 +7,7 @@
 use crate::accumulator::Accumulator;
 use crate::dense::{norms, split};
 use crate::error::Error;
-use crate::model::{Model, state};
+use crate::model::Model;
 use crate::random::Random;
 use crate::triangle::Triangle;
 
@@ -25,10 +25,10 @@ impl Reference {
         let width = model.columns().len();
         let mut random = Random::new(0x7265_6600);
         let mut accumulator = Accumulator::new(model);
-        let zero = vec![0.0; model.joints()];
+        let zero = vec![0.0; model.coordinates()];
         let states = 4 * width + 40;
         for _ in 0..states {
-            let [q, qd, qdd] = state(model.limits(), 1.0, &mut random);
+            let [q, qd, qdd] = model.state(1.0, &mut random);
             accumulator.add(model, [&q, &qd, &qdd], &zero)?;
         }
         let root = libm::sqrt(states as f64);

@@ -27,8 +27,13 @@ use crate::model::Model;
 /// [`Error::Value`] for a number beyond the range of robot files, or a body that does not exist.
 pub fn identified(model: &Model, bodies: &Bodies) -> Result<Robot, Error> {
     let mut robot = model.robot().clone();
+    if let (Some(base), Some(link)) = (&mut robot.floating, bodies.links.first()) {
+        let own = body(link, 0)?;
+        (base.mass, base.com, base.inertia) = (own.mass, own.com, own.inertia);
+    }
     for (i, joint) in robot.joints.iter_mut().enumerate() {
-        let link = bodies.links.get(i).copied().unwrap_or_default();
+        let link = bodies.links.get(model.first_link() + i);
+        let link = link.copied().unwrap_or_default();
         joint.set_own_body(body(&link, i)?);
         joint.armature = rounded("armature", i, bodies.armature[i], 12)?;
         joint.viscous = rounded("viscous", i, bodies.viscous[i], 12)?;

@@ -43,12 +43,16 @@ const LESS: f64 = 0.25;
 
 /// Searches for the change of a log after which fits leave least of its torques.
 ///
-/// `log` is q, q̇, q̈ and τ of rows at equal times: entry i of row s at `i * rows + s`.
+/// `log` is q, q̇, q̈ and τ of rows at equal times: entry i of row s at `i * rows + s`. Of a base that
+/// floats nothing is suspected.
 ///
 /// # Errors
 /// [`Error::Length`], [`Error::Value`], and [`Error::TooFew`] of short logs.
 pub fn suspect(model: &Model, log: [&[f64]; 4]) -> Result<Option<Suspicion>, Error> {
     let n = model.joints();
+    if model.coordinates() > n {
+        return Ok(None);
+    }
     let rows = log[0].len() / n;
     for (name, column) in ["q", "qd", "qdd", "tau"].into_iter().zip(log) {
         check(name, column, n * rows)?;

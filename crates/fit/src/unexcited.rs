@@ -37,6 +37,8 @@ pub enum Motion {
     Move(usize),
     /// Moving two joints at once.
     Together(usize, usize),
+    /// Moving and turning a base that floats, in different poses.
+    Base,
     /// All joints moving and accelerating.
     All,
     /// No motion within the limits.
@@ -60,6 +62,7 @@ impl fmt::Display for Motion {
                 let (one, other) = (one + 1, other + 1);
                 write!(f, "move joints {one} and {other} at the same time, fast")
             }
+            Motion::Base => f.write_str("move and turn the base, in different poses"),
             Motion::All => f.write_str("move all joints at the same time, fast"),
             Motion::None => f.write_str("no motion within the joints' limits tells it"),
         }
@@ -152,6 +155,7 @@ impl Weighting<'_> {
     fn motions(&self, directions: &[Vec<f64>], units: &[f64]) -> Result<Vec<Motion>, Error> {
         let n = self.model.joints();
         let mut motions = vec![Motion::Poses];
+        motions.extend((self.model.coordinates() > n).then_some(Motion::Base));
         motions.extend((0..n).map(Motion::Move));
         motions.extend((0..n).map(Motion::Accelerate));
         for other in 1..n {
@@ -179,13 +183,16 @@ impl Weighting<'_> {
         let width = self.model.columns().len();
         let mut totals = vec![0.0; directions.len()];
         for _ in 0..STATES {
-            let [q, mut qd, mut qdd] = crate::model::state(self.model.limits(), 1.0, &mut random);
+            let [q, mut qd, mut qdd] = self.model.state(1.0, &mut random);
+            let base = self.model.coordinates() - self.model.joints();
             for (i, (qd, qdd)) in qd.iter_mut().zip(&mut qdd).enumerate() {
+                let is = |joint: usize| i == base + joint;
                 let [moves, accelerates] = match motion {
                     Motion::Poses | Motion::None => [false, false],
-                    Motion::Accelerate(joint) => [false, i == joint],
-                    Motion::Move(joint) => [i == joint, false],
-                    Motion::Together(one, other) => [i == one || i == other, false],
+                    Motion::Base => [i < base; 2],
+                    Motion::Accelerate(joint) => [false, is(joint)],
+                    Motion::Move(joint) => [is(joint), false],
+                    Motion::Together(one, other) => [is(one) || is(other), false],
                     Motion::All => [true, true],
                 };
                 *qd *= f64::from(u8::from(moves));

@@ -4,6 +4,7 @@ mod accumulator;
 mod consistent;
 mod differentiate;
 mod excite;
+mod floating;
 mod identified;
 mod regressor;
 mod statistics;

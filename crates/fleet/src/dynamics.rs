@@ -136,6 +136,11 @@ impl Loaded {
     }
 
     fn with(arm: Arm, model: Option<Model>) -> Result<Loaded, Error> {
+        if arm.robot().floating.is_some() {
+            let why = "the base of the robot floats, and logs have no motion of a base: hold it by a \
+                       fixed joint, or identify it by the crate `dalembert-fit`";
+            return Err(Error::new(why));
+        }
         code(&arm)?.prepare_columns().map_err(Error::new)?;
         let fitted = model.map(fitted).transpose()?;
         Ok(Loaded {

@@ -27,9 +27,11 @@ enum Drive {
 impl Barrier {
     pub(super) fn new(model: &Model, unknowns: &[Unknown], noise: &[f64]) -> Barrier {
         let robot = model.robot();
+        let base = model.coordinates() - model.joints();
+        let noise = &noise[base..];
         let drives = unknowns.iter().enumerate().filter_map(|(at, unknown)| {
             let (joint, file, per) = match *unknown {
-                Unknown::Link(..) => return None,
+                Unknown::Body(..) => return None,
                 Unknown::Offset(joint) => return Some(Drive::Free(at, noise[joint])),
                 Unknown::Coulomb(joint) => (joint, &robot.joints[joint].coulomb, 1.0),
                 Unknown::Viscous(joint) => {
@@ -46,7 +48,7 @@ impl Barrier {
             Some(Drive::Positive(at, file))
         });
         Barrier {
-            links: robot.joints.iter().map(of_joint).collect(),
+            links: robot.bodies().map(|body| of_joint(&body)).collect(),
             units: core::array::from_fn(unit),
             drives: drives.collect(),
             count: unknowns.len(),

@@ -102,7 +102,7 @@ pub(super) fn named(unknown: Unknown) -> Option<String> {
         Unknown::Armature(joint) => Parameter::Armature(joint).to_string(),
         Unknown::Viscous(joint) => Parameter::Viscous(joint).to_string(),
         Unknown::Coulomb(joint) => format!("coulomb{}", joint + 1),
-        Unknown::Link(..) | Unknown::Offset(_) => return None,
+        Unknown::Body(..) | Unknown::Offset(_) => return None,
     })
 }
 
@@ -127,7 +127,7 @@ pub(super) fn bodies(
         .zip(&fit.standard_errors)
         .map(|((own, free), error)| (own - free).abs() / error);
     let mut bodies = Bodies {
-        links: vec![[0.0; 10]; joints.len()],
+        links: vec![[0.0; 10]; model.first_link() + joints.len()],
         armature: file(|joint| &joint.armature),
         viscous: file(|joint| &joint.viscous),
         coulomb: file(|joint| &joint.coulomb),
@@ -140,7 +140,7 @@ pub(super) fn bodies(
     };
     for (unknown, value) in unknowns.iter().zip(theta) {
         let place = match *unknown {
-            Unknown::Link(joint, k) => &mut bodies.links[joint][k],
+            Unknown::Body(body, k) => &mut bodies.links[body][k],
             Unknown::Armature(joint) => &mut bodies.armature[joint],
             Unknown::Viscous(joint) => &mut bodies.viscous[joint],
             Unknown::Coulomb(joint) => &mut bodies.coulomb[joint],

@@ -1,10 +1,10 @@
 //! Which columns a model has, and what tells its columns from others'.
 
 use dalembert_model::number::{Exact, Rational, Rounded};
-use dalembert_model::robot::Robot;
+use dalembert_model::robot::{FloatingBase, Robot};
 use num_traits::{One, Zero};
 
-use super::{Column, Model, state, without_rotors};
+use super::{Column, Model, without_rotors};
 use crate::dense::norms;
 use crate::random::Random;
 use crate::triangle::Triangle;
@@ -13,12 +13,12 @@ impl Model {
     /// Finds the columns that are zero in a row whatever the state is, and drops offsets that
     /// depend on other columns, by random states within limits twice as wide.
     pub(super) fn drop_columns(&mut self) {
-        let (n, width) = (self.joints(), self.columns.len());
+        let (n, width) = (self.coordinates(), self.columns.len());
         let mut random = Random::new(0x6669_7400);
         let mut largest = vec![0.0f64; n * width];
         let mut all = Triangle::new(width);
         for _ in 0..2 * width + 8 {
-            let [q, qd, qdd] = state(&self.limits, 2.0, &mut random);
+            let [q, qd, qdd] = self.state(2.0, &mut random);
             let Ok(y) = self.regressor(&q, &qd, &qdd) else {
                 continue;
             };
@@ -70,6 +70,9 @@ impl Model {
             joint.mass = Rational::zero();
             joint.com = Default::default();
             joint.inertia = joint.inertia.map(|_| Rational::zero());
+        }
+        if let Some(base) = &mut bare.floating {
+            *base = FloatingBase::default();
         }
         bare.input_hash()
     }

@@ -12,28 +12,38 @@ use super::{Column, Model};
 use crate::error::{Error, check};
 
 impl Model {
-    /// Evaluates Y, row by row, all columns.
+    /// Evaluates Y, row by row, all columns, at a state of these [`lengths`](Model::lengths).
     ///
     /// # Errors
     /// [`Error::Length`] and [`Error::Value`].
     pub fn regressor(&self, q: &[f64], qd: &[f64], qdd: &[f64]) -> Result<Vec<f64>, Error> {
-        let n = self.joints();
-        check("q", q, n)?;
-        check("qd", qd, n)?;
-        check("qdd", qdd, n)?;
+        for ((name, values), length) in [("q", q), ("qd", qd), ("qdd", qdd)]
+            .into_iter()
+            .zip(self.lengths())
+        {
+            check(name, values, length)?;
+        }
+        let (n, base) = (self.coordinates(), self.coordinates() - self.joints());
         let position: Vec<_> = (self.robot.joints.iter().zip(q))
             .map(|(joint, q)| match joint.kind {
                 JointKind::Revolute => JointPosition::Revolute(pair(*q)),
                 JointKind::Prismatic => JointPosition::Prismatic(*q),
             })
             .collect();
-        let rows = rows(&self.chain, &position, qd, qdd);
+        let rows = match q.get(self.joints()..) {
+            Some(&[x, y, z]) => {
+                let mut chain = self.chain.clone();
+                chain.gravity = [x, y, z].map(|own| own * chain.per_unit);
+                rows(&chain, &position, qd, qdd)
+            }
+            _ => rows(&self.chain, &position, qd, qdd),
+        };
         let mut y = Vec::with_capacity(n * self.columns.len());
         for (i, row) in rows.into_iter().enumerate() {
             y.extend(row);
             let entry = |column: &Column| match *column {
-                Column::Coulomb(joint) if joint == i => self.coulomb(i, &qd[i]),
-                Column::Offset(joint) if joint == i => 1.0,
+                Column::Coulomb(joint) if base + joint == i => self.coulomb(joint, &qd[i]),
+                Column::Offset(joint) if base + joint == i => 1.0,
                 _ => 0.0,
             };
             y.extend(self.columns[self.base()..].iter().map(entry));
