@@ -79,7 +79,7 @@ fn blocks_are_the_entries_of_the_matrix() {
         let case = Case::read(&robot(scene), &asked);
         let generated = case.generated();
         let rows = &generated.functions[0].program.rows;
-        let place = |row: usize| rows.iter().position(|own| *own == row).unwrap();
+        let place = |row: usize| rows.iter().position(|other| *other == row).unwrap();
         let (_, states) = case.runtime(5, 3);
         for state in &states {
             let [d, blocks] = [0, 1].map(|index| generated.emitted[index].run(state));

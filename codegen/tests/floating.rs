@@ -301,13 +301,13 @@ fn tolerances_of_a_base_are_shown() {
         let admitted = generated.functions[0].admitted.as_ref().unwrap();
         let variant = &admitted.variants[0];
         assert!(admitted.is_other(), "{output}: nothing was left out");
-        let (exact, own) = (variant.exact.in_doubles(), variant.emitted.in_doubles());
+        let (exact, emitted) = (variant.exact.in_doubles(), variant.emitted.in_doubles());
         let (_, states) = case.runtime(200, 8);
         for mut state in states {
             // Of the box, and as long as gravity is.
             let length = state.g.iter().map(|x| x * x).sum::<f64>().sqrt();
             state.g.iter_mut().for_each(|x| *x *= 9.81 / length);
-            let [found, expected] = [&own, &exact].map(|code| code.run_at(&state));
+            let [found, expected] = [&emitted, &exact].map(|code| code.run_at(&state));
             for (index, (found, expected)) in found.iter().zip(&expected).enumerate() {
                 let bound = variant.bounds[index].total() * variant.scales[index];
                 assert!((found - expected).abs() <= bound, "{output} {index}");
@@ -376,7 +376,7 @@ fn the_wrench_on_the_base_has_limits() {
     let case = Case::read(&limited, asked);
     let generated = case.generated();
     let variant = &generated.functions[0].admitted.as_ref().unwrap().variants[0];
-    let scales: Vec<f64> = variant.scales.iter().map(|own| own.round()).collect();
+    let scales: Vec<f64> = variant.scales.iter().map(|scale| scale.round()).collect();
     assert_eq!(
         scales,
         [

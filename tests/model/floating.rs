@@ -273,7 +273,8 @@ fn a_base_carries_a_payload() {
     let a = [0.5, -1.5, 2.0];
     let qdd = DVector::from_fn(10, |i, _| a.get(i).copied().unwrap_or(0.0));
     let q = DVector::from_fn(4, |i, _| 0.2 * i as f64);
-    let [loaded, bare] = [loaded, bare].map(|own| own.inverse_dynamics(&q, &zero, &qdd).unwrap());
+    let [loaded, bare] =
+        [loaded, bare].map(|robot| robot.inverse_dynamics(&q, &zero, &qdd).unwrap());
     let more = loaded - bare;
     let force = [2.0 * a[0], 2.0 * a[1], 2.0 * (a[2] + 9.81)];
     let r = [0.1, -0.2, 0.3];

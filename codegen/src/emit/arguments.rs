@@ -115,7 +115,7 @@ pub(super) fn layout(function: Function, setup: &Setup) -> Vec<String> {
         ];
         say(&mut lines, layout);
     }
-    let of_limbs = |own: &Quantity| own.shape().0.contains(&Axis::Limbs);
+    let of_limbs = |quantity: &Quantity| quantity.shape().0.contains(&Axis::Limbs);
     if function.quantities().iter().any(of_limbs) {
         let limbs = setup.limbs().into_iter().map(|limb| {
             let joints = limb.iter().map(|joint| (joint + 1).to_string());

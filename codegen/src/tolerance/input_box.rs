@@ -184,7 +184,7 @@ impl InputBox {
         let most = self.gravity.first().map_or(0.0, |range| range.high());
         let length = libm::sqrt(state.g.iter().map(|x| x * x).sum());
         if length > most {
-            state.g.iter_mut().for_each(|own| *own *= most / length);
+            state.g.iter_mut().for_each(|entry| *entry *= most / length);
         }
     }
 

@@ -25,7 +25,7 @@ pub(super) struct Turning {
     armatures: Vec<f64>,
     /// The links that carry those of the joints.
     carriers: Vec<Option<usize>>,
-    /// Of a base that floats its mass, its least moment, and how far away its centre of mass is.
+    /// The mass of a base that floats, its least moment, and the distance of its centre of mass.
     base: Option<[f64; 3]>,
 }
 
@@ -123,15 +123,15 @@ impl Turning {
             off => off,
         });
         let taken = |i: usize, j: usize| {
-            let of_row = |(share, own): (&Vec<f64>, &Vec<f64>)| {
-                let columns = shares.iter().zip(own);
+            let of_row = |(share, errors): (&Vec<f64>, &Vec<f64>)| {
+                let columns = shares.iter().zip(errors);
                 share[i] * columns.map(|(other, off)| off * other[j]).sum::<f64>()
             };
             shares.iter().zip(&left).map(of_row).sum::<f64>() / SLACK
         };
         eliminated(square(least.len(), &|i, j| {
-            let own = if i == j { least[i] * SLACK } else { 0.0 };
-            own - taken(i, j)
+            let energy = if i == j { least[i] * SLACK } else { 0.0 };
+            energy - taken(i, j)
         }))
         .is_ok()
     }

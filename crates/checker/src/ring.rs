@@ -115,14 +115,15 @@ impl Ring {
             ring.places.push((position, sign.unwrap_or(0.0)));
         }
         if let Some(length) = setting.gravity() {
-            // |g| (sin α, -cos α sin β, -cos α cos β) are all directions: results are linear in g, so that
-            // none is larger where g is shorter.
+            // ρ |g| (sin α, -cos α sin β, -cos α cos β), ρ from 0 to 1, are all directions and lengths. No
+            // payload is an argument where the base floats: ρ stands in the place of a load.
             ring.angles.extend([None; 2]);
+            ring.units[2].push([0.0, 1.0]);
+            let length = Polynomial::variable(Variable::Load, 0, length);
             let [sin, cos] = pair(count, None, work)?;
-            ring.gravity
-                .push(sin.times(&Polynomial::constant(length, 0.0), work)?);
+            ring.gravity.push(sin.times(&length, work)?);
             for other in pair(count + 1, None, work)? {
-                let share = other.times(&Polynomial::constant(-length, 0.0), work)?;
+                let share = other.times(&length.negated(), work)?;
                 ring.gravity.push(cos.times(&share, work)?);
             }
         }
@@ -131,6 +132,9 @@ impl Ring {
         if lists[2].is_some_and(|load| load.len() > MAX_LOADS) {
             let why = format!("a load of more than {MAX_LOADS} numbers");
             return Err(of_robot(why));
+        }
+        if !ring.gravity.is_empty() && lists[2].is_some_and(|load| !load.is_empty()) {
+            return Err(of_robot("a load, and a base that floats".into()));
         }
         for (which, (list, (variable, _))) in lists.iter().zip(LINEAR).enumerate() {
             for (index, &[low, high]) in list.iter().copied().flatten().enumerate() {
@@ -158,19 +162,19 @@ impl Ring {
         .collect()
     }
 
-    /// Returns gravity at the variables' angles, m/s²; nothing on a fixed base.
+    /// Returns gravity of full length at the variables' angles, m/s²; nothing on a fixed base.
     pub fn gravity(&self, angles: &[f64]) -> Vec<f64> {
-        let value = |own: &Polynomial| {
+        let value = |entry: &Polynomial| {
             let term = |(key, value): &(Key, f64)| {
                 let each = angles.iter().enumerate().map(|(joint, angle)| {
                     let (sin, cos) = sin_cos(*angle);
                     let [s, c] =
-                        [Variable::Sin, Variable::Cos].map(|own| exponent(*key, own, joint));
+                        [Variable::Sin, Variable::Cos].map(|kind| exponent(*key, kind, joint));
                     sin.powi(s as i32) * cos.powi(c as i32)
                 });
                 value * each.product::<f64>()
             };
-            own.terms.iter().map(term).sum()
+            entry.terms.iter().map(term).sum()
         };
         self.gravity.iter().map(value).collect()
     }

@@ -79,7 +79,7 @@ impl States<'_> {
             if length > most {
                 state[place]
                     .iter_mut()
-                    .for_each(|own| *own *= most / length);
+                    .for_each(|entry| *entry *= most / length);
             }
         }
         if self.is_single {

@@ -267,7 +267,7 @@ impl Subject<'_> {
         let places = &self.function.arguments;
         let wrong = "`reached`: expected a state of the box for each result";
         unless(states.len() == self.exact.outputs.len(), wrong)?;
-        let of_state = |own: &usize| *own < 3 || Some(*own) == argument(GRAVITY);
+        let of_state = |place: &usize| *place < 3 || Some(*place) == argument(GRAVITY);
         let places: Vec<usize> = places.iter().copied().filter(of_state).collect();
         let count = |place: &usize| self.setting.entries(*place);
         let total = places.iter().map(count).sum::<usize>();

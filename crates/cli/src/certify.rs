@@ -70,10 +70,13 @@ fn row(own: &Bounded, base: usize) -> Vec<Cell> {
     let cell = |x: f64| Cell::of(bound_of(x, 4), x);
     let bound = own.relative();
     // An entry of D has two: its row and its column.
-    let joints = own.joints.iter().map(|own| match own.checked_sub(base) {
-        Some(joint) => (joint + 1).to_string(),
-        None => BASE[*own].to_owned(),
-    });
+    let joints = own
+        .joints
+        .iter()
+        .map(|coordinate| match coordinate.checked_sub(base) {
+            Some(joint) => (joint + 1).to_string(),
+            None => BASE[*coordinate].to_owned(),
+        });
     cells![
         own.field.clone(),
         joints.collect::<Vec<_>>().join(", "),
@@ -123,7 +126,7 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     }
     report.value("scene", scene);
     let of_name = |own: &&Scene| Some(own.name.as_str()) == scene;
-    let locks_base = (robot.scenes.iter().find(of_name)).is_some_and(|own| own.lock_base);
+    let locks_base = (robot.scenes.iter().find(of_name)).is_some_and(|scene| scene.lock_base);
     let base = match locks_base {
         true => 0,
         false => robot.robot.base_coordinates(),
@@ -149,7 +152,8 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
         let own = line.result.as_ref().ok();
         let worst = own.and_then(worst);
         if let Some(own) = own.filter(|own| !own.results.is_empty()) {
-            let results = Table::new(RESULTS).with(own.results.iter().map(|own| row(own, base)));
+            let results =
+                Table::new(RESULTS).with(own.results.iter().map(|result| row(result, base)));
             report.value(&format!("within/{}", line.name), results.json());
             report.rows(results);
         }

@@ -67,8 +67,8 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
         // A state rounded to f32 is another state.
         let emitted = generated.emitted.iter();
         let double = emitted.filter(|own| own.scalar == ScalarType::F64);
-        let compared =
-            double.flat_map(|own| given::compare(own, bench.runtime(), scenic.robot(), &states));
+        let compared = double
+            .flat_map(|emitted| given::compare(emitted, bench.runtime(), scenic.robot(), &states));
         let compared: Vec<Compared> = compared.collect();
         given::describe(&file.display().to_string(), &states, &compared, &mut done);
     }

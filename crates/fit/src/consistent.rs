@@ -217,8 +217,8 @@ fn unknowns(model: &Model) -> Vec<Unknown> {
 
 fn terms(model: &Model, column: Column) -> Vec<(Unknown, f64)> {
     let unknown = |parameter: Parameter| match parameter {
-        Parameter::Base(own) => Unknown::Body(0, place(own)),
-        Parameter::Link(joint, own) => Unknown::Body(model.first_link() + joint, place(own)),
+        Parameter::Base(moment) => Unknown::Body(0, place(moment)),
+        Parameter::Link(link, moment) => Unknown::Body(model.first_link() + link, place(moment)),
         Parameter::Armature(joint) => Unknown::Armature(joint),
         Parameter::Viscous(joint) => Unknown::Viscous(joint),
     };

@@ -44,8 +44,8 @@ impl Limits {
     pub fn of_base(robot: &Robot) -> Vec<Limits> {
         let base = robot.floating.as_ref().map(|base| {
             let number = |all: &Option<[Rational; 6]>, k: usize, usual: [f64; 2]| {
-                let own = all.as_ref().map(|all| f64::nearest_rational(&all[k]));
-                own.unwrap_or(usual[usize::from(k >= 3)])
+                let limit = all.as_ref().map(|all| f64::nearest_rational(&all[k]));
+                limit.unwrap_or(usual[usize::from(k >= 3)])
             };
             [0, 1, 2, 3, 4, 5].map(|k| Limits {
                 position: [0.0; 2],

@@ -28,8 +28,8 @@ use crate::model::Model;
 pub fn identified(model: &Model, bodies: &Bodies) -> Result<Robot, Error> {
     let mut robot = model.robot().clone();
     if let (Some(base), Some(link)) = (&mut robot.floating, bodies.links.first()) {
-        let own = body(link, 0)?;
-        (base.mass, base.com, base.inertia) = (own.mass, own.com, own.inertia);
+        let found = body(link, 0)?;
+        (base.mass, base.com, base.inertia) = (found.mass, found.com, found.inertia);
     }
     for (i, joint) in robot.joints.iter_mut().enumerate() {
         let link = bodies.links.get(model.first_link() + i);

@@ -77,8 +77,8 @@ fn logged(model: &Model, parameters: &[f64], noise: f64, seed: u64) -> Accumulat
         let [q, qd, qdd] = state(model, &mut random);
         let y = model.regressor(&q, &qd, &qdd).unwrap();
         let mut tau = torques(&y, parameters);
-        for own in &mut tau {
-            *own += noise * normal(&mut random);
+        for entry in &mut tau {
+            *entry += noise * normal(&mut random);
         }
         data.add(model, [&q, &qd, &qdd], &tau).unwrap();
     }
@@ -133,9 +133,13 @@ fn what_needs_the_base_to_move_is_told() {
         data.add(&model, [&q, &qd, &qdd], &tau).unwrap();
     }
     let found = fit(&model, &data).unwrap();
-    let motions: Vec<Motion> = found.unexcited.iter().map(|own| own.motion).collect();
+    let motions: Vec<Motion> = found
+        .unexcited
+        .iter()
+        .map(|direction| direction.motion)
+        .collect();
     assert!(
-        !motions.is_empty() && motions.iter().all(|own| *own == Motion::Base),
+        !motions.is_empty() && motions.iter().all(|motion| *motion == Motion::Base),
         "{motions:?}"
     );
     let why = excite(&model, &[1.0; 10], 5.0, &Effort::default()).unwrap_err();

@@ -146,7 +146,8 @@ impl Arm {
     ) -> Result<Arm, LoadError> {
         let reading = read_robot(&entry.robot, "the arm's robot file")?;
         let scene = load.request(&reading)?.scene;
-        let floats = reading.robot.floating.is_some() && !scene.is_some_and(|own| own.lock_base);
+        let floats =
+            reading.robot.floating.is_some() && !scene.is_some_and(|scene| scene.lock_base);
         let functions = entry.functions.iter();
         let functions = functions.map(|proved| compiled(&entry, proved));
         Ok(Arm {

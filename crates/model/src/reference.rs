@@ -339,7 +339,7 @@ impl<T: Float> Reference<T> {
         let (base, rows) = (self.arm.base_joints(), self.rows());
         let limbs = (base..self.arm.links.len()).map(|row| {
             let followed = self.arm.following.iter().find(|own| own.row == row);
-            let mover = followed.map_or(row, |own| own.leader);
+            let mover = followed.map_or(row, |follower| follower.leader);
             let carrier = self.arm.carrier(row);
             let joint = rows.binary_search(&mover).unwrap_or_default();
             (carrier.and_then(|row| row.checked_sub(base)), joint - base)

@@ -325,7 +325,7 @@ impl Arm {
         let locked = (0..setting.joints()).filter(|&own| setting.is_locked(own));
         let locked = locked.map(|joint| setting.base() + joint);
         let body = file.floating.as_ref().filter(|_| setting.floats);
-        let body = body.map(|own| point.floating(file, own));
+        let body = body.map(|base| point.floating(file, base));
         let mut arm = Arm {
             base: body.transpose()?,
             movers: setting.movers.clone(),

@@ -18,7 +18,8 @@ const MOST_JOINTS: usize = 64;
 const MOST_TURNS: i64 = 16;
 /// Neither masses nor lengths are so large.
 const MOST_PAYLOAD: f64 = 1e9;
-/// Whoever turns gravity into the axes of a base makes it longer by rounding: in f32, by less than this.
+/// The rounding of gravity as it is turned into the axes of a base makes it longer, in f32 by less than
+/// this part.
 const GRAVITY_SLACK: f64 = 1e-6;
 
 /// A robot in a scene, or by itself.
@@ -211,8 +212,8 @@ impl Setting<'_> {
     /// another's joint, count as one.
     fn limbs(&self) -> Vec<Vec<usize>> {
         let mut spans: Vec<(usize, [usize; 2])> = Vec::new();
-        for (row, own) in self.follows.iter().enumerate() {
-            let joint = self.movers.iter().position(|mover| *mover == own.row);
+        for (row, follows) in self.follows.iter().enumerate() {
+            let joint = self.movers.iter().position(|mover| *mover == follows.row);
             let joint = joint.unwrap_or_default();
             let carrier = self.file.carrier(row).ok().flatten();
             let root = carrier.map_or(row, |carrier| spans[carrier].0);
@@ -366,9 +367,9 @@ impl Setting<'_> {
     /// Returns how long gravity is in the axes of a base that floats, m/s², however that is turned; none
     /// on a fixed base.
     pub(crate) fn gravity(&self) -> Option<f64> {
-        let own = self.scene.gravity.as_ref().unwrap_or(&self.file.gravity);
+        let gravity = self.scene.gravity.as_ref().unwrap_or(&self.file.gravity);
         let square = |text: &String| Some(number(text)?.to_f64()?.powi(2));
-        let squares = own.iter().map(square).collect::<Option<Vec<f64>>>()?;
+        let squares = gravity.iter().map(square).collect::<Option<Vec<f64>>>()?;
         let length = squares.iter().sum::<f64>().sqrt() * (1.0 + GRAVITY_SLACK);
         self.floats.then_some(length)
     }
@@ -488,7 +489,7 @@ impl Setting<'_> {
         let given = &self.scene.r#box;
         let [rates, more] = [given.velocity.is_none(), given.acceleration.is_none()];
         let base = self.file.floating.as_ref().filter(|_| self.floats);
-        let base = base.map(|own| &own.limits);
+        let base = base.map(|base| &base.limits);
         let is_free = base.is_some_and(|own| {
             rates && own.velocity.is_none() || more && own.acceleration.is_none()
         });

@@ -33,7 +33,7 @@ impl Model {
         let rows = match q.get(self.joints()..) {
             Some(&[x, y, z]) => {
                 let mut chain = self.chain.clone();
-                chain.gravity = [x, y, z].map(|own| own * chain.per_unit);
+                chain.gravity = [x, y, z].map(|entry| entry * chain.per_unit);
                 rows(&chain, &position, qd, qdd)
             }
             _ => rows(&self.chain, &position, qd, qdd),

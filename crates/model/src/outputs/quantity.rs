@@ -261,10 +261,10 @@ impl Quantity {
                 Axis::Coordinates => 0,
                 _ => sizes.floating,
             };
-            let own: Vec<usize> = coordinates(axis, place, rows, sizes).collect();
-            match own.is_empty() {
+            let found: Vec<usize> = coordinates(axis, place, rows, sizes).collect();
+            match found.is_empty() {
                 true => vec![place + 1],
-                false => own.into_iter().map(|row| row - base + 1).collect(),
+                false => found.into_iter().map(|row| row - base + 1).collect(),
             }
         };
         let is_long =

@@ -107,14 +107,15 @@ impl Sizes {
     /// Returns each limb's places among these coordinates, as [`Axis::Limbs`] has them; limbs that none of
     /// them is of are left out.
     pub fn of_limbs(self, rows: &[usize]) -> Vec<Vec<usize>> {
-        let joints = |row: usize| row.checked_sub(self.floating).filter(|joint| *joint < 64);
-        let limb = |row: usize| joints(row).map(|joint| (self.limbs << (63 - joint)).count_ones());
-        let places = |own: u32| {
-            let places = rows.iter().enumerate();
-            let places = places.filter(|(_, row)| limb(**row) == Some(own));
-            places.map(|(place, _)| place).collect::<Vec<usize>>()
+        let joint = |row: usize| row.checked_sub(self.floating).filter(|joint| *joint < 64);
+        let limb = |row: usize| joint(row).map(|joint| (self.limbs << (63 - joint)).count_ones());
+        let of_limb = |number: u32| {
+            let places = 0..rows.len();
+            places
+                .filter(|place| limb(rows[*place]) == Some(number))
+                .collect::<Vec<usize>>()
         };
-        let limbs = (1..=self.limbs.count_ones()).map(places);
+        let limbs = (1..=self.limbs.count_ones()).map(of_limb);
         limbs.filter(|places| !places.is_empty()).collect()
     }
 
