@@ -1,8 +1,11 @@
 //! Intervals and polynomials against exact numbers.
 
+use dalembert_checker::domain::Domain;
+use dalembert_checker::identity::exact::Exact;
 use dalembert_checker::identity::number::Draws;
 use dalembert_checker::interval::{Interval, SINE_ERROR, sin_cos};
 use dalembert_checker::polynomial::{Key, Polynomial, Variable, exponent};
+use dalembert_checker::program::{Operand, Program, argument};
 use dalembert_checker::work::Work;
 use num_rational::BigRational;
 
@@ -124,4 +127,57 @@ fn products_of_two_accelerations_loads_or_errors_count_with_their_magnitudes() {
             }
         }
     }
+}
+
+const FLOATING: &str = r#"
+name = "hopper"
+gravity = [0, 0, -9.81]
+[[joint]]
+name = "trunk"
+kind = "floating"
+mass = 9
+com = [0, 0, 0]
+inertia = [0.2, 0.15, 0.09, 0, 0, 0]
+[[joint]]
+kind = "revolute"
+placement = { xyz = [0, 0, -0.1] }
+axis = [0, 1, 0]
+mass = 1
+com = [0, 0, -0.1]
+inertia = [0.02, 0.02, 0.003, 0, 0, 0]
+"#;
+
+/// Gravity in the axes of a base has any direction and any length up to the file's: turned, it is no
+/// longer; and what vanishes for its whole length alone, in a program that was edited, is not small.
+#[test]
+fn gravity_is_a_ball() {
+    let domain = Domain::read(FLOATING, None, &["q", "g"], None).unwrap();
+    let gravity = argument("g").unwrap();
+    let entry = |index: usize| Operand::Entry(gravity, index);
+    let shown = |steps: Vec<(char, [Operand<Exact>; 2])>, most: f64| {
+        let last = Operand::Step(steps.len() - 1);
+        let program = Program {
+            steps,
+            outputs: vec![(false, last)],
+        };
+        let written = domain.write(&program, None).unwrap();
+        domain.decide(&written[0], most).0.is_shown
+    };
+    let turned = || {
+        vec![
+            ('*', [Operand::Sine(0, true), entry(0)]),
+            ('*', [Operand::Sine(0, false), entry(2)]),
+            ('+', [Operand::Step(0), Operand::Step(1)]),
+        ]
+    };
+    assert!(shown(turned(), 9.9));
+    assert!(!shown(turned(), 9.8));
+    let square = Exact::read("96.2361").unwrap();
+    let mut steps: Vec<(char, [Operand<Exact>; 2])> = (0..3)
+        .map(|index| ('*', [entry(index), entry(index)]))
+        .collect();
+    steps.push(('+', [Operand::Step(0), Operand::Step(1)]));
+    steps.push(('+', [Operand::Step(2), Operand::Step(3)]));
+    steps.push(('-', [Operand::Step(4), Operand::Constant(square)]));
+    assert!(!shown(steps, 1.0));
 }
