@@ -4,19 +4,8 @@
 use dalembert_codegen::workspace::keep;
 
 use crate::certified::Certified;
+use crate::limbs::TRUNK;
 use crate::support::{Case, changes};
-
-const TRUNK: &str = r#"
-name = "blocks"
-gravity = [0, 0, -9.81]
-
-[[joint]]
-name = "trunk"
-kind = "floating"
-mass = 7.3
-com = [0.02, 0.003, -0.005]
-inertia = [0.026, 0.1, 0.11, 0.0001, -3e-5, 0.0015]
-"#;
 
 /// Joints and what carries them: limbs a and b alternate, d follows c.
 const JOINTS: [(&str, &str, &str); 7] = [
@@ -30,7 +19,7 @@ const JOINTS: [(&str, &str, &str); 7] = [
 ];
 
 fn robot(scene: &str) -> String {
-    let mut text = TRUNK.to_owned();
+    let mut text = format!("name = \"blocks\"\ngravity = [0, 0, -9.81]\n{TRUNK}");
     for ((name, parent, more), number) in JOINTS.into_iter().zip(1..) {
         text += &format!(
             r#"

@@ -51,7 +51,7 @@ armature = 0.01
     text
 }
 
-const TRUNK: &str = r#"
+pub const TRUNK: &str = r#"
 [[joint]]
 name = "trunk"
 kind = "floating"

@@ -3,7 +3,7 @@
 
 use dalembert_checker::payload as checked;
 use dalembert_checker::places::Places;
-use dalembert_model::outputs::{Axis, RuntimeParameter};
+use dalembert_model::outputs::{Axis, RuntimeParameter, Sizes};
 use dalembert_model::robot::Robot;
 
 use super::say;
@@ -28,10 +28,8 @@ pub(super) fn gravity(robot: &Robot, setup: &Setup) -> String {
 fn placed_names(robot: &Robot) -> Option<Places> {
     let names = robot.joints.iter().map(|joint| joint.name.as_deref());
     let names: Vec<Option<&str>> = names.collect();
-    let starts = robot.limb_starts();
-    let joints = 0..robot.joints.len();
-    let starts = || joints.filter(|joint| starts >> joint & 1 == 1).collect();
-    let limbs = robot.floating.as_ref().map(|_| starts());
+    let floats = robot.floating.is_some();
+    let limbs = floats.then(|| Sizes::of(robot).limb_starts().collect());
     (robot.is_tree()).then(|| Places::new(&names, limbs))
 }
 

@@ -120,11 +120,8 @@ fn limbs(program: &Program) -> Vec<usize> {
     if !quantities.any(|quantity| quantity.shape().0.contains(&Axis::Limbs)) {
         return Vec::new();
     }
-    let joints = 0..program.joints;
-    joints
-        .filter(|joint| program.limbs >> joint & 1 == 1)
-        .map(|joint| joint + 1)
-        .collect()
+    let starts = program.sizes().limb_starts();
+    starts.map(|joint| joint + 1).collect()
 }
 
 fn loops(program: &Program) -> Vec<[usize; 3]> {

@@ -6,8 +6,8 @@
 //! force at the width w of the robot file, and an offset of each joint's torque sensor. An offset
 //! that another parameter gives as well, as the weight of a slide that hangs, has no column.
 //!
-//! Of a robot whose base floats, rates and torques have six entries of the base first, and behind the
-//! positions stands gravity in the base's axes. Its first six rows are the force and the moment on the
+//! Rates and torques have six entries of the base first where that floats, and behind the positions
+//! stands gravity in the base's axes. Its first six rows are the force and the moment on the
 //! base: what the ground gives, or zero in flight.
 
 mod derive;

@@ -17,8 +17,8 @@ pub enum Axis {
     Fixed(usize),
     /// An entry an inertial parameter, link by link, in a scene too.
     LinkParameters,
-    /// Of a matrix over joints one block a limb, one behind the other, each row by row; in a scene, over
-    /// the joints that results are over.
+    /// The blocks of a matrix over joints, one a limb, one behind the other, each row by row; in a scene,
+    /// over the joints that results are over.
     Limbs,
     /// An entry a base parameter: how many there are, the arm says, and the scene.
     BaseParameters,
@@ -84,6 +84,11 @@ impl Sizes {
         sizes.over(&rows)
     }
 
+    /// Lists the joints with which limbs begin.
+    pub fn limb_starts(self) -> impl Iterator<Item = usize> {
+        (0..self.joints).filter(move |joint| self.limbs >> joint & 1 == 1)
+    }
+
     /// Returns the number of coordinates of a velocity.
     pub fn coordinates(self) -> usize {
         self.floating + self.joints
@@ -131,7 +136,7 @@ impl Sizes {
         None
     }
 
-    /// Returns the same over all rows of an arm that has so many: a limb's block is then the whole matrix.
+    /// Returns the sizes over all rows of an arm that has so many: a limb's block is the whole matrix.
     #[must_use]
     pub fn over_all(self, rows: usize) -> Sizes {
         Sizes {

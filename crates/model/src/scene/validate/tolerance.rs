@@ -122,17 +122,21 @@ impl Check<'_> {
         }
     }
 
+    /// The word of a robot file for what has the limits of a coordinate.
+    fn owner(&self, coordinate: usize) -> &'static str {
+        match coordinate < self.base() {
+            true => "base",
+            false => "joint",
+        }
+    }
+
     fn range(&mut self, coordinate: usize, what: &str, lacks: bool) {
         let is_said = (1..self.base()).contains(&coordinate);
         if lacks && !is_said {
             let name = self.label(coordinate);
             let message = format!("a tolerance needs the range of the {what} of {name}");
-            let of = if coordinate < self.base() {
-                "base"
-            } else {
-                "joint"
-            };
-            let help = format!("give `{what}` in the scene's box or in the {of}'s limits");
+            let owner = self.owner(coordinate);
+            let help = format!("give `{what}` in the scene's box or in the {owner}'s limits");
             self.error("tolerance", message, &help);
         }
     }
@@ -145,13 +149,9 @@ impl Check<'_> {
                 let message = format!(
                     "a tolerance{of} relative to the actuator needs the {what} limit of {name}"
                 );
-                let of = if coordinate < self.base() {
-                    "base"
-                } else {
-                    "joint"
-                };
+                let owner = self.owner(coordinate);
                 let help =
-                    format!("give `{what}` in the {of}'s limits, or relative_to = \"range\"");
+                    format!("give `{what}` in the {owner}'s limits, or relative_to = \"range\"");
                 self.error("tolerance", message, &help);
             }
             Some(limit) if limit.is_zero() => {
