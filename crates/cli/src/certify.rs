@@ -7,6 +7,7 @@ use dalembert_checker::certify::{Bounded, Cost, Demand, Line, RATE, Shown, certi
 use dalembert_checker::file::MOST_BYTES;
 use dalembert_codegen::workspace::{bound_of, input_hash};
 use dalembert_import::ChainArgs;
+use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 use dalembert_stamp::Stamp;
 
@@ -61,12 +62,9 @@ pub(crate) fn run(args: &CertifyArgs, context: &Context) -> Outcome {
 
 const RESULTS: &str = "result|joint|T|real|rounding|E|.tolerance";
 
-/// The coordinates of a base that floats.
-const BASE: [&str; 6] = ["v_x", "v_y", "v_z", "ω_x", "ω_y", "ω_z"];
-
 /// Values are relative to T; absolute if T is zero. `base` is the number of coordinates of a base that
-/// floats.
-fn row(own: &Bounded, base: usize) -> Vec<Cell> {
+/// floats in the scene.
+fn row(own: &Bounded, robot: &Robot, base: usize) -> Vec<Cell> {
     let cell = |x: f64| Cell::of(bound_of(x, 4), x);
     let bound = own.relative();
     // An entry of D has two: its row and its column.
@@ -75,7 +73,7 @@ fn row(own: &Bounded, base: usize) -> Vec<Cell> {
         .iter()
         .map(|coordinate| match coordinate.checked_sub(base) {
             Some(joint) => (joint + 1).to_string(),
-            None => BASE[*coordinate].to_owned(),
+            None => robot.coordinate_label(*coordinate),
         });
     cells![
         own.field.clone(),
@@ -126,10 +124,9 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     }
     report.value("scene", scene);
     let of_name = |own: &&Scene| Some(own.name.as_str()) == scene;
-    let locks_base = (robot.scenes.iter().find(of_name)).is_some_and(|scene| scene.lock_base);
-    let base = match locks_base {
-        true => 0,
-        false => robot.robot.base_coordinates(),
+    let base = match robot.scenes.iter().find(of_name) {
+        Some(scene) => scene.base_coordinates(&robot.robot),
+        None => robot.robot.base_coordinates(),
     };
     if found.is_unlimited {
         let rates =
@@ -152,8 +149,11 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
         let own = line.result.as_ref().ok();
         let worst = own.and_then(worst);
         if let Some(own) = own.filter(|own| !own.results.is_empty()) {
-            let results =
-                Table::new(RESULTS).with(own.results.iter().map(|result| row(result, base)));
+            let results = Table::new(RESULTS).with(
+                own.results
+                    .iter()
+                    .map(|result| row(result, &robot.robot, base)),
+            );
             report.value(&format!("within/{}", line.name), results.json());
             report.rows(results);
         }

@@ -61,14 +61,14 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
     let setup = request.setup(robot).map_err(GenerateError::from)?;
     let states = setup.states(args.states, SEED);
     let claimed = claims(&setup, &generated, &mut done)?;
-    let scenic = setup.clone();
     let bench = Bench::new(setup);
     if let Some((file, states)) = args.given.as_ref().zip(given) {
         // A state rounded to f32 is another state.
         let emitted = generated.emitted.iter();
         let double = emitted.filter(|own| own.scalar == ScalarType::F64);
-        let compared = double
-            .flat_map(|emitted| given::compare(emitted, bench.runtime(), scenic.robot(), &states));
+        let compared = double.flat_map(|emitted| {
+            given::compare(emitted, bench.runtime(), bench.setup().robot(), &states)
+        });
         let compared: Vec<Compared> = compared.collect();
         given::describe(&file.display().to_string(), &states, &compared, &mut done);
     }

@@ -125,7 +125,7 @@ impl Accumulator {
         check("qd", qd, n * states)?;
         check("tau", tau, n * states)?;
         check("y", y, n * base * states)?;
-        let of_base = n - model.joints();
+        let of_base = model.robot().base_coordinates();
         let ones = vec![1.0; states];
         let column = |of: &[f64], i: usize| i * states..of.len().min((i + 1) * states);
         for (i, (row, triangle)) in self.rows.iter().zip(&mut self.triangles).enumerate() {

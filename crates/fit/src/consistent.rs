@@ -57,8 +57,8 @@ const NOTHING: f64 = 1e-6;
 /// Parameters of bodies and drives that exist.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bodies {
-    /// The ten of a full regressor, first of a base that floats, then of each link: m, m x, m y, m z, Ixx, Iyy, Izz, Ixy, Iyz and
-    /// Ixz about the origin and in the axes of its own frame.
+    /// The ten of a full regressor, of a base that floats and then of each link: m, m x, m y, m z, Ixx,
+    /// Iyy, Izz, Ixy, Iyz and Ixz about the origin and in the axes of the body's own frame.
     pub links: Vec<[f64; 10]>,
     /// Rotor inertias; the robot file's where they are not identified.
     pub armature: Vec<f64>,

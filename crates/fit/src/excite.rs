@@ -70,9 +70,8 @@ pub fn excite(
 ) -> Result<(Trajectory, f64), Error> {
     let is_period = period > 0.0 && period.is_finite();
     ensure(is_period, "`period` has to be a positive number of seconds")?;
-    let is_fixed = model.coordinates() == model.joints();
     ensure(
-        is_fixed,
+        model.robot().floating.is_none(),
         "a base that floats follows no trajectory: log it as it moves",
     )?;
     let has_harmonics = (2..=50).contains(&effort.harmonics);

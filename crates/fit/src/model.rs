@@ -7,8 +7,8 @@
 //! that another parameter gives as well, as the weight of a slide that hangs, has no column.
 //!
 //! Rates and torques have six entries of the base first where that floats, and behind the positions
-//! stands gravity in the base's axes. Its first six rows are the force and the moment on the
-//! base: what the ground gives, or zero in flight.
+//! stands gravity in the base's axes. The first six torques are the force and the moment on the base:
+//! those that the ground gives, or zero in flight.
 
 mod derive;
 mod evaluate;

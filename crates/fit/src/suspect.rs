@@ -50,7 +50,7 @@ const LESS: f64 = 0.25;
 /// [`Error::Length`], [`Error::Value`], and [`Error::TooFew`] of short logs.
 pub fn suspect(model: &Model, log: [&[f64]; 4]) -> Result<Option<Suspicion>, Error> {
     let n = model.joints();
-    if model.coordinates() > n {
+    if model.robot().floating.is_some() {
         return Ok(None);
     }
     let rows = log[0].len() / n;

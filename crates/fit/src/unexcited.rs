@@ -155,7 +155,8 @@ impl Weighting<'_> {
     fn motions(&self, directions: &[Vec<f64>], units: &[f64]) -> Result<Vec<Motion>, Error> {
         let n = self.model.joints();
         let mut motions = vec![Motion::Poses];
-        motions.extend((self.model.coordinates() > n).then_some(Motion::Base));
+        let floats = self.model.robot().floating.is_some();
+        motions.extend(floats.then_some(Motion::Base));
         motions.extend((0..n).map(Motion::Move));
         motions.extend((0..n).map(Motion::Accelerate));
         for other in 1..n {
@@ -184,7 +185,7 @@ impl Weighting<'_> {
         let mut totals = vec![0.0; directions.len()];
         for _ in 0..STATES {
             let [q, mut qd, mut qdd] = self.model.state(1.0, &mut random);
-            let base = self.model.coordinates() - self.model.joints();
+            let base = self.model.robot().base_coordinates();
             for (i, (qd, qdd)) in qd.iter_mut().zip(&mut qdd).enumerate() {
                 let is = |joint: usize| i == base + joint;
                 let [moves, accelerates] = match motion {

@@ -146,13 +146,15 @@ impl Arm {
     ) -> Result<Arm, LoadError> {
         let reading = read_robot(&entry.robot, "the arm's robot file")?;
         let scene = load.request(&reading)?.scene;
-        let floats =
-            reading.robot.floating.is_some() && !scene.is_some_and(|scene| scene.lock_base);
+        let base = match scene {
+            Some(scene) => scene.base_coordinates(&reading.robot),
+            None => reading.robot.base_coordinates(),
+        };
         let functions = entry.functions.iter();
         let functions = functions.map(|proved| compiled(&entry, proved));
         Ok(Arm {
             robot: reading.robot,
-            floats,
+            floats: base > 0,
             source: source.to_owned(),
             functions: functions.collect::<Result<_, _>>()?,
             entry,

@@ -27,8 +27,7 @@ enum Drive {
 impl Barrier {
     pub(super) fn new(model: &Model, unknowns: &[Unknown], noise: &[f64]) -> Barrier {
         let robot = model.robot();
-        let base = model.coordinates() - model.joints();
-        let noise = &noise[base..];
+        let noise = &noise[robot.base_coordinates()..];
         let drives = unknowns.iter().enumerate().filter_map(|(at, unknown)| {
             let (joint, file, per) = match *unknown {
                 Unknown::Body(..) => return None,

@@ -23,7 +23,7 @@ impl Model {
         {
             check(name, values, length)?;
         }
-        let (n, base) = (self.coordinates(), self.coordinates() - self.joints());
+        let (n, base) = (self.coordinates(), self.robot.base_coordinates());
         let position: Vec<_> = (self.robot.joints.iter().zip(q))
             .map(|(joint, q)| match joint.kind {
                 JointKind::Revolute => JointPosition::Revolute(pair(*q)),
