@@ -312,7 +312,7 @@ fn describe(scene: &Scene, robot: &Robot) -> Vec<String> {
         scene.short_hash()
     )];
     if scene.lock_base {
-        lines.push("- the base at rest, its axes those of gravity;".to_owned());
+        lines.push("- the base at rest;".to_owned());
     }
     for (joint, at) in &scene.lock {
         let at = match at {

@@ -144,8 +144,8 @@ fn lock(
         for (key, value) in table.entries() {
             if robot.floating.is_some() && link::is_named_base(robot, &key.name) {
                 let help = format!(
-                    "lock = {{ {} = \"level\" }}: its axes are those of gravity; for another place, give \
-                     the scene its `gravity`",
+                    "lock = {{ {} = \"level\" }} holds the base; if it is tilted, give the scene its \
+                     `gravity` in the base's axes",
                     key.name
                 );
                 lock_base |= cx.word(value, &[(Scene::LEVEL, ())], &help).is_some();

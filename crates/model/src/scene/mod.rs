@@ -32,7 +32,7 @@ pub struct Scene {
     pub joints: Option<Vec<usize>>,
     /// Joints that stay where they are, with their positions, in the order of the file.
     pub lock: Vec<(usize, Position)>,
-    /// True if a base that floats stays where it is, its axes those of gravity.
+    /// True if a base that floats stays at rest. Gravity is then in its axes, as of a fixed base.
     pub lock_base: bool,
     /// Instead of the robot's.
     pub gravity: Option<[Rational; 3]>,
@@ -138,7 +138,8 @@ impl Float {
 }
 
 impl Scene {
-    /// The word for the place of a base that is locked: its axes are those of gravity.
+    /// The word for the pose of a base that is locked: gravity has the same entries in its axes as in the
+    /// robot file.
     pub const LEVEL: &'static str = "level";
 
     /// Returns the position a joint is locked at.
