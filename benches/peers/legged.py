@@ -330,7 +330,7 @@ extern "C" void pinocchios(double *q, double *qd, double *x, double *g, int stat
 
 
 def compiled(work, arm, names, casadi):
-    """Builds the program; false where Pinocchio cannot be compiled here."""
+    """Builds the program, with Pinocchio where it can be compiled, and by clang where that is: their names."""
     (work / "legged.c").write_text(program(names, arm.n))
     (work / "legged.cpp").write_text(cpp(arm))
     for function, own in casadi.items():
@@ -357,11 +357,16 @@ def compiled(work, arm, names, casadi):
         more += ["pinocchio.o"]
         more += [f"-L{prefix}/lib", f"-Wl,-rpath,{prefix}/lib", "-lpinocchio_default"]
     subprocess.run(["g++", *more], check=True, cwd=work)
-    return has_pinocchio
+    if not shutil.which("clang"):
+        return ["legged"]
+    # clang's fast contraction overrides the header's pragma: no other flag.
+    subprocess.run(["clang", *FLAGS[:2], "-w", "-c", "legged.c", "-o", "clang.o"], check=True, cwd=work)
+    subprocess.run(["gcc", "clang.o", *objects, "-o", "clang", "-lm"], check=True, cwd=work)
+    return ["legged", "clang"]
 
 
-def check(work, model, states, n):
-    out = subprocess.run(["./legged", "values", "legged.states"], check=True, capture_output=True, text=True, cwd=work)
+def check(work, built, model, states, n):
+    out = subprocess.run([f"./{built}", "values", "legged.states"], check=True, capture_output=True, text=True, cwd=work)
     lines, off = {}, {}
     for line in out.stdout.splitlines():
         key, *values = line.split()
@@ -396,22 +401,30 @@ def run(work, dalembert):
     }
     casadi = Floating(arm).functions()
     gravity = casadi.pop("gravity")
-    compiled(work, arm, names, casadi)
-    check(work, arm.pinocchio(), states[:60], arm.n)
+    programs = compiled(work, arm, names, casadi)
+    for built in programs:
+        check(work, built, arm.pinocchio(), states[:60], arm.n)
     times = {}
-    for _ in range(TURNS):
-        out = subprocess.run(["./legged", "time", "legged.states"], check=True, capture_output=True, text=True, cwd=work)
+    for built in programs * TURNS:
+        command = [f"./{built}", "time", "legged.states"]
+        out = subprocess.run(command, check=True, capture_output=True, text=True, cwd=work)
         for line in out.stdout.splitlines():
             key, time = line.split()
-            times.setdefault(tuple(key.split("|")), []).append(float(time))
+            function, library = key.split("|")
+            if built == "clang" and library == "lanes_fma":
+                times.setdefault((function, built), []).append(float(time))
+            elif built != "clang":
+                times.setdefault((function, library), []).append(float(time))
     write(times, casadi | {"gravity": gravity})
 
 
 def write(times, casadi):
-    gcc = subprocess.run(["gcc", "--version"], capture_output=True, text=True).stdout
+    version = lambda name: subprocess.run([name, "--version"], capture_output=True, text=True).stdout.splitlines()[0]
+    compilers = " and ".join(map(version, filter(shutil.which, ["gcc", "clang"])))
     today = subprocess.run(["date", "-u", "+%F"], capture_output=True, text=True).stdout.strip()
     titles = {
         "lanes_fma": "dalembert, `--fma`",
+        "clang": "the same by clang",
         "lanes": "dalembert",
         "apart": "`--limbs apart`",
         "batch": "1024 states, `--batch --fma`",
@@ -422,7 +435,7 @@ def write(times, casadi):
     text = [
         "# A quadruped beside the peers",
         "",
-        f"Made by `benches/peers.sh` with {gcc.splitlines()[0]}, {' '.join(FLAGS)}, {machine()}, {today}.",
+        f"Made by `benches/peers.sh` with {compilers}, {' '.join(FLAGS)}, {machine()}, {today}.",
         "Unitree's Go2 of the gallery, its base floating: nanoseconds a call with sines, one core, all in one process,",
         "the least of the medians of programs that took turns, and in brackets how many times the first column that is.",
         "Results are checked against Pinocchio's at 60 states. Legs are lanes of loops, but for *apart* and for batches,",

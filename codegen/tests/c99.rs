@@ -92,7 +92,7 @@ fn headers() -> Vec<String> {
     all.map(|(_, case)| case.generated().text()).collect()
 }
 
-fn with_main(name: &str, text: &str, rest: &str) -> PathBuf {
+pub fn with_main(name: &str, text: &str, rest: &str) -> PathBuf {
     let folder = folder(name);
     fs::write(folder.join("arm.h"), text).unwrap();
     let main = format!("#include \"arm.h\"\n{rest}");
@@ -106,12 +106,16 @@ const STRICT: &str = "-Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -
 #[test]
 fn headers_are_compiled_without_a_warning() {
     for text in headers() {
-        let folder = with_main("strict", &text, "int main(void) { return 0; }\n");
-        for compiler in there(&["gcc", "clang"]) {
-            for language in ["c -std=c99", "c++"] {
-                let flags = STRICT.split(' ').chain(language.split(' '));
-                run(compiler, flags.chain(["arm.c"]), &folder);
-            }
+        compiles_without_a_warning("strict", &text);
+    }
+}
+
+pub fn compiles_without_a_warning(name: &str, header: &str) {
+    let folder = with_main(name, header, "int main(void) { return 0; }\n");
+    for compiler in there(&["gcc", "clang"]) {
+        for language in ["c -std=c99", "c++"] {
+            let flags = STRICT.split(' ').chain(language.split(' '));
+            run(compiler, flags.chain(["arm.c"]), &folder);
         }
     }
 }

@@ -1,13 +1,14 @@
 //! Limbs as lanes of loops: the same results, bit for bit, as the operations of each limb by itself;
 //! and no limb in another's place.
 
-use dalembert_codegen::workspace::keep;
-use dalembert_codegen::{Generated, LimbLayout, Plan, generate};
+use dalembert_codegen::workspace::{Names, keep};
+use dalembert_codegen::{Generated, Language, LimbLayout, Plan, ScalarType, generate};
 
 use serde_json::{Value, json};
 
+use crate::c99::{compiles_without_a_warning, with_main};
 use crate::certified::Certified;
-use crate::support::compiled::same_bits;
+use crate::support::compiled::{run, same_bits, there};
 use crate::support::{Case, changes, source};
 
 /// Limbs on a base that floats or not: no two of them have all numbers alike.
@@ -148,11 +149,19 @@ int l = 0 → int l = 1
 l < 4 → l < 3
 ++l → l++
 u1[0][l] → u1[0][0]
-const double u1[ → const double u2[
+double u1[ → double u2[
 double w1[ → double w2[
 static const double k1[ → const float k1[
 w1[6][0] → w1[6][1]
 w1[7][2] → w1[7][3]
+LIMBS_FORGET(u1); → LIMBS_FORGET(u2);
+LIMBS_FORGET(w1); → LIMBS_FORGET(q);
+LIMBS_FOUR(double, &tau[0], → LIMBS_FOUR(double, &tau[1],
+LIMBS_FOUR(double, &tau[0], → LIMBS_FOUR(float, &tau[0],
+LIMBS_FOUR(double, &tau[0], → LIMBS_FOUR(double, &tau[0], 0.0,
+(\"\" : → (\"nop\" :
+four = {a, b, c, d} → four = {a, b, d, c}
+(to)[2] = (c) → (to)[2] = (d)
 ",
         ),
     ];
@@ -179,6 +188,44 @@ fn vectors_have_the_bits_of_single_operations() {
         let case = Case::read(&quadruped(), &format!("{asked}; language: c"));
         let flags = ["-O0 -std=c99", "-O2 -std=c99", "-O3 -std=c99 -march=native"];
         same_bits(&format!("limbs_{fma}"), &case, 5, &flags);
+    }
+}
+
+/// Without flags beyond -O2 and the processor's, and without a warning.
+#[cfg(target_arch = "x86_64")]
+#[test]
+fn compilers_make_vectors_of_lanes() {
+    let call = "void f(const double *q, const double *qd, const double *x, const double *g, double *y)\n\
+        {\n    CALL;\n}\n";
+    for (output, arguments) in [
+        ("inverse_dynamics", "q, qd, x, g, y"),
+        ("inertia", "q, y"),
+        (
+            "inverse_dynamics_derivatives",
+            "q, qd, x, g, y, y + 196, y + 392",
+        ),
+    ] {
+        let asked = format!("outputs: {output}; scalar: f64; sincos: together; language: c");
+        let case = Case::read(&quadruped(), &asked);
+        let text = case.generated().text();
+        compiles_without_a_warning("lanes", &text);
+        let called = Names::new("limbs", Language::C, ScalarType::F64).of(output);
+        let call = call.replace("CALL", &format!("{called}({arguments})"));
+        let folder = with_main("lanes", &text, &call);
+        let rows = case.generated().functions[0].program.loops[0].rows;
+        for compiler in there(&["gcc", "clang"]) {
+            let flags = "-O2 -mavx2 -std=c99 -Werror -S -o - arm.c".split(' ');
+            let assembly = run(compiler, flags, &folder);
+            let operations = ["vmulpd", "vaddpd", "vsubpd"];
+            let is_vector = |line: &&str| {
+                line.contains("%ymm") && operations.iter().any(|name| line.contains(name))
+            };
+            let vectors = assembly.lines().filter(is_vector).count();
+            assert!(
+                vectors >= rows,
+                "{compiler}: {output} has {vectors} for {rows} operations"
+            );
+        }
     }
 }
 

@@ -61,7 +61,7 @@ pub(crate) fn misnamed(base: &str, functions: &[Function], request: &Request) ->
     let scalars = request.scalars.iter();
     let names = scalars.map(|&scalar| Names::new(base, Language::C, scalar));
     let names = names.flat_map(|names| words.iter().map(move |word| names.with_limit(word)));
-    let macros = ["RESTRICT", "UNFUSED", "SIMD"];
+    let macros = ["RESTRICT", "UNFUSED", "SIMD", "FORGET", "FOUR"];
     let macros = macros.map(|word| {
         let name = Names::new(base, Language::C, ScalarType::F64).constant(word);
         (name, LONGEST)
@@ -71,6 +71,23 @@ pub(crate) fn misnamed(base: &str, functions: &[Function], request: &Request) ->
     let found = names.find(|(name, limit)| name.len() > *limit || !seen.insert(name.clone()));
     found.map(|(name, _)| name)
 }
+
+/// The macros of functions with lanes, `ARM` being the header's name.
+const LANES: &str = "
+/* What lanes read and write is in an array, of whose values the compiler forgets what it knows. */
+#if defined(__clang__)
+#define ARM_FORGET(array) __asm__(\"\" : \"+m\"(array))
+#else
+#define ARM_FORGET(array)
+#endif
+
+/* Four results beside one another are stored at once. */
+#if defined(__GNUC__)
+#define ARM_FOUR(real, to, a, b, c, d) do { typedef real four_t __attribute__((vector_size(4 * sizeof(real)), aligned(sizeof(real)), may_alias)); const four_t four = {a, b, c, d}; *(four_t *)(to) = four; } while (0)
+#else
+#define ARM_FOUR(real, to, a, b, c, d) do { (to)[0] = (a); (to)[1] = (b); (to)[2] = (c); (to)[3] = (d); } while (0)
+#endif
+";
 
 pub(crate) fn write(
     job: &Job<'_>,
@@ -140,6 +157,9 @@ pub(crate) fn write(
              #define {simd} _Pragma(\"omp simd\")\n\
              #else\n#define {simd}\n#endif\n"
         );
+    }
+    if codes_of().any(|code| c99::has_vectors(code, &names)) {
+        text += &LANES.replace("ARM", &names.macros());
     }
     text += &places_c(setup.robot(), &names);
     for &(scalar, ref codes) in codes {

@@ -44,7 +44,7 @@ pub(super) fn write_steps(text: &mut String, code: &Code, dialect: Dialect) {
         last_use: &last_uses(code),
         is_whole: &|id| code.dag.fusion(id).is_none(),
         name: &|id| lines.operand(id),
-        line: &|id| lines.statement(id),
+        lines: &|id| lines.statement(id).into_iter().collect(),
     }
     .write(text, &ids, Id::MAX);
 }
@@ -68,38 +68,38 @@ fn write_pieces<'c>(text: &mut String, code: &'c Code, dialect: Dialect) -> Line
                     last_use: &last_use,
                     is_whole: &|id| code.dag.fusion(id).is_none(),
                     name: &|id| lines.operand(id),
-                    line: &|id| lines.statement(id),
+                    lines: &|id| lines.statement(id).into_iter().collect(),
                 }
                 .write(text, ids, next.unwrap_or(Id::MAX));
             }
-            Piece::Lanes(lanes) => write_loop(text, code, lanes, &last_use),
+            Piece::Lanes(lanes) => write_loop(text, code, lanes),
         }
     }
     lines
 }
 
-fn write_loop(text: &mut String, code: &Code, lanes: &LoopText, last_use: &[Id]) {
+fn write_loop(text: &mut String, code: &Code, lanes: &LoopText) {
     for line in &lanes.before {
         *text += &format!("    {line}\n");
     }
     *text += &format!("    {}\n", lanes.head);
     let ids: Vec<Id> = lanes.rows.iter().map(|row| row.0).collect();
-    let mut last_use = last_use.to_vec();
+    // Nothing outside of the loop reads them but by its array.
+    let mut last_use = vec![0; code.dag.nodes.len()];
     for &id in &ids {
         // A fused product stands in the line of its sum.
         let factors = code.dag.fusion(id).map(|fusion| fusion.factors);
-        for factor in factors.into_iter().flatten() {
-            last_use[factor as usize] = last_use[factor as usize].max(id);
+        let operands = [code.dag.node(id).operands(), factors];
+        for operand in operands.into_iter().flatten().flatten() {
+            last_use[operand as usize] = id;
         }
     }
-    // Stores stand behind the rows.
-    for (id, _) in &lanes.stores {
-        last_use[*id as usize] = Id::MAX;
-    }
-    let place = |id: Id| ids.binary_search(&id).unwrap_or_default();
-    let line = |id: Id| lanes.rows[place(id)].1.clone();
+    let lines = |id: Id| {
+        let place = ids.binary_search(&id).unwrap_or_default();
+        lanes.rows[place].1.clone()
+    };
     let name = |id: Id| {
-        let declared = line(id);
+        let declared = lines(id).concat();
         declared.split(' ').nth(1).unwrap_or_default().to_owned()
     };
     Blocks {
@@ -108,12 +108,9 @@ fn write_loop(text: &mut String, code: &Code, lanes: &LoopText, last_use: &[Id])
         last_use: &last_use,
         is_whole: &|_| true,
         name: &name,
-        line: &|id| Some(line(id)),
+        lines: &lines,
     }
     .write(text, &ids, ids.last().map_or(Id::MAX, |last| last + 1));
-    for (_, line) in &lanes.stores {
-        *text += &format!("        {line}\n");
-    }
     text.push_str("    }\n");
 }
 
@@ -125,7 +122,7 @@ struct Blocks<'a> {
     /// False of a sum that stands with the product before it.
     is_whole: &'a dyn Fn(Id) -> bool,
     name: &'a dyn Fn(Id) -> String,
-    line: &'a dyn Fn(Id) -> Option<String>,
+    lines: &'a dyn Fn(Id) -> Vec<String>,
 }
 
 impl Blocks<'_> {
@@ -133,7 +130,7 @@ impl Blocks<'_> {
     fn write(&self, text: &mut String, ids: &[Id], end: Id) {
         let indent = self.indent;
         if !self.is_cut {
-            for line in ids.iter().filter_map(|&id| (self.line)(id)) {
+            for line in ids.iter().flat_map(|&id| (self.lines)(id)) {
                 *text += &format!("{indent}{line}\n");
             }
             return;
@@ -153,7 +150,7 @@ impl Blocks<'_> {
                 .filter(|&&id| self.last_use[id as usize] >= end);
             let live: String = live.map(|&id| format!("{}, ", (self.name)(id))).collect();
             *text += &format!("{indent}let ({}) = {{\n", live.trim_end());
-            for line in block.iter().filter_map(|&id| (self.line)(id)) {
+            for line in block.iter().flat_map(|&id| (self.lines)(id)) {
                 *text += &format!("{indent}    {line}\n");
             }
             *text += &format!("{indent}    ({})\n{indent}}};\n", live.trim_end());

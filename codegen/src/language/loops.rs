@@ -10,7 +10,7 @@
 //! let mut w1 = [[0.0; 2]; 1];         what others read
 //! for l in 0..2 {
 //!     let t1 = u1[0][l] * k1[0][l];
-//!     w1[0][l] = t1;
+//!     w1[0][l] = t1;                  at once: fewer values are alive
 //! }
 //! let t3 = w1[0][0] + w1[0][1];
 //! ```
@@ -50,10 +50,11 @@ pub(super) struct LoopText {
     /// The arrays that it reads and writes.
     pub before: Vec<String>,
     pub head: String,
-    /// The nodes of lane 0, with their lines.
-    pub rows: Vec<(Id, String)>,
-    /// The lines that write values for others, with the nodes of lane 0.
-    pub stores: Vec<(Id, String)>,
+    /// The nodes of lane 0, with their lines: an operation, and a store if others read its value.
+    pub rows: Vec<(Id, Vec<String>)>,
+    /// Its arrays of values that differ from lane to lane, and of values that others read.
+    pub read: Option<String>,
+    pub written: Option<String>,
 }
 
 /// Names values of loops as what is outside of these reads them, and returns the pieces.
@@ -145,8 +146,13 @@ struct LoopWriter<'a> {
 
 impl LoopWriter<'_> {
     fn write(mut self, lines: &Lines<'_, Input>) -> LoopText {
-        let rows = (0..self.block.rows).filter_map(|row| self.row(row, lines));
-        let rows = rows.collect();
+        let stores = self.stores();
+        let mut rows = Vec::new();
+        for (row, store) in stores.into_iter().enumerate() {
+            let computed = self.row(row, lines);
+            rows.extend(computed.map(|(id, line)| (id, [Some(line), store].into_iter().flatten())));
+        }
+        let rows = rows.into_iter().map(|(id, lines)| (id, lines.collect()));
         let number = self.number;
         let mut before = Vec::new();
         for (letter, array) in ["k", "u"].into_iter().zip(&self.arrays) {
@@ -160,26 +166,32 @@ impl LoopWriter<'_> {
                 &values.collect::<Vec<String>>(),
             ));
         }
-        if !self.exports.is_empty() {
-            let sizes = [self.exports.len(), self.block.lanes];
-            before.push(self.dialect.empty_array(&format!("w{number}"), sizes));
-        }
-        let stores = self
-            .exports
+        let read = (!self.arrays[1].is_empty()).then(|| format!("u{number}"));
+        let written = (!self.exports.is_empty()).then(|| format!("w{number}"));
+        let sizes = [self.exports.len(), self.block.lanes];
+        let empty = written
             .iter()
-            .enumerate()
-            .map(|(place, (row, is_negative))| {
-                let (sign, name) = (if *is_negative { "-" } else { "" }, self.name(*row));
-                let line = format!("w{number}[{place}][l] = {sign}{name};");
-                (self.ids[self.block.first + row], line)
-            });
+            .map(|name| self.dialect.empty_array(name, sizes));
+        before.extend(empty);
         LoopText {
             first: self.ids[self.block.first],
             before,
             head: self.dialect.lanes(self.block.lanes),
-            rows,
-            stores: stores.collect(),
+            rows: rows.collect(),
+            read,
+            written,
         }
+    }
+
+    /// Returns for each row the line that stores its value, if something outside of the loop reads it.
+    fn stores(&self) -> Vec<Option<String>> {
+        let mut stores = vec![None; self.block.rows];
+        for (place, (row, is_negative)) in self.exports.iter().enumerate() {
+            let (number, name) = (self.number, self.name(*row));
+            let sign = if *is_negative { "-" } else { "" };
+            stores[*row] = Some(format!("w{number}[{place}][l] = {sign}{name};"));
+        }
+        stores
     }
 
     fn name(&self, row: usize) -> String {
@@ -265,9 +277,9 @@ impl Dialect {
         let (head, [open, close], end) = match self.language {
             Language::Rust => (format!("let {name} = ["), ["[", "]"], "];"),
             Language::C | Language::Cuda => {
-                let kind = if is_constant { "static const" } else { "const" };
+                let kind = if is_constant { "static const " } else { "" };
                 (
-                    format!("{kind} {float} {name}[{count}][{lanes}] = {{"),
+                    format!("{kind}{float} {name}[{count}][{lanes}] = {{"),
                     ["{", "}"],
                     "};",
                 )

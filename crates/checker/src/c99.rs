@@ -51,6 +51,17 @@ const LOOPS: &str = "
 #else
 #define ARM_SIMD
 #endif";
+/// Of functions with lanes.
+const LANES: &str = "#if defined(__clang__)
+#define ARM_FORGET(array) __asm__(\"\" : \"+m\"(array))
+#else
+#define ARM_FORGET(array)
+#endif
+#if defined(__GNUC__)
+#define ARM_FOUR(real, to, a, b, c, d) do { typedef real four_t __attribute__((vector_size(4 * sizeof(real)), aligned(sizeof(real)), may_alias)); const four_t four = {a, b, c, d}; *(four_t *)(to) = four; } while (0)
+#else
+#define ARM_FOUR(real, to, a, b, c, d) do { (to)[0] = (a); (to)[1] = (b); (to)[2] = (c); (to)[3] = (d); } while (0)
+#endif";
 const LOOP: &str = "#if defined(__GNUC__)\n__attribute__((flatten))\n#endif";
 const BEHIND: &str = "#if WHEN\n#pragma GCC pop_options\n#endif\n#endif";
 const GCC: &str = "defined(__GNUC__) && !defined(__clang__)";
@@ -107,6 +118,13 @@ pub(crate) fn functions<'t>(
         text.replace("ARM", name)
     };
     take(&mut lines, &known(&format!("{BEFORE}{loops}")))?;
+    let lanes = known(LANES);
+    if lines
+        .get(1)
+        .is_some_and(|own| lanes.lines().nth(1) == Some(own.1))
+    {
+        take(&mut lines, &lanes)?;
+    }
     if let Some(places) = places.filter(|_| lines.first().is_some_and(|own| own.1 == "enum {")) {
         take(&mut lines, &untabbed(&places.header(name)))?;
     }

@@ -7,7 +7,7 @@ use crate::read::{is_letter, is_plain_sign};
 
 /// Names that generated code has for something else, in Rust or in C behind the header's name.
 const TAKEN: &str =
-    "N NV BASE JOINT_NAMES LIMBS JOINTS COORDINATES BOX H CUH RESTRICT UNFUSED SIMD";
+    "N NV BASE JOINT_NAMES LIMBS JOINTS COORDINATES BOX H CUH RESTRICT UNFUSED SIMD FORGET FOUR";
 /// The end of the names of constants that hold parameters.
 const PARAMETERS: &str = "PARAMETERS";
 /// The longest name of a joint: with a header's name, compilers tell it from others.

@@ -123,11 +123,26 @@ impl<'r> Reader<'r> {
         // The angles of a list, those of the call that was read, and the one of the last pair.
         let (mut angles, mut called, mut pair) = (Vec::new(), Vec::new(), None);
         let kind = format!("{}_sincos_t", symbols.prefix);
+        let forget = format!("{}_FORGET", symbols.macros);
         loop {
             if self.take_all("for (int l = 0; l <")? {
                 let lanes = self.next();
                 self.expect_all("; ++l) {")?;
                 self.lanes(lanes, |own| own.c_statements(symbols, is_told))?;
+            } else if self.take(&forget) {
+                self.expect("(")?;
+                let name = self.next();
+                if !self.arrays.contains_key(name) {
+                    return self.refuse("an array of lanes expected");
+                }
+                self.expect_all(");")?;
+            } else if self.takes_store()? {
+                continue;
+            } else if self.peek(0) == float && self.peek(1).starts_with('u') {
+                let [name, rows, lanes] = [1, 3, 6].map(|place| self.peek(place));
+                self.expect_all(&format!("{float} {name}[{rows}][{lanes}] = {{"))?;
+                self.rows(name, ["{", "}"], Some([rows, lanes]))?;
+                self.expect(";")?;
             } else if self.peek(0) == float && self.peek(1).starts_with('w') {
                 let [name, rows, lanes] = [1, 3, 6].map(|place| self.peek(place));
                 self.expect_all(&format!("{float} {name}[{rows}][{lanes}];"))?;
@@ -224,14 +239,21 @@ impl<'r> Reader<'r> {
         self.name_sine(name, joint, is_sine, source)
     }
 
-    /// Returns the results, a `?` each: what is returned, or written entry by entry.
+    /// Returns the results, a `?` each: what is returned, or written entry by entry, with lanes by fours.
     fn c_results(&self, symbols: &Symbols) -> String {
         if self.is_number() {
             return "return ?;".to_owned();
         }
         let before = symbols.structure.as_ref().map_or("", |_| "result->");
+        let has_lanes = !self.function.loops.is_empty();
+        let macro_head = format!("{}_FOUR({}", symbols.macros, self.head.float());
         let entries = self.head.lengths().flat_map(|(field, length)| {
-            (0..length).map(move |index| format!("{before}{field}[{index}] = ?; "))
+            let whole = if has_lanes { length / 4 * 4 } else { 0 };
+            let fours = (0..whole)
+                .step_by(4)
+                .map(|index| format!("{macro_head}, &{before}{field}[{index}], ?, ?, ?, ?); "));
+            let alone = (whole..length).map(|index| format!("{before}{field}[{index}] = ?; "));
+            fours.chain(alone).collect::<Vec<String>>()
         });
         entries.collect()
     }

@@ -12,6 +12,7 @@
 //! - `c`: functions in C and CUDA, and those of any number of states
 
 mod c;
+mod lanes;
 mod reader;
 mod rust;
 mod tokens;

@@ -59,6 +59,9 @@ impl<'r> Reader<'r> {
                 self.lanes(lanes, |own| own.statements(false))?;
                 continue;
             }
+            if self.takes_store()? {
+                continue;
+            }
             if !self.take("let") {
                 return Ok(());
             }

@@ -1,0 +1,105 @@
+//! Loops over lanes, which functions in Rust and in C have, and their arrays.
+
+use super::reader::{MOST_STEPS, Read, Reader};
+use crate::program::Operand;
+
+const MOST_LANES: usize = 64;
+
+/// A value of an array, once it is written, with whether it is negated: then results alone may read it.
+pub(super) type Entry = Option<(bool, Operand<f64>)>;
+
+impl<'r> Reader<'r> {
+    /// Takes the indices of an array: a row, and a lane by its number or `l`.
+    pub(super) fn entry(&mut self, array: &str) -> Read<[usize; 2]> {
+        let rows = self.arrays.get(array).map_or(0, Vec::len);
+        let row = self.index(rows)?;
+        let lanes = self.arrays[array][row].len();
+        match self.lane.filter(|_| self.peek(1) == "l") {
+            Some(lane) if lane < lanes => self.expect_all("[l]").map(|()| [row, lane]),
+            _ => Ok([row, self.index(lanes)?]),
+        }
+    }
+
+    /// Takes the rows of an array, behind its head: `[a, b], [c, d], ]`; so many rows and lanes.
+    pub(super) fn rows(
+        &mut self,
+        name: &'r str,
+        [open, close]: [&str; 2],
+        sizes: Option<[&str; 2]>,
+    ) -> Read<()> {
+        let mut rows: Vec<Vec<_>> = Vec::new();
+        while self.take(open) {
+            rows.push(self.list(close, |own| Ok(Some((false, own.operand()?))))?);
+            self.expect(",")?;
+        }
+        self.expect(close)?;
+        if let Some([count, lanes]) = sizes
+            && (rows.len().to_string() != count
+                || rows.iter().any(|row| row.len().to_string() != lanes))
+        {
+            return self.refuse("as many numbers as in the array expected");
+        }
+        self.array(name, rows)
+    }
+
+    fn array(&mut self, name: &'r str, rows: Vec<Vec<Entry>>) -> Read<()> {
+        let is_new = name.starts_with(['k', 'u', 'w']) && self.arrays.insert(name, rows).is_none();
+        match is_new && self.lane.is_none() {
+            true => Ok(()),
+            false => self.refuse("another name of an array expected"),
+        }
+    }
+
+    /// Takes the array that a loop writes: `w1` of so many rows and lanes.
+    pub(super) fn empty_array(&mut self, name: &'r str, [rows, lanes]: [&str; 2]) -> Read<()> {
+        let count = |word: &str| word.parse().ok().filter(|count| *count <= MOST_STEPS);
+        match (count(rows), count(lanes)) {
+            (Some(rows), Some(lanes)) if lanes <= MOST_LANES => {
+                self.array(name, vec![vec![None; lanes]; rows])
+            }
+            _ => self.refuse("lengths of an array expected"),
+        }
+    }
+
+    /// Takes a loop behind its head. It is what each lane does, one after the other.
+    pub(super) fn lanes(&mut self, lanes: &str, body: impl Fn(&mut Self) -> Read<()>) -> Read<()> {
+        let count = lanes.parse().unwrap_or(0);
+        if self.lane.is_some() || !(2..=MOST_LANES).contains(&count) {
+            return self.refuse("a loop over lanes expected");
+        }
+        let (start, names) = (self.at, self.order.len());
+        let first = self.function.program.steps.len();
+        for lane in 0..count {
+            (self.at, self.lane) = (start, Some(lane));
+            body(self)?;
+            self.expect("}")?;
+            self.forget_names(names, &[])?;
+        }
+        self.lane = None;
+        let mut entries = self.arrays.values().flatten().flatten();
+        if entries.any(Option::is_none) {
+            return self.refuse("an entry that no lane writes");
+        }
+        let rows = (self.function.program.steps.len() - first) / count;
+        self.function.loops.push([first, rows, count]);
+        Ok(())
+    }
+
+    /// Takes what a lane stores in an array, if that is next: `w1[0][l] = t1;`.
+    pub(super) fn takes_store(&mut self) -> Read<bool> {
+        let array = self.peek(0);
+        if self.lane.is_none() || !self.arrays.contains_key(array) {
+            return Ok(false);
+        }
+        self.next();
+        let [row, lane] = self.entry(array)?;
+        self.expect("=")?;
+        let value = self.signed()?;
+        self.expect(";")?;
+        let entry = self.arrays.get_mut(array).map(|rows| &mut rows[row][lane]);
+        match entry.is_some_and(|entry| entry.replace(value).is_some()) {
+            true => self.refuse("an entry is written twice"),
+            false => Ok(true),
+        }
+    }
+}
