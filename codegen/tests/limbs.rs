@@ -160,7 +160,9 @@ LIMBS_FOUR(double, &tau[0], → LIMBS_FOUR(double, &tau[1],
 LIMBS_FOUR(double, &tau[0], → LIMBS_FOUR(float, &tau[0],
 LIMBS_FOUR(double, &tau[0], → LIMBS_FOUR(double, &tau[0], 0.0,
 (\"\" : → (\"nop\" :
-four = {a, b, c, d} → four = {a, b, d, c}
+FOUR_V = {a, b, c, d} → FOUR_V = {a, b, d, c}
+#define LIMBS_FORGET(array)↵ → ∅
+const double t7 = → static const double t7 =
 (to)[2] = (c) → (to)[2] = (d)
 ",
         ),

@@ -81,9 +81,9 @@ const LANES: &str = "
 #define ARM_FORGET(array)
 #endif
 
-/* Four results beside one another are stored at once. */
+/* Four results beside one another are stored at once; some processors align doubles to four bytes. */
 #if defined(__GNUC__)
-#define ARM_FOUR(real, to, a, b, c, d) do { typedef real four_t __attribute__((vector_size(4 * sizeof(real)), aligned(sizeof(real)), may_alias)); const four_t four = {a, b, c, d}; *(four_t *)(to) = four; } while (0)
+#define ARM_FOUR(real, to, a, b, c, d) do { typedef real ARM_FOUR_T __attribute__((__vector_size__(4 * sizeof(real)), __aligned__(4), __may_alias__)); const ARM_FOUR_T ARM_FOUR_V = {a, b, c, d}; *(ARM_FOUR_T *)(to) = ARM_FOUR_V; } while (0)
 #else
 #define ARM_FOUR(real, to, a, b, c, d) do { (to)[0] = (a); (to)[1] = (b); (to)[2] = (c); (to)[3] = (d); } while (0)
 #endif
@@ -217,13 +217,7 @@ pub(crate) fn write(
                 let rows = setup.rows();
                 let count = quantity.len(sizes);
                 let units = (0..count).map(|i| quantity.unit(i, rows, sizes, setup.robot()));
-                let mut units: Vec<&str> = units.collect();
-                units.dedup();
-                units.truncate(4);
-                let units = match units.iter().any(|unit| !unit.is_empty()) {
-                    true => format!(" Units: {}.", units.join(", ")),
-                    false => String::new(),
-                };
+                let units = units_in_order(units, quantity.shape().0.len() > 1);
                 doc.push(format!("{}{units}", c99::shaped(*quantity, sizes)));
             }
             comment(&mut text, &doc);
@@ -242,6 +236,22 @@ pub(crate) fn write(
     }
     text += &format!("\n#if {GCC}\n#pragma GCC pop_options\n#endif\n\n#endif\n");
     text
+}
+
+/// Says the units of entries in their order; of a matrix each unit once, since its rows have them in turn.
+fn units_in_order<'u>(units: impl Iterator<Item = &'u str>, is_matrix: bool) -> String {
+    let mut units: Vec<&str> = units.collect();
+    if is_matrix {
+        let mut seen = BTreeSet::new();
+        units.retain(|unit| seen.insert(*unit));
+    } else {
+        units.dedup();
+        units.truncate(4);
+    }
+    match units.iter().any(|unit| !unit.is_empty()) {
+        true => format!(" Units: {}.", units.join(", ")),
+        false => String::new(),
+    }
 }
 
 fn comment(text: &mut String, lines: &[String]) {

@@ -58,7 +58,7 @@ const LANES: &str = "#if defined(__clang__)
 #define ARM_FORGET(array)
 #endif
 #if defined(__GNUC__)
-#define ARM_FOUR(real, to, a, b, c, d) do { typedef real four_t __attribute__((vector_size(4 * sizeof(real)), aligned(sizeof(real)), may_alias)); const four_t four = {a, b, c, d}; *(four_t *)(to) = four; } while (0)
+#define ARM_FOUR(real, to, a, b, c, d) do { typedef real ARM_FOUR_T __attribute__((__vector_size__(4 * sizeof(real)), __aligned__(4), __may_alias__)); const ARM_FOUR_T ARM_FOUR_V = {a, b, c, d}; *(ARM_FOUR_T *)(to) = ARM_FOUR_V; } while (0)
 #else
 #define ARM_FOUR(real, to, a, b, c, d) do { (to)[0] = (a); (to)[1] = (b); (to)[2] = (c); (to)[3] = (d); } while (0)
 #endif";
@@ -118,12 +118,10 @@ pub(crate) fn functions<'t>(
         text.replace("ARM", name)
     };
     take(&mut lines, &known(&format!("{BEFORE}{loops}")))?;
-    let lanes = known(LANES);
-    if lines
-        .get(1)
-        .is_some_and(|own| lanes.lines().nth(1) == Some(own.1))
-    {
-        take(&mut lines, &lanes)?;
+    let macros = ["FORGET(", "FOUR("].map(|own| format!("{name}_{own}"));
+    let has_macro = |line: &str| macros.iter().any(|own| line.contains(own.as_str()));
+    if lines.iter().any(|own| has_macro(own.1)) {
+        take(&mut lines, &known(LANES))?;
     }
     if let Some(places) = places.filter(|_| lines.first().is_some_and(|own| own.1 == "enum {")) {
         take(&mut lines, &untabbed(&places.header(name)))?;

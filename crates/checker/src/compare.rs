@@ -59,7 +59,9 @@ pub(crate) fn compare(
         (None, None) => return Ok(()),
     };
     let number = index + 1;
-    Err(format!("{what} {number} is not the one that is claimed"))
+    Err(format!(
+        "{what} {number} of this function is not the one that is claimed"
+    ))
 }
 
 pub(crate) fn is_literal(text: &str, value: &Exact, is_single: bool) -> bool {

@@ -6,8 +6,7 @@ use std::collections::BTreeSet;
 use crate::read::{is_letter, is_plain_sign};
 
 /// Names that generated code has for something else, in Rust or in C behind the header's name.
-const TAKEN: &str =
-    "N NV BASE JOINT_NAMES LIMBS JOINTS COORDINATES BOX H CUH RESTRICT UNFUSED SIMD FORGET FOUR";
+const TAKEN: &str = "N NV BASE JOINT_NAMES LIMBS JOINTS COORDINATES BOX H CUH RESTRICT UNFUSED SIMD FORGET FOUR FOUR_T FOUR_V";
 /// The end of the names of constants that hold parameters.
 const PARAMETERS: &str = "PARAMETERS";
 /// The longest name of a joint: with a header's name, compilers tell it from others.

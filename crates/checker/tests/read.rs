@@ -94,7 +94,7 @@ fn sines_of_a_list_behind_the_call() {
 
 #[test]
 fn loops_over_limbs() {
-    let good = "static const double k1[1][2] = {\n{0.5, -0.5},\n};\nconst double u1[1][2] = {\n{q[0], q[1]},\n};\n\
+    let good = "static const double k1[1][2] = {\n{0.5, -0.5},\n};\ndouble u1[1][2] = {\n{q[0], q[1]},\n};\n\
                 double w1[1][2];\nfor (int l = 0; l < 2; ++l) {\nconst double t1 = u1[0][l] * k1[0][l];\n\
                 w1[0][l] = t1;\n}\nconst double t1 = w1[0][0] + w1[0][1];";
     refused(
@@ -103,10 +103,43 @@ fn loops_over_limbs() {
             ("k1[1][2]", "k1[2][2]", "as many numbers"),
             ("k1[1][2]", "k1[1][3]", "as many numbers"),
             ("{0.5, -0.5}", "{0.5}", "as many numbers"),
+            ("double u1[1]", "const double u1[1]", "`=` expected"),
+            ("{0.5, -0.5}", "{0.5, q[0]}", "an array of numbers"),
+            // In C++ it would keep the value of the first call.
             (
-                "const double u1",
-                "const double k1",
+                "const double t1 = w1",
+                "static const double t1 = w1",
+                "`[` expected",
+            ),
+            (
+                "double w1[1][2]",
+                "double w01[1][2]",
                 "another name of an array",
+            ),
+            (
+                "double w1[1][2]",
+                "double while[1][2]",
+                "another name of an array",
+            ),
+            // Octal numbers.
+            ("double w1[1][2]", "double w1[01][2]", "lengths of an array"),
+            ("double w1[1][2]", "double w1[1][02]", "lengths of an array"),
+            ("l < 2", "l < 02", "a loop over lanes"),
+            // In C the name behind the loop is another one.
+            (
+                "const double t1 = u1",
+                "const double x1_1 = q[0] * 2.0;\nconst double t1 = u1",
+                "polynomials stand before lanes",
+            ),
+            (
+                "const double t1 = u1",
+                "const double s1 = sin(q[0]);\nconst double t1 = u1",
+                "sines are taken before lanes",
+            ),
+            (
+                "double w1[1][2];",
+                "double w1[1][2];\nARM_FORGET(k1);",
+                "an array of lanes",
             ),
             ("double w1[1][2]", "double w1[1][65]", "lengths of an array"),
             ("double w1[1][2]", "double w1[2][2]", "no lane writes"),

@@ -13,6 +13,8 @@
 
 use super::Source;
 use super::reader::{Read, Reader, commas, joint_of};
+use crate::claim::whole;
+use crate::program::Operand;
 
 /// The names of a function in a header.
 #[derive(Clone, Debug, Default)]
@@ -132,7 +134,8 @@ impl<'r> Reader<'r> {
             } else if self.take(&forget) {
                 self.expect("(")?;
                 let name = self.next();
-                if !self.arrays.contains_key(name) {
+                // Numbers are not lvalues that change.
+                if name.starts_with('k') || !self.arrays.contains_key(name) {
                     return self.refuse("an array of lanes expected");
                 }
                 self.expect_all(");")?;
@@ -153,7 +156,7 @@ impl<'r> Reader<'r> {
                     "{float} sines[{count}]; {float} cosines[{count}]; {}_sines_{count}(",
                     symbols.prefix
                 ))?;
-                let length = count.parse().unwrap_or(usize::MAX);
+                let length = whole(count).unwrap_or(usize::MAX);
                 called = if self.take("&") {
                     (self.angle()?..self.head.joints).take(length).collect()
                 } else {
@@ -179,16 +182,25 @@ impl<'r> Reader<'r> {
                     "const {kind} p{number} = {prefix}_sincos({far}, q[{joint}]);"
                 ))?;
                 pair = Some(joint);
-            } else if self.take_all("static const")? || self.take("const") {
+            } else if self.take_all("static const")? {
+                // Once for all calls: numbers alone.
+                self.expect(float)?;
+                let name = self.next();
+                let [rows, lanes] = [self.peek(1), self.peek(4)];
+                self.expect_all(&format!("[{rows}][{lanes}] = {{"))?;
+                self.rows(name, ["{", "}"], Some([rows, lanes]))?;
+                let mut values = self.arrays[name].iter().flatten().flatten();
+                if !name.starts_with('k')
+                    || values.any(|own| !matches!(own.1, Operand::Constant(_)))
+                {
+                    return self.refuse("an array of numbers expected");
+                }
+                self.expect(";")?;
+            } else if self.take("const") {
                 self.expect(float)?;
                 let name = self.next();
                 if name == "angles" {
                     angles = self.c_angles()?;
-                } else if self.peek(0) == "[" {
-                    let [rows, lanes] = [self.peek(1), self.peek(4)];
-                    self.expect_all(&format!("[{rows}][{lanes}] = {{"))?;
-                    // Others would be zero.
-                    self.rows(name, ["{", "}"], Some([rows, lanes]))?;
                 } else {
                     self.expect("=")?;
                     self.c_value(name, &called, pair)?;

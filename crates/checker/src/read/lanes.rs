@@ -1,6 +1,7 @@
 //! Loops over lanes, which functions in Rust and in C have, and their arrays.
 
 use super::reader::{MOST_STEPS, Read, Reader};
+use crate::claim::whole;
 use crate::program::Operand;
 
 const MOST_LANES: usize = 64;
@@ -43,8 +44,9 @@ impl<'r> Reader<'r> {
     }
 
     fn array(&mut self, name: &'r str, rows: Vec<Vec<Entry>>) -> Read<()> {
-        let is_new = name.starts_with(['k', 'u', 'w']) && self.arrays.insert(name, rows).is_none();
-        match is_new && self.lane.is_none() {
+        let number = name.strip_prefix(['k', 'u', 'w']);
+        let is_name = number.and_then(whole).is_some() && self.lane.is_none();
+        match is_name && self.arrays.insert(name, rows).is_none() {
             true => Ok(()),
             false => self.refuse("another name of an array expected"),
         }
@@ -52,7 +54,8 @@ impl<'r> Reader<'r> {
 
     /// Takes the array that a loop writes: `w1` of so many rows and lanes.
     pub(super) fn empty_array(&mut self, name: &'r str, [rows, lanes]: [&str; 2]) -> Read<()> {
-        let count = |word: &str| word.parse().ok().filter(|count| *count <= MOST_STEPS);
+        // A leading zero would make it octal in C.
+        let count = |word: &str| whole(word).filter(|count| *count <= MOST_STEPS);
         match (count(rows), count(lanes)) {
             (Some(rows), Some(lanes)) if lanes <= MOST_LANES => {
                 self.array(name, vec![vec![None; lanes]; rows])
@@ -63,7 +66,7 @@ impl<'r> Reader<'r> {
 
     /// Takes a loop behind its head. It is what each lane does, one after the other.
     pub(super) fn lanes(&mut self, lanes: &str, body: impl Fn(&mut Self) -> Read<()>) -> Read<()> {
-        let count = lanes.parse().unwrap_or(0);
+        let count = whole(lanes).unwrap_or(0);
         if self.lane.is_some() || !(2..=MOST_LANES).contains(&count) {
             return self.refuse("a loop over lanes expected");
         }

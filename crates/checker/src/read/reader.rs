@@ -430,6 +430,10 @@ impl<'r> Reader<'r> {
         is_sine: bool,
         source: Source,
     ) -> Read<()> {
+        // What a lane computes is out of scope behind it.
+        if self.lane.is_some() {
+            return self.refuse("sines are taken before lanes");
+        }
         let letter = if is_sine { 's' } else { 'c' };
         if name != format!("{letter}{}", joint + 1) || joint >= self.head.joints {
             return self.refuse(&format!("`{letter}{}` expected for `{name}`", joint + 1));
@@ -475,6 +479,9 @@ impl<'r> Reader<'r> {
     }
 
     pub(super) fn polynomial_step(&mut self, name: &'r str, joint: usize) -> Read<()> {
+        if self.lane.is_some() {
+            return self.refuse("polynomials stand before lanes");
+        }
         if name == self.polynomial_name(joint, 1) {
             self.begin_polynomial(joint);
         }
