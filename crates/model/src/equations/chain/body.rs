@@ -102,13 +102,14 @@ impl<S: Scalar> Body<S> {
 
     /// Returns it in other axes: r → R r.
     pub fn turned(&self, rotation: &Rotation<S>) -> Self {
-        let columns = self.second.rows();
-        let row = |own: &Vector<S>| columns.each_ref().map(|column| dot(own, column));
-        let half = rotation.each_ref().map(row);
+        let second = match rotation.iter().flatten().any(S::is_zero) {
+            true => turned_by_rows(&self.second, rotation),
+            false => turned_by_products(&self.second, rotation),
+        };
         Body {
             mass: self.mass.clone(),
             first: apply(rotation, &self.first),
-            second: Inertia::symmetric(|i, j| dot(&half[i], &rotation[j])),
+            second,
         }
     }
 
@@ -163,6 +164,38 @@ impl<S: Scalar> Body<S> {
             second: self.second.clone(),
         }
     }
+}
+
+/// Returns R Σ Rᵀ.
+fn turned_by_rows<S: Scalar>(tensor: &Inertia<S>, rotation: &Rotation<S>) -> Inertia<S> {
+    let columns = tensor.rows();
+    let row = |own: &Vector<S>| columns.each_ref().map(|column| dot(own, column));
+    let half = rotation.each_ref().map(row);
+    Inertia::symmetric(|i, j| dot(&half[i], &rotation[j]))
+}
+
+/// Returns R Σ Rᵀ by products of R's entries, which are constants where R is: of Σ − Σzz·1, which has
+/// five entries, and whose trace says the last one.
+fn turned_by_products<S: Scalar>(tensor: &Inertia<S>, rotation: &Rotation<S>) -> Inertia<S> {
+    let zz = &tensor.zz;
+    let across = [minus(&tensor.xx, zz), minus(&tensor.yy, zz)];
+    let mixed = [(0, 1), (0, 2), (1, 2)];
+    let part = |p: usize, q: usize| {
+        let (p, q) = (&rotation[p], &rotation[q]);
+        let [x, y] = [0, 1].map(|a| times(&times(&p[a], &q[a]), &across[a]));
+        mixed.iter().fold(plus(&x, &y), |all, &(a, b)| {
+            let both = plus(&times(&p[a], &q[b]), &times(&p[b], &q[a]));
+            plus(&all, &times(&both, entry(tensor, a, b)))
+        })
+    };
+    let [x, y] = [part(0, 0), part(1, 1)];
+    let trace = plus(&across[0], &across[1]);
+    let last = minus(&minus(&trace, &x), &y);
+    let diagonal = [x, y, last].map(|own| plus(&own, zz));
+    Inertia::symmetric(|i, j| match i == j {
+        true => diagonal[i].clone(),
+        false => part(i, j),
+    })
 }
 
 /// Returns the entry (i, j) of a symmetric tensor.
