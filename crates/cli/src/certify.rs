@@ -113,7 +113,7 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     report.line(match found.lines.iter().any(|line| results(line) > 0) {
         false => {
             "shown: apart from rounding, the code gives the robot's results at every state of the box.\n\
-             rounding: the largest error, as a part of the largest value of that result, and in u (--help)."
+             rounding: the largest error, as a part of the largest value of that result, and in u: 2^-53 in f64, 2^-24 in f32."
         }
         true => {
             "shown: at every state of the box each result is within E of the robot's, relative to T."
