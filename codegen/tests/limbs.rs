@@ -1,6 +1,8 @@
 //! Limbs as lanes of loops: the same results, bit for bit, as the operations of each limb by itself;
 //! and no limb in another's place.
 
+use std::fs;
+
 use dalembert_codegen::workspace::{Names, keep};
 use dalembert_codegen::{Generated, Language, LimbLayout, Plan, ScalarType, generate};
 
@@ -9,7 +11,7 @@ use serde_json::{Value, json};
 use crate::c99::{compiles_without_a_warning, with_main};
 use crate::certified::Certified;
 use crate::support::compiled::{run, same_bits, there};
-use crate::support::{Case, changes, source};
+use crate::support::{Case, changes, path, source};
 
 /// Limbs on a base that floats or not: no two of them have all numbers alike.
 fn robot(trunk: &str, limbs: usize) -> String {
@@ -110,6 +112,18 @@ fn legs_are_lanes() {
     let file = Certified::of(&robot, None, &fused).remove(0);
     assert!(file.text.contains("        const double t") && file.text.contains("= fma(u1[0][l]"));
     file.is_shown(OUTPUTS.len(), "fma");
+}
+
+/// A long loop is cut into blocks, the last of which hands nothing on.
+#[test]
+fn long_lanes_are_cut() {
+    let robot = fs::read_to_string(path("../gallery/robots/go2.toml")).unwrap();
+    let asked = "outputs: inverse_dynamics_derivatives; scalar: f64; language: rust";
+    let file = Certified::of(&robot, None, asked).remove(0);
+    let (_, lanes) = file.text.split_once("for l in 0..4 {").unwrap();
+    let (lanes, _) = lanes.split_once("\n    }\n").unwrap();
+    assert!(lanes.contains("        let (t"), "{lanes}");
+    file.is_shown(1, "long lanes");
 }
 
 /// A limb in another's place is refused: its inputs, its numbers, its results; so is a loop that is not

@@ -126,13 +126,16 @@ struct Blocks<'a> {
 }
 
 impl Blocks<'_> {
+    fn flat(&self, ids: &[Id], indent: &str) -> String {
+        let lines = ids.iter().flat_map(|&id| (self.lines)(id));
+        lines.map(|line| format!("{indent}{line}\n")).collect()
+    }
+
     /// `end` is the first operation behind them.
     fn write(&self, text: &mut String, ids: &[Id], end: Id) {
         let indent = self.indent;
         if !self.is_cut {
-            for line in ids.iter().flat_map(|&id| (self.lines)(id)) {
-                *text += &format!("{indent}{line}\n");
-            }
+            *text += &self.flat(ids, indent);
             return;
         }
         let mut rest = ids;
@@ -149,11 +152,14 @@ impl Blocks<'_> {
                 .iter()
                 .filter(|&&id| self.last_use[id as usize] >= end);
             let live: String = live.map(|&id| format!("{}, ", (self.name)(id))).collect();
-            *text += &format!("{indent}let ({}) = {{\n", live.trim_end());
-            for line in block.iter().flat_map(|&id| (self.lines)(id)) {
-                *text += &format!("{indent}    {line}\n");
+            if live.is_empty() {
+                // The last one of a loop, whose values are all stored.
+                *text += &self.flat(block, indent);
+                continue;
             }
-            *text += &format!("{indent}    ({})\n{indent}}};\n", live.trim_end());
+            let (names, inner) = (live.trim_end(), format!("{indent}    "));
+            let lines = self.flat(block, &inner);
+            *text += &format!("{indent}let ({names}) = {{\n{lines}{inner}({names})\n{indent}}};\n");
         }
     }
 }
