@@ -551,9 +551,14 @@ def test_an_import_is_light():
     assert run(code).strip() == "[]"
 
 
+# What a shell starts in the background ignores interrupts, and so does all that it starts.
+LISTENS = "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+
+
 def test_an_interrupt_ends_a_short_search_at_once():
     code = (
         "import dalembert, signal, threading, os, time\n"
+        f"{LISTENS}"
         "threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()\n"
         "try:\n"
         f"    dalembert.load({str(robot('puma560'))!r}, outputs='full_regressor', cache=False)\n"
@@ -571,6 +576,7 @@ def test_the_first_interrupt_of_a_long_search_keeps_the_best(tmp_path, progress)
     shutil.copy(robot("puma560"), tmp_path / "arm.toml")
     code = (
         "import dalembert, io, signal, threading, os, sys\n"
+        f"{LISTENS}"
         "threading.Timer(1.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()\n"
         "sys.stderr = io.StringIO()\n"
         f"arm = dalembert.load({str(tmp_path / 'arm.toml')!r}, outputs='inverse_dynamics', "
