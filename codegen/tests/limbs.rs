@@ -223,12 +223,13 @@ fn compilers_make_vectors_of_lanes() {
     ] {
         let asked = format!("outputs: {output}; scalar: f64; sincos: together; language: c");
         let case = Case::read(&quadruped(), &asked);
-        let text = case.generated().text();
+        let generated = case.generated();
+        let text = generated.text();
         compiles_without_a_warning("lanes", &text);
         let called = Names::new("limbs", Language::C, ScalarType::F64).of(output);
         let call = call.replace("CALL", &format!("{called}({arguments})"));
         let folder = with_main("lanes", &text, &call);
-        let rows = case.generated().functions[0].program.loops[0].rows;
+        let rows = generated.functions[0].program.loops[0].rows;
         for compiler in there(&["gcc", "clang"]) {
             let flags = "-O2 -mavx2 -std=c99 -Werror -S -o - arm.c".split(' ');
             let assembly = run(compiler, flags, &folder);

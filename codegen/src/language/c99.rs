@@ -222,17 +222,19 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
 /// each alone, which took a quarter of the time of a quadruped's slopes.
 fn stores(array: &str, values: &[String], is_four: bool, names: &Names) -> Vec<String> {
     let (four, float) = (names.constant("FOUR"), float(names.dialect().scalar));
-    let entries: Vec<(usize, &String)> = values.iter().enumerate().collect();
-    let alone = |(index, value): &(usize, &String)| format!("{array}[{index}] = {value};");
-    let store = |chunk: &[(usize, &String)]| match chunk {
-        [(first, a), (_, b), (_, c), (_, d)] if is_four => {
+    let store = |(first, chunk): (usize, &[String])| match chunk {
+        [a, b, c, d] if is_four => {
             vec![format!(
                 "{four}({float}, &{array}[{first}], {a}, {b}, {c}, {d});"
             )]
         }
-        _ => chunk.iter().map(alone).collect(),
+        _ => (first..)
+            .zip(chunk)
+            .map(|(index, value)| format!("{array}[{index}] = {value};"))
+            .collect(),
     };
-    entries.chunks(4).flat_map(store).collect()
+    let firsts = (0..).step_by(4);
+    firsts.zip(values.chunks(4)).flat_map(store).collect()
 }
 
 /// `true` where a header has the macros by which compilers make vectors of lanes.

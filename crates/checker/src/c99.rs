@@ -51,7 +51,7 @@ const LOOPS: &str = "
 #else
 #define ARM_SIMD
 #endif";
-/// Of functions with lanes.
+/// The macros of functions with lanes.
 const LANES: &str = "#if defined(__clang__)
 #define ARM_FORGET(array) __asm__(\"\" : \"+m\"(array))
 #else

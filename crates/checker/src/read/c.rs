@@ -142,10 +142,7 @@ impl<'r> Reader<'r> {
             } else if self.takes_store()? {
                 continue;
             } else if self.peek(0) == float && self.peek(1).starts_with('u') {
-                let [name, rows, lanes] = [1, 3, 6].map(|place| self.peek(place));
-                self.expect_all(&format!("{float} {name}[{rows}][{lanes}] = {{"))?;
-                self.rows(name, ["{", "}"], Some([rows, lanes]))?;
-                self.expect(";")?;
+                self.c_array()?;
             } else if self.peek(0) == float && self.peek(1).starts_with('w') {
                 let [name, rows, lanes] = [1, 3, 6].map(|place| self.peek(place));
                 self.expect_all(&format!("{float} {name}[{rows}][{lanes}];"))?;
@@ -184,18 +181,13 @@ impl<'r> Reader<'r> {
                 pair = Some(joint);
             } else if self.take_all("static const")? {
                 // Once for all calls: numbers alone.
-                self.expect(float)?;
-                let name = self.next();
-                let [rows, lanes] = [self.peek(1), self.peek(4)];
-                self.expect_all(&format!("[{rows}][{lanes}] = {{"))?;
-                self.rows(name, ["{", "}"], Some([rows, lanes]))?;
+                let name = self.c_array()?;
                 let mut values = self.arrays[name].iter().flatten().flatten();
                 if !name.starts_with('k')
                     || values.any(|own| !matches!(own.1, Operand::Constant(_)))
                 {
                     return self.refuse("an array of numbers expected");
                 }
-                self.expect(";")?;
             } else if self.take("const") {
                 self.expect(float)?;
                 let name = self.next();
@@ -210,6 +202,15 @@ impl<'r> Reader<'r> {
                 return Ok(());
             }
         }
+    }
+
+    /// Takes an array of a value a lane, `double u1[1][2] = {…};`, and returns its name.
+    fn c_array(&mut self) -> Read<&'r str> {
+        let [name, rows, lanes] = [1, 3, 6].map(|place| self.peek(place));
+        let float = self.head.float();
+        self.expect_all(&format!("{float} {name}[{rows}][{lanes}] = {{"))?;
+        self.rows(name, ["{", "}"], Some([rows, lanes]))?;
+        self.expect(";").map(|()| name)
     }
 
     /// Takes the angles of one call: `angles[2] = {q[0], q[2]}`.
