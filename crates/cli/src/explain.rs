@@ -12,6 +12,8 @@ use dalembert_model::robot::Robot;
 
 use crate::args::Options;
 use crate::couplings::{Coupling, Value, couplings, summary};
+use crate::files::Files;
+use crate::formulas::{self, FormulaArgs};
 use crate::measure::{Bench, Code as Measured, largest};
 use crate::output::{Context, Outcome};
 use crate::progress;
@@ -28,6 +30,8 @@ pub struct ExplainArgs {
     /// List every coefficient: D_ik, h_ikm, c_i, and which vanish or repeat another
     #[arg(long, conflicts_with = "scene")]
     coefficients: bool,
+    #[command(flatten)]
+    formulas: FormulaArgs,
     #[command(flatten)]
     options: Options<false>,
     #[command(flatten)]
@@ -146,6 +150,15 @@ fn formula(
 
 pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
     let mut source = Source::open(context, &args.robot, &args.chain)?;
+    if let Some(quantities) = &args.formulas.formulas {
+        let request = source.request(&args.options.0, &ScalarType::ALL)?;
+        let output = args.formulas.output.as_deref();
+        let mut files = Files::new(context, &[&args.robot]);
+        let is_written = output.is_some() || !context.json;
+        let target = is_written.then(|| files.output(output)).transpose()?;
+        let scene = request.scene.as_ref();
+        return formulas::run(&args.formulas, quantities, &source.robot, scene, target);
+    }
     source.outputs = vec![Function::InverseDynamics];
     let mut request = source.request(&args.options.0, &ScalarType::ALL)?;
     let session = progress::watch(&mut request);

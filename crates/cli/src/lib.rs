@@ -25,6 +25,7 @@ pub mod drawing;
 pub mod explain;
 pub mod extremes;
 mod files;
+mod formulas;
 mod generate;
 pub mod given;
 mod import;

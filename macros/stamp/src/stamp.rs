@@ -29,6 +29,8 @@ pub enum Comment {
     Toml,
     /// A comment of XML: `<!--` and `-->`.
     Xml,
+    /// A line of LaTeX: `%`.
+    Tex,
 }
 
 impl Comment {
@@ -38,6 +40,7 @@ impl Comment {
             Comment::Block => ["/* ", " * ", " */"],
             Comment::Toml => ["# ", "# ", ""],
             Comment::Xml => ["<!-- ", " ", " -->"],
+            Comment::Tex => ["% ", "% ", ""],
         }
     }
 }
@@ -368,7 +371,13 @@ mod tests {
 
     #[test]
     fn an_edit_breaks_the_seal() {
-        for comment in [Comment::Line, Comment::Block, Comment::Toml, Comment::Xml] {
+        for comment in [
+            Comment::Line,
+            Comment::Block,
+            Comment::Toml,
+            Comment::Xml,
+            Comment::Tex,
+        ] {
             let sealed = sealed(comment, "test", ROBOT);
             assert_eq!(is_as_written(&sealed), Some(true), "{sealed}");
             assert_eq!(is_as_written(&sealed.replace('\n', "\r\n")), Some(true));

@@ -235,6 +235,12 @@ impl<'a, S: Scalar> Composite<'a, S> {
         }
     }
 
+    /// Returns the turn and the shift of the origin of frame m, in its axes, by a unit of joint i ≤ m.
+    pub fn motion(&self, i: usize, m: usize) -> [Vector<S>; 2] {
+        let Twist { turn, shift } = self.twist(i, m);
+        [turn, shift]
+    }
+
     /// Returns the unit twist of joint i seen from frame m ≥ i.
     pub(super) fn twist(&self, i: usize, m: usize) -> Twist<S> {
         match i == m {

@@ -219,8 +219,8 @@ impl<S: Clone> Chain<S> {
 }
 
 impl<S: Scalar> ChainLink<S> {
-    /// Components from frame i−1 into frame i.
-    fn inward(&self, at: &Displacement<S>, v: &Vector<S>) -> Vector<S> {
+    /// Returns components in frame i, from those in frame i−1.
+    pub fn inward(&self, at: &Displacement<S>, v: &Vector<S>) -> Vector<S> {
         match at {
             Displacement::Turn(theta) => {
                 theta.turn_back_in(ABOUT_Z, apply_transposed(&self.rotation, v))

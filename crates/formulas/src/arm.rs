@@ -1,0 +1,270 @@
+//! A robot whose motion, and on request whose lengths, masses and inertias, are symbols.
+
+use dalembert_codegen::workspace::Setup;
+use dalembert_model::equations::chain::{Chain, Displacement, Regrouping, Skeleton};
+use dalembert_model::equations::following::Following;
+use dalembert_model::equations::{Arm, JointPosition};
+use dalembert_model::number::{Angle, Rational, Wide};
+use dalembert_model::robot::{Joint, JointKind, Robot};
+use dalembert_model::scalar::{Scalar, SinCosPair};
+
+use crate::error::FormulaError;
+use crate::naming::Naming;
+use crate::number::{Constants, Number};
+use crate::ring::{MAX_JOINTS, MAX_POWER, Polynomial, Symbols};
+use crate::symbol::Definition;
+
+/// The variable of a joint: θ_i of one that turns, d_i of one that slides.
+#[derive(Clone, Debug)]
+pub struct Variable {
+    /// The joint, counted from zero.
+    pub joint: usize,
+    /// Turns or slides.
+    pub kind: JointKind,
+    /// The constant that is added to q_i.
+    pub offset: Offset,
+}
+
+/// The constant part of a joint's variable.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Offset {
+    /// The variable is q_i.
+    None,
+    /// θ_i = q_i + this.
+    Angle(Angle),
+    /// d_i = q_i + this, m.
+    Length(Rational),
+}
+
+/// The numbers of the robot file that are symbols.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Symbolic {
+    /// None of them.
+    Nothing,
+    /// Lengths, gravity, masses, centres of mass, inertias.
+    Everything,
+}
+
+/// An arm over polynomials.
+#[derive(Clone, Debug)]
+pub struct SymbolicArm {
+    /// The parameters, with the offsets of the joints moved into their variables.
+    pub arm: Arm<Polynomial>,
+    /// The joints that move, in the order of results.
+    pub variables: Vec<Variable>,
+    /// Where each row is.
+    pub position: Vec<JointPosition<Polynomial>>,
+    /// The joints that stay where a lock says and are merged into the link before.
+    pub locks: Vec<Option<JointPosition<Polynomial>>>,
+    /// The symbols of lengths and of gravity.
+    pub lengths: Vec<Definition<Number>>,
+    /// The symbols of masses and inertias.
+    pub parameters: Vec<Definition<Number>>,
+    /// True if centres of mass are numbers, since there were too many symbols.
+    pub has_numeric_centres: bool,
+}
+
+impl SymbolicArm {
+    /// Reads a robot in its scene.
+    ///
+    /// # Errors
+    /// Its base floats, or it has more joints than monomials hold.
+    pub fn new(setup: &Setup, symbolic: Symbolic) -> Result<SymbolicArm, FormulaError> {
+        let robot = setup.robot();
+        check(robot)?;
+        let mut constants = Constants::new();
+        let mut arm = setup.arm(|x| Polynomial::constant(constants.number(x)));
+        let following = setup.following(|x| Polynomial::constant(constants.number(x)));
+        let locks = setup.merged().into_iter();
+        let locks = locks.map(|lock| lock.map(|at| fixed(&at, &mut constants)));
+        let locks: Vec<_> = locks.collect();
+        let mut position: Vec<Option<JointPosition<Polynomial>>> = vec![None; arm.links.len()];
+        let mut variables = Vec::new();
+        for (joint, row) in (0..robot.joints.len()).map(|joint| (joint, robot.row_of(joint))) {
+            if let Some(lock) = setup.lock(joint) {
+                position[row] = Some(fixed(lock, &mut constants));
+                continue;
+            }
+            let is_followed = following.iter().any(|own| own.leader == row);
+            let offset = match is_followed {
+                true => Offset::None,
+                false => take_offset(&mut arm, row, &robot.joints[joint]),
+            };
+            let kind = robot.joints[joint].kind;
+            variables.push(Variable {
+                joint,
+                kind,
+                offset,
+            });
+            position[row] = Some(match kind {
+                JointKind::Revolute => JointPosition::Revolute(Polynomial::turn(joint)),
+                JointKind::Prismatic => JointPosition::Prismatic(Polynomial::slide(joint)),
+            });
+        }
+        for own in &following {
+            let leader = position[own.leader].as_ref();
+            position[own.row] = leader.map(|leader| leader.followed_by(own));
+        }
+        if !constants.fits {
+            return Err(FormulaError::Unfit);
+        }
+        let mut symbolic_arm = SymbolicArm {
+            arm,
+            variables,
+            position: position.into_iter().flatten().collect(),
+            locks,
+            lengths: Vec::new(),
+            parameters: Vec::new(),
+            has_numeric_centres: false,
+        };
+        if symbolic == Symbolic::Everything {
+            let naming = Naming::new(&mut symbolic_arm.arm)?;
+            symbolic_arm.has_numeric_centres = naming.has_numeric_centres;
+            symbolic_arm.lengths = naming.lengths;
+            symbolic_arm.parameters = naming.parameters;
+        }
+        Ok(symbolic_arm)
+    }
+
+    /// Returns the chain of a regrouping, and where its joints are.
+    pub fn chain(&self, arm: &Arm<Polynomial>) -> SymbolicChain {
+        let skeleton = Skeleton::new(arm, &self.locks);
+        let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
+        let rows: Vec<usize> = skeleton.links.iter().map(|link| link.joint).collect();
+        let at = rows
+            .iter()
+            .zip(&chain.links)
+            .map(|(&row, link)| match &self.position[row] {
+                JointPosition::Revolute(pair) => Displacement::Turn(pair.compose(&link.theta)),
+                JointPosition::Prismatic(q) => Displacement::Slide(q.clone()),
+            });
+        SymbolicChain {
+            at: at.collect(),
+            whole: unmoved(&skeleton),
+            chain,
+            rows,
+        }
+    }
+
+    /// Returns the joints that follow others.
+    pub fn following(&self) -> &[Following<Polynomial>] {
+        &self.arm.following
+    }
+
+    /// Returns the value of a polynomial without motion, whose parameters are the file's.
+    pub fn evaluate(&self, polynomial: &Polynomial) -> Number {
+        let values = self.parameters.iter().map(|own| own.value);
+        self.evaluate_with(polynomial, &values.collect::<Vec<_>>())
+    }
+
+    /// Returns the value of a polynomial without motion, whose parameters have these values.
+    pub fn evaluate_with(&self, polynomial: &Polynomial, parameters: &[Number]) -> Number {
+        let terms = polynomial.terms().iter();
+        terms.fold(Number::zero(), |sum, (monomial, x)| {
+            let value = self.value_of(monomial.symbols, parameters);
+            sum.add(&value.mul(x))
+        })
+    }
+
+    /// Returns the value of a product of symbols, whose parameters have these values.
+    pub fn value_of(&self, symbols: Symbols, parameters: &[Number]) -> Number {
+        let parameter = symbols.parameter_index().map(|index| parameters[index]);
+        let start = parameter.unwrap_or_else(Number::one);
+        symbols.lengths().fold(start, |product, (index, power)| {
+            let value = &self.lengths[index].value;
+            (0..power).fold(product, |product, _| product.mul(value))
+        })
+    }
+}
+
+/// A chain of a symbolic arm.
+#[derive(Clone, Debug)]
+pub struct SymbolicChain {
+    /// In base parameters.
+    pub chain: Chain<Polynomial>,
+    /// The same frames, every body as its link has it.
+    pub whole: Chain<Polynomial>,
+    /// Where the joints are.
+    pub at: Vec<Displacement<Polynomial>>,
+    /// The row of each link.
+    pub rows: Vec<usize>,
+}
+
+/// Returns the chain with the frames of base parameters and all of each body on its link.
+fn unmoved(skeleton: &Skeleton<Polynomial>) -> Chain<Polynomial> {
+    let mut empty = skeleton.clone();
+    for segment in &mut empty.links {
+        segment.link.body = segment.link.body.map(|_| Polynomial::zero());
+    }
+    let mut chain = Chain::new(&empty, &Regrouping::base(skeleton));
+    for (link, segment) in chain.links.iter_mut().zip(&skeleton.links) {
+        let origin = match segment.link.kind {
+            JointKind::Revolute => [Polynomial::zero(), Polynomial::zero(), segment.d.neg()],
+            JointKind::Prismatic => [Polynomial::zero(), Polynomial::zero(), Polynomial::zero()],
+        };
+        link.body = segment.link.body.moved(&origin);
+    }
+    chain
+}
+
+fn check(robot: &Robot) -> Result<(), FormulaError> {
+    if robot.floating.is_some() {
+        return Err(FormulaError::Floating);
+    }
+    let joints = robot.joints.len();
+    if joints > MAX_JOINTS {
+        return Err(FormulaError::ManyJoints(joints));
+    }
+    for joint in 0..joints {
+        let followers = robot.followers.iter().filter(|own| own.leader == joint);
+        let turns: u32 = followers.map(|own| own.turns().unsigned_abs()).sum();
+        if 2 * (1 + turns as usize) > MAX_POWER {
+            return Err(FormulaError::FarFollower(joint));
+        }
+    }
+    Ok(())
+}
+
+fn fixed(
+    at: &JointPosition<dalembert_model::number::Exact>,
+    constants: &mut Constants,
+) -> JointPosition<Polynomial> {
+    match at {
+        JointPosition::Revolute(pair) => {
+            JointPosition::Revolute(pair.map(|x| Polynomial::constant(constants.number(x))))
+        }
+        JointPosition::Prismatic(q) => {
+            JointPosition::Prismatic(Polynomial::constant(constants.number(q)))
+        }
+    }
+}
+
+/// Moves the constant part of a joint's θ or d into its variable. Of a joint that is placed, a turn
+/// by right angles stays: it makes no terms, and the variable is q_i.
+fn take_offset(arm: &mut Arm<Polynomial>, row: usize, joint: &Joint) -> Offset {
+    let link = &mut arm.links[row];
+    if joint.kind == JointKind::Prismatic {
+        if link.place.is_some() || link.d.is_zero() {
+            return Offset::None;
+        }
+        link.d = Polynomial::zero();
+        return Offset::Length(joint.d.clone());
+    }
+    let [sin, cos] = [&link.theta.sin, &link.theta.cos];
+    if sin.is_zero() && cos.is_one() {
+        return Offset::None;
+    }
+    let angle = match link.place {
+        None => joint.theta.clone(),
+        Some(_) if sin.is_zero() || cos.is_zero() => return Offset::None,
+        Some(_) => {
+            let wide = |x: &Polynomial| {
+                let value = x.to_constant().map(Number::to_rational);
+                value.map_or_else(Wide::zero, |x| Wide::from_rational(&x))
+            };
+            Angle::recovered(&wide(sin), &wide(cos))
+        }
+    };
+    link.theta = SinCosPair::straight();
+    Offset::Angle(angle)
+}

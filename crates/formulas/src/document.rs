@@ -1,0 +1,158 @@
+//! Whole documents: variables, formulas and legend, a file a format.
+
+mod latex;
+mod sympy;
+mod text;
+
+use dalembert_codegen::workspace::Word;
+use dalembert_model::number::parse::write_decimal;
+use dalembert_model::number::{Angle, Rational};
+use dalembert_model::robot::JointKind;
+
+use crate::arm::{Offset, Variable};
+use crate::formulas::Formulas;
+use crate::legend::Entry;
+use crate::line::Section;
+use crate::write::{Digits, Format, Latex, Text};
+
+/// The format of a document.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Layout {
+    /// Plain text with letters of Unicode.
+    #[default]
+    Text,
+    /// Markdown: tables of plain text, which read everywhere.
+    Markdown,
+    /// A LaTeX document.
+    Latex,
+    /// A Python module for SymPy.
+    Sympy,
+}
+
+impl Word for Layout {
+    const WHAT: &'static str = "format of formulas";
+
+    fn all() -> Vec<(&'static str, Layout)> {
+        vec![
+            ("text", Layout::Text),
+            ("markdown", Layout::Markdown),
+            ("latex", Layout::Latex),
+            ("sympy", Layout::Sympy),
+        ]
+    }
+}
+
+const BASE_PARAMETERS: &str = "Base parameters: moments of link i about a point of its axis, z along the axis, x as of \
+                               the link. What torques cannot tell from the link before has moved there (mass, MZ, \
+                               YY), so that XX is Ixx − Iyy";
+const CONSTANTS: &str = "Constants";
+const SMALL: &str = "in parentheses at the end of a line: terms below 1/1000 of its largest";
+
+impl Formulas {
+    /// Writes a document.
+    pub fn write(&self, layout: Layout, digits: Digits) -> String {
+        let joins = self.joints < 10;
+        match layout {
+            Layout::Text => self.text(&Text { digits, joins }),
+            Layout::Markdown => self.markdown(&Text { digits, joins }),
+            Layout::Latex => self.latex(&Latex { digits, joins }),
+            Layout::Sympy => self.sympy(),
+        }
+    }
+
+    /// Lists the entries by their identifiers, those that are zero too, as plain text.
+    pub fn entries(&self, digits: Digits) -> Vec<(String, String)> {
+        let format = Text {
+            digits,
+            joins: self.joints < 10,
+        };
+        let mut entries = Vec::new();
+        for section in &self.sections {
+            for line in &section.lines {
+                entries.push((line.name.code.clone(), format.sum(&line.sum)));
+                for (is_negative, other) in &line.others {
+                    let sign = if *is_negative { Text::MINUS } else { "" };
+                    entries.push((other.code.clone(), format!("{sign}{}", line.name.text)));
+                }
+            }
+            let zeros = section.zeros.iter();
+            entries.extend(zeros.map(|own| (own.code.clone(), "0".to_owned())));
+        }
+        entries
+    }
+
+    /// Lists the variables that are not q_i, as `θ3 = q3 + pi/2`.
+    fn offsets(&self, turn: &str, angle: impl Fn(&Angle) -> String) -> Vec<String> {
+        let line = |variable: &Variable| {
+            let number = variable.joint + 1;
+            match &variable.offset {
+                Offset::None => None,
+                Offset::Angle(own) => Some(format!("{turn}{number} = q{number}{}", angle(own))),
+                Offset::Length(own) => Some(format!("d{number} = q{number}{}", plus(own))),
+            }
+        };
+        self.variables.iter().filter_map(line).collect()
+    }
+
+    /// The name of an angle: θ where one is not q.
+    fn angle(&self) -> &'static str {
+        let is_moved = |own: &Variable| matches!(own.offset, Offset::Angle(_));
+        if self.variables.iter().any(is_moved) {
+            "θ"
+        } else {
+            "q"
+        }
+    }
+
+    /// True if a line has terms that are set off.
+    fn has_small_terms(&self) -> bool {
+        let lines = self.sections.iter().flat_map(|section| &section.lines);
+        lines.flat_map(|line| &line.sum).any(|term| term.is_small)
+    }
+
+    /// Lists the slides that are q_i.
+    fn plain_slides(&self) -> impl Iterator<Item = usize> {
+        let slides = self
+            .variables
+            .iter()
+            .filter(|own| own.kind == JointKind::Prismatic);
+        let plain = slides.filter(|own| own.offset == Offset::None);
+        plain.map(|own| own.joint + 1)
+    }
+
+    fn has_turns(&self) -> bool {
+        self.variables
+            .iter()
+            .any(|own| own.kind == JointKind::Revolute)
+    }
+}
+
+fn zeros(section: &Section, format: &impl Format) -> Option<String> {
+    let names: Vec<String> = section
+        .zeros
+        .iter()
+        .map(|symbol| format.symbol(symbol))
+        .collect();
+    (!names.is_empty()).then(|| names.join(", "))
+}
+
+fn value<F: Format>(entry: &Entry, format: &F) -> String {
+    let sign = if entry.value.is_negative() {
+        F::MINUS
+    } else {
+        ""
+    };
+    format!("{sign}{}", format.number(&entry.value.abs()))
+}
+
+/// Writes ` + ` or ` - ` before a number's size.
+fn signed(text: &str) -> String {
+    match text.strip_prefix('-') {
+        Some(size) => format!(" - {size}"),
+        None => format!(" + {text}"),
+    }
+}
+
+fn plus(length: &Rational) -> String {
+    signed(&write_decimal(length).unwrap_or_else(|| length.to_string()))
+}

@@ -1,0 +1,101 @@
+//! A module for SymPy: symbols, then every entry, then nested lists of them.
+
+use dalembert_model::number::parse::write_decimal;
+use dalembert_model::number::{Angle, Rational};
+use dalembert_model::robot::JointKind;
+
+use super::value;
+use crate::arm::Offset;
+use crate::formulas::Formulas;
+use crate::line::List;
+use crate::write::{Format, Python};
+
+impl Formulas {
+    pub(super) fn sympy(&self) -> String {
+        let format = Python;
+        let mut text = format!(
+            "# Closed forms of {}, for SymPy.\nfrom sympy import Rational as R, atan, cos, pi, sin, symbols\n\n",
+            self.robot
+        );
+        for letter in ["q", "dq", "ddq"] {
+            let names = self
+                .variables
+                .iter()
+                .map(|own| format!("{letter}{}", own.joint + 1));
+            let names: Vec<String> = names.collect();
+            let (left, right) = (names.join(", "), names.join(" "));
+            text += &format!("{left}, = symbols('{right}', real=True, seq=True)\n");
+        }
+        for own in &self.variables {
+            let number = own.joint + 1;
+            let letter = if own.kind == JointKind::Revolute {
+                "t"
+            } else {
+                "d"
+            };
+            let offset = match &own.offset {
+                Offset::None => String::new(),
+                Offset::Angle(angle) => format!(" + {}", python_angle(angle)),
+                Offset::Length(length) => format!(" + {}", python_number(length)),
+            };
+            text += &format!("{letter}{number} = q{number}{offset}\n");
+        }
+        let legend = &self.legend;
+        let of_file = legend.groups.iter().flat_map(|group| &group.entries);
+        for entry in of_file.chain(&legend.parameters).chain(&legend.constants) {
+            let right = match entry.sum.is_empty() {
+                true => value(entry, &format),
+                false => format.sum(&entry.sum),
+            };
+            text += &format!("{} = {right}\n", entry.symbol.code);
+        }
+        for section in &self.sections {
+            text += &format!("\n# {}\n", section.title);
+            for line in &section.lines {
+                let name = &line.name.code;
+                text += &format!("{name} = {}\n", format.sum(&line.sum));
+                for (is_negative, other) in &line.others {
+                    let sign = if *is_negative { "-" } else { "" };
+                    text += &format!("{} = {sign}{name}\n", other.code);
+                }
+            }
+            for zero in &section.zeros {
+                text += &format!("{} = R(0)\n", zero.code);
+            }
+            if let Some(list) = &section.list {
+                text += &format!("{} = {}\n", list.name, nested(list, 0, 0).0);
+            }
+        }
+        text
+    }
+}
+
+fn python_number(value: &Rational) -> String {
+    match write_decimal(value) {
+        Some(decimal) => format!("R('{decimal}')"),
+        None => format!("R('{value}')"),
+    }
+}
+
+fn python_angle(angle: &Angle) -> String {
+    match angle {
+        Angle::PiTimes(multiple) => format!("{}*pi", python_number(multiple)),
+        Angle::Radians(radians) => python_number(radians),
+        Angle::TwiceAtan(tangent) => format!("2*atan({})", python_number(tangent)),
+    }
+}
+
+/// Writes a nested list from an entry on: returns the text and the next entry.
+fn nested(list: &List, depth: usize, from: usize) -> (String, usize) {
+    let Some(length) = list.lengths.get(depth) else {
+        return (list.entries[from].code.clone(), from + 1);
+    };
+    let mut parts = Vec::new();
+    let mut next = from;
+    for _ in 0..*length {
+        let (part, after) = nested(list, depth + 1, next);
+        parts.push(part);
+        next = after;
+    }
+    (format!("[{}]", parts.join(", ")), next)
+}

@@ -1,0 +1,150 @@
+//! Plain text and Markdown.
+
+use super::{BASE_PARAMETERS, CONSTANTS, SMALL, signed, value, zeros};
+use crate::formulas::Formulas;
+use crate::legend::Entry;
+use crate::write::{Format, Text};
+
+impl Formulas {
+    pub(super) fn text(&self, format: &Text) -> String {
+        let mut text = format!("{}\n", self.robot);
+        for note in self.notes() {
+            text += &format!("  {note}\n");
+        }
+        for section in &self.sections {
+            text += &format!("\n{}\n", section.title);
+            for line in &section.lines {
+                text += &format!("{} = {}\n", format.names(line), format.sum(&line.sum));
+            }
+            if let Some(zeros) = zeros(section, format) {
+                text += &format!("zero: {zeros}\n");
+            }
+        }
+        for (title, entries) in self.sums() {
+            text += &format!("\n{title}\n");
+            for entry in entries {
+                text += &format!("{}\n", defined(entry, format));
+            }
+        }
+        if !self.legend.groups.is_empty() {
+            text += &format!("\n{}\n", self.legend.title_of_groups());
+            for group in &self.legend.groups {
+                let entries = group.entries.iter().map(|entry| defined(entry, format));
+                let entries: Vec<String> = entries.collect();
+                text += &format!("{}: {}\n", group.label, entries.join(", "));
+            }
+        }
+        text
+    }
+
+    pub(super) fn markdown(&self, format: &Text) -> String {
+        let mut text = format!("# {}\n\n", self.robot.replace('_', "\\_"));
+        for note in self.notes() {
+            text += &format!("- {note}\n");
+        }
+        text + &self.tables(format, 2)
+    }
+
+    /// Writes formulas and legend as tables of Markdown, below headings of a level.
+    pub(crate) fn tables(&self, format: &Text, level: usize) -> String {
+        let head = "#".repeat(level);
+        let mut text = String::new();
+        let mut table = |title: &str, columns: [&str; 2], rows: Vec<[String; 2]>| {
+            // Words in a heading that look like mathematics stay as they are.
+            let title = title.replace('_', "\\_").replace('^', "\\^");
+            let (title, below) = match title.split_once(": ") {
+                Some((title, below)) if below.len() > 60 => {
+                    (title.to_owned(), format!("{below}.\n\n"))
+                }
+                _ => (title, String::new()),
+            };
+            let [left, right] = columns;
+            text += &format!("\n{head} {title}\n\n{below}| {left} | {right} |\n|---|---|\n");
+            for [left, right] in rows {
+                text += &format!("| {} | {right} |\n", left.replace('_', "\\_"));
+            }
+        };
+        for section in &self.sections {
+            let lines = section.lines.iter();
+            let mut rows: Vec<[String; 2]> = lines
+                .map(|line| [format.names(line), format.sum(&line.sum)])
+                .collect();
+            if let Some(zeros) = zeros(section, format) {
+                rows.push([zeros, "0".to_owned()]);
+            }
+            table(&section.title, ["entry", "is"], rows);
+        }
+        for (title, entries) in self.sums() {
+            let rows = entries.iter().map(|entry| {
+                let right = format!("{} = {}", format.sum(&entry.sum), value(entry, format));
+                [format.symbol(&entry.symbol), right]
+            });
+            table(title, ["symbol", "is"], rows.collect());
+        }
+        if !self.legend.groups.is_empty() {
+            let rows = self.legend.groups.iter().map(|group| {
+                let entries = group.entries.iter().map(|entry| defined(entry, format));
+                let entries: Vec<String> = entries.collect();
+                [group.label.clone(), entries.join(", ")]
+            });
+            table(
+                self.legend.title_of_groups(),
+                ["of", "entries"],
+                rows.collect(),
+            );
+        }
+        text
+    }
+
+    /// Lists what a reader has to know before the first line.
+    pub(crate) fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if self.has_turns() {
+            let angle = self.angle();
+            let sum = if self.joints < 10 { "12" } else { "(1+2)" };
+            notes.push(format!(
+                "S1 = sin {angle}1, C{sum} = cos({angle}1 + {angle}2)"
+            ));
+            let offsets = self.offsets("θ", |own| signed(&own.to_string().replace("pi", "π")));
+            if !offsets.is_empty() {
+                notes.push(offsets.join(", "));
+            }
+        }
+        let slides: Vec<String> = self
+            .plain_slides()
+            .map(|own| format!("d{own} = q{own}"))
+            .collect();
+        if !slides.is_empty() {
+            notes.push(slides.join(", "));
+        }
+        if self.has_small_terms() {
+            notes.push(SMALL.to_owned());
+        }
+        if self.legend.has_numeric_centres {
+            notes.push(
+                "centres of mass are numbers: there are too many of them for symbols".to_owned(),
+            );
+        }
+        notes
+    }
+
+    fn sums(&self) -> Vec<(&'static str, &[Entry])> {
+        let legend = &self.legend;
+        let all = [
+            (CONSTANTS, legend.constants.as_slice()),
+            (BASE_PARAMETERS, legend.parameters.as_slice()),
+        ];
+        all.into_iter()
+            .filter(|(_, entries)| !entries.is_empty())
+            .collect()
+    }
+}
+
+/// Writes a symbol, its sum and its value.
+fn defined(entry: &Entry, format: &Text) -> String {
+    let (symbol, value) = (format.symbol(&entry.symbol), value(entry, format));
+    match entry.sum.is_empty() {
+        true => format!("{symbol} = {value}"),
+        false => format!("{symbol} = {} = {value}", format.sum(&entry.sum)),
+    }
+}

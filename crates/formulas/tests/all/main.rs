@@ -1,0 +1,9 @@
+//! One program of all test files.
+
+#[path = "../../../../codegen/tests/support/draw.rs"]
+#[allow(dead_code)]
+mod draw;
+mod latex;
+mod python;
+mod sizes;
+mod values;

@@ -1,0 +1,235 @@
+//! What the printed SymPy text gives is what the runtime gives: D, h_ikm, c_i and everything else.
+
+use std::collections::HashMap;
+use std::fs;
+
+use dalembert_codegen::workspace::{Random, Word};
+use dalembert_formulas::{Digits, Formulas, Layout, Quantity, Request, Style};
+use dalembert_model::number::Rounded;
+use dalembert_model::outputs::{Argument, Quantity as Output};
+use dalembert_model::read::parse;
+use dalembert_model::reference::{JointVectors, Reference};
+use dalembert_model::robot::{Position, Robot, write};
+use dalembert_model::scene::Scene;
+use nalgebra::DVector;
+
+use crate::draw::{Draw, robots};
+use crate::python::{Module, Values};
+
+const STATES: usize = 50;
+const STYLES: [Style; 3] = [Style::Numbers, Style::Names, Style::Constants];
+
+pub fn read(path: &str) -> (Robot, Vec<Scene>) {
+    let path = format!("{}/../../{path}", env!("CARGO_MANIFEST_DIR"));
+    let reading = parse(&fs::read_to_string(&path).unwrap()).unwrap();
+    (reading.robot, reading.scenes)
+}
+
+fn module(robot: &Robot, scene: Option<&Scene>, style: Style, quantities: &[Quantity]) -> Module {
+    let quantities = quantities.to_vec();
+    let formulas = Formulas::new(robot, scene, &Request { quantities, style }).unwrap();
+    Module::read(&formulas.write(Layout::Sympy, Digits::Six))
+}
+
+/// Compares entries with the runtime's, relative to the largest of each kind.
+fn agrees(robot: &Robot, scene: Option<&Scene>, style: Style) {
+    let quantities = [Quantity::Inertia, Quantity::Christoffel, Quantity::Gravity];
+    let module = module(robot, scene, style, &quantities);
+    let runtime =
+        Reference::<f64>::from_robot(&scene.map_or(robot.clone(), |own| own.apply(robot)));
+    let n = robot.joints.len();
+    let lock = |joint: usize| match scene?.locked(joint)? {
+        Position::Angle(angle) => Some(angle.to_f64()),
+        Position::Length(length) => Some(f64::nearest_rational(length)),
+    };
+    let rows = scene.map_or((0..n).collect(), |scene| scene.rows(n));
+    let mut random = Random::new(0x666f_726d);
+    for _ in 0..STATES {
+        let q: Vec<f64> = (0..n)
+            .map(|i| lock(i).unwrap_or(3.0 * random.unit()))
+            .collect();
+        let mut given = HashMap::new();
+        for (i, value) in q.iter().enumerate() {
+            given.insert(format!("q{}", i + 1), *value);
+            given.insert(format!("dq{}", i + 1), random.unit());
+            given.insert(format!("ddq{}", i + 1), random.unit());
+        }
+        let found = module.run(&given);
+        let at = DVector::from_column_slice(&q);
+        let (d, c) = (runtime.inertia(&at).unwrap(), runtime.gravity(&at).unwrap());
+        let h = runtime.christoffel(&at).unwrap();
+        let m = rows.len();
+        let all = || (0..m).flat_map(|i| (0..m).map(move |k| (i, k)));
+        let wanted: Vec<f64> = all().map(|(i, k)| d[(rows[i], rows[k])]).collect();
+        close(&found, "D", &wanted, robot);
+        let wanted = (0..m).flat_map(|i| all().map(move |(k, l)| (i, k, l)));
+        let wanted: Vec<f64> = wanted
+            .map(|(i, k, l)| h[rows[i]][(rows[k], rows[l])])
+            .collect();
+        close(&found, "h", &wanted, robot);
+        let wanted: Vec<f64> = rows.iter().map(|&i| c[i]).collect();
+        close(&found, "c", &wanted, robot);
+    }
+}
+
+fn close(found: &Values<'_>, list: &str, wanted: &[f64], robot: &Robot) {
+    let size = wanted.iter().fold(1e-3f64, |size, x| size.max(x.abs()));
+    for (place, wanted) in wanted.iter().enumerate() {
+        let found = found.of(&format!("{list}[{place}]"));
+        let off = (found - wanted).abs();
+        let name = &robot.name;
+        assert!(
+            off <= 1e-12 * size,
+            "{name}: {list}[{place}] = {found}, wanted {wanted}"
+        );
+    }
+}
+
+#[test]
+fn the_robots_of_the_paper_and_others() {
+    for name in [
+        "planar2r", "planar3r", "puma560", "stanford", "ur10", "panda",
+    ] {
+        let (robot, _) = read(&format!("generated/robots/{name}.toml"));
+        for style in STYLES {
+            agrees(&robot, None, style);
+        }
+    }
+}
+
+#[test]
+fn slides_and_odd_angles() {
+    for name in [
+        "scara",
+        "gantry",
+        "rprpr",
+        "gen3",
+        "wafer",
+        "general6r",
+        "base_and_tool",
+    ] {
+        let (robot, _) = read(&format!("codegen/tests/data/{name}.toml"));
+        agrees(&robot, None, Style::Numbers);
+        agrees(&robot, None, Style::Names);
+    }
+}
+
+#[test]
+fn robots_of_the_gallery() {
+    let names = [
+        "e0509",
+        "elfin5",
+        "fr3",
+        "iiwa14",
+        "j2s7s300",
+        "open_manipulator",
+        "qarm",
+        "so101",
+        "ur5",
+        "xarm7",
+    ];
+    for name in names {
+        let (robot, _) = read(&format!("gallery/robots/{name}.toml"));
+        agrees(&robot, None, Style::Numbers);
+        agrees(&robot, None, Style::Constants);
+    }
+}
+
+#[test]
+fn trees_and_joints_that_follow_others() {
+    for name in ["panda_gripper", "baxter_both_arms"] {
+        let (robot, _) = read(&format!("gallery/robots/{name}.toml"));
+        agrees(&robot, None, Style::Numbers);
+        agrees(&robot, None, Style::Names);
+    }
+}
+
+#[test]
+fn robots_that_nobody_chose() {
+    for (_, robot, _) in robots(10, 0xf0_4a) {
+        agrees(&robot, None, Style::Numbers);
+        agrees(&robot, None, Style::Names);
+    }
+}
+
+#[test]
+fn joints_that_are_locked() {
+    let mut draw = Draw(Random::new(0x10c));
+    for joint in 2..=4 {
+        let robot = draw.robot(5);
+        let text = write(&robot) + &format!("\n[scene.held]\nlock = {{ {joint} = 0.25 }}\n");
+        let reading = parse(&text).unwrap();
+        agrees(&reading.robot, reading.scenes.first(), Style::Numbers);
+        agrees(&reading.robot, reading.scenes.first(), Style::Names);
+    }
+}
+
+/// Energies, torques, pose and Jacobian, and the parts of generalized D'Alembert, which add up.
+#[test]
+fn everything_else() {
+    let all: Vec<Quantity> = Quantity::all().into_iter().map(|(_, own)| own).collect();
+    for name in [
+        "generated/robots/planar2r",
+        "generated/robots/puma560",
+        "codegen/tests/data/rprpr",
+    ] {
+        let (robot, _) = read(&format!("{name}.toml"));
+        let n = robot.joints.len();
+        let runtime = Reference::<f64>::from_robot(&robot);
+        let mut random = Random::new(7);
+        for style in STYLES {
+            let module = module(&robot, None, style, &all);
+            let mut given = HashMap::new();
+            let mut drawn = |name: &str| {
+                let values: Vec<f64> = (0..n).map(|_| random.unit()).collect();
+                for (i, value) in values.iter().enumerate() {
+                    given.insert(format!("{name}{}", i + 1), *value);
+                }
+                DVector::from_vec(values)
+            };
+            let [q, qd, qdd] = ["q", "dq", "ddq"].map(&mut drawn);
+            let found = module.run(&given);
+            let at = JointVectors::new([
+                (Argument::Position, q.clone()),
+                (Argument::Velocity, qd.clone()),
+                (Argument::Acceleration, qdd.clone()),
+            ]);
+            let entries = |output| runtime.entries(output, &at).unwrap();
+            let damping = robot.joints.iter().zip(&qd);
+            let damping = damping.map(|(joint, qd)| f64::nearest_rational(&joint.viscous) * qd);
+            let torques = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
+            let torques: Vec<f64> = torques.iter().zip(damping).map(|(x, b)| x - b).collect();
+            close(&found, "tau", &torques, &robot);
+            close(&found, "J", &entries(Output::Jacobian), &robot);
+            close(&found, "Drot", &entries(Output::RotationInertia), &robot);
+            close(
+                &found,
+                "Dtran",
+                &entries(Output::TranslationInertia),
+                &robot,
+            );
+            let single = |name: &str, wanted: f64| {
+                let off = (found.of(name) - wanted).abs();
+                assert!(
+                    off <= 1e-12 * (1.0 + wanted.abs()),
+                    "{name}: {} {wanted}",
+                    found.of(name)
+                );
+            };
+            single("T", entries(Output::KineticEnergy)[0]);
+            single("U", entries(Output::PotentialEnergy)[0]);
+            let hand = runtime.hand(&q).unwrap();
+            for (axis, value) in ["px", "py", "pz"].into_iter().zip(hand.origin) {
+                single(axis, value);
+            }
+            let rows = (0..3).flat_map(|r| (0..3).map(move |c| (r, c)));
+            let rotation: Vec<f64> = rows.map(|(r, c)| hand.axes[c][r]).collect();
+            close(&found, "R", &rotation, &robot);
+            for place in 0..n * n * n {
+                let [whole, rot, tran] =
+                    ["h", "hrot", "htran"].map(|list| found.of(&format!("{list}[{place}]")));
+                assert!((whole - rot - tran).abs() <= 1e-12, "{name}: {place}");
+            }
+        }
+    }
+}
