@@ -1,103 +1,174 @@
-//! The coefficients of the dynamics that vanish or repeat.
-//!
-//! D_ik, h_ikm and c_i are outputs of one graph in which nodes with equal
-//! fingerprints are merged: an output that vanishes is the constant zero, and
-//! outputs that are equal or opposite are edges to one node.
+//! `dalembert explain --couplings`: which coefficients vanish, and why; and which nearly do.
 
-use std::collections::HashMap;
-
-use dalembert_model::equations::Formulation;
+use dalembert_formulas::couplings::{Alive, Couplings, Entry, Inventory, Near, Reason};
+use dalembert_formulas::{Quantity, written};
 use dalembert_model::robot::Robot;
+use serde_json::json;
 
-use dalembert_codegen::Function;
-use dalembert_codegen::workspace::{Folding, MAX_OUTPUTS, Node, Quantity, Setup, Sizes, trace};
+use crate::output::Failure;
+use crate::report::{Report, Table, cells};
 
-/// The value of a coefficient.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Value {
-    /// Zero in every state.
-    Zero,
-    /// The same in every state, and not zero.
-    Constant,
-    /// A function of the state, neither equal nor opposite to an earlier coefficient.
-    Distinct,
-    /// Equal to an earlier coefficient.
-    Equals(String),
-    /// The opposite of an earlier coefficient.
-    OppositeOf(String),
-}
-
-/// One coefficient: D_ik with i ≤ k, h_ikm with k ≤ m, or c_i.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Coupling {
-    /// Its name, with indices from 1: `h_346`.
-    pub name: String,
-    /// Its value.
-    pub value: Value,
-    /// Inertia, Christoffel or Gravity.
-    pub quantity: Quantity,
-}
-
-/// Lists the coefficients of a robot: D, then h, then c, each in the order of its indices;
-/// `None` if it has too many joints, or its base floats.
-pub fn couplings(robot: &Robot) -> Option<Vec<Coupling>> {
-    let function = Function::DynamicCoefficients;
-    let n = robot.joints.len();
-    let sizes = Sizes::whole(n);
-    if robot.floating.is_some() || function.outputs(sizes) > MAX_OUTPUTS {
-        return None;
+/// Reports the coefficients that vanish, each with its reason, and those that nearly vanish.
+///
+/// # Errors
+/// The robot has no formulas.
+pub(crate) fn report(robot: &Robot) -> Result<Report, Failure> {
+    let couplings = Couplings::new(robot).map_err(Failure::input)?;
+    let mut report = Report::of(robot, None);
+    report.line(format!(
+        "{} of {} coefficients vanish: D_ik with i ≤ k, h_ikm = h_imk with k ≤ m, c_i",
+        couplings.zeros.len(),
+        couplings.total
+    ));
+    for line in lines(&couplings) {
+        report.line(line);
     }
-    // Equal functions have equal fingerprints in every formulation. The graph of Lagrange–Euler
-    // becomes too large first.
-    let formulation = match n {
-        0..=6 => Formulation::LagrangeEuler,
-        _ => Formulation::NewtonEulerLink,
-    };
-    let rows: Vec<usize> = (0..n).collect();
-    let traced = trace(Setup::whole(robot).task(function), formulation).graph;
-    let graph = traced.rebuild(Folding::Semantic);
-    let mut outputs = graph.outputs.iter();
-    let mut couplings = Vec::new();
-    let mut known = HashMap::new();
-    for &quantity in function.quantities() {
-        // D and h are symmetric.
-        let is_first = |i: usize| quantity == Quantity::Gravity || i / n % n <= i % n;
-        let edges = outputs.by_ref().take(quantity.len(sizes)).enumerate();
-        for (index, &edge) in edges.filter(|(index, _)| is_first(*index)) {
-            let name = quantity.entry(index, &rows, sizes);
-            let negative = edge.negative;
-            let value = if graph.is_zero(edge) {
-                Value::Zero
-            } else if let Some((other, sign)) = known.get(&(quantity, edge.node)) {
-                match *sign == negative {
-                    true => Value::Equals(String::clone(other)),
-                    false => Value::OppositeOf(String::clone(other)),
-                }
-            } else {
-                known.insert((quantity, edge.node), (name.clone(), negative));
-                match graph.node(edge.node) {
-                    Node::Constant(_) => Value::Constant,
-                    _ => Value::Distinct,
-                }
-            };
-            couplings.push(Coupling {
-                name,
-                value,
-                quantity,
-            });
+    let zeros = couplings.zeros.iter().map(|zero| {
+        let rotation = zero.rotation.as_ref().map(written);
+        json!({
+            "name": zero.entry.name().text,
+            "reason": zero.reason.word(),
+            "because": zero.reason.to_string(),
+            "rotation": rotation,
+        })
+    });
+    report.value("zeros", zeros.collect::<Vec<_>>());
+    let near = &couplings.near;
+    let weak = near
+        .weak
+        .iter()
+        .map(|(entry, part)| json!({ "name": entry.name().text, "part": part }));
+    report.value("near/weak", weak.collect::<Vec<_>>());
+    let alive = near.alive.iter().map(|alive| {
+        json!({
+            "number": alive.symbol.code,
+            "value": alive.value,
+            "vanishing": alive.vanishing,
+            "part": alive.part,
+            "names": names(&alive.entries),
+        })
+    });
+    report.value("near/alive", alive.collect::<Vec<_>>());
+    if let Some((symbols, entries)) = &near.small {
+        let symbols: Vec<&str> = symbols.iter().map(|symbol| symbol.code.as_str()).collect();
+        report.value("near/small/numbers", symbols);
+        report.value("near/small/names", names(entries));
+    }
+    Ok(report)
+}
+
+/// Writes reasons and near misses, a line each.
+pub(crate) fn lines(couplings: &Couplings) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for (reason, entries) in couplings.reasons() {
+        let entries: Vec<Entry> = entries.into_iter().cloned().collect();
+        lines.push(format!(
+            "{}: {}: {reason}",
+            reason.word(),
+            shown(reason, &entries)
+        ));
+    }
+    for zero in &couplings.zeros {
+        if let Some(rotation) = &zero.rotation {
+            let name = zero.entry.name().text;
+            lines.push(format!(
+                "{name}: rotation and translation are opposite: {name}^rot = −{name}^tran = {}",
+                written(rotation)
+            ));
         }
     }
-    Some(couplings)
+    lines.extend(near(&couplings.near));
+    lines
 }
 
-/// Counts the coefficients of one quantity, symmetric ones once: all, those that vanish, and the
-/// others, with equal and opposite ones counted once.
-pub fn summary(couplings: &[Coupling], quantity: Quantity) -> [usize; 3] {
-    let own = couplings.iter().filter(|own| own.quantity == quantity);
-    let count = |is: fn(&Value) -> bool| own.clone().filter(|own| is(&own.value)).count();
-    [
-        count(|_| true),
-        count(|value| *value == Value::Zero),
-        count(|value| matches!(value, Value::Constant | Value::Distinct)),
-    ]
+/// Lists entries; of those that vanish for every arm their number.
+fn shown(reason: &Reason, entries: &[Entry]) -> String {
+    match reason {
+        Reason::Always | Reason::JointKinds { .. } | Reason::Limbs if entries.len() > 40 => {
+            format!("{} coefficients", entries.len())
+        }
+        _ => names(entries).join(", "),
+    }
+}
+
+fn near(near: &Near) -> Vec<String> {
+    let mut lines = Vec::new();
+    if !near.weak.is_empty() {
+        let weak: Vec<String> = near
+            .weak
+            .iter()
+            .map(|(entry, part)| format!("{} {}", entry.name().text, percent(*part)))
+            .collect();
+        lines.push(String::new());
+        lines.push(format!(
+            "weak: the largest |D_ik| is below 2 % of √(max D_ii · max D_kk): {}",
+            weak.join(", ")
+        ));
+    }
+    let alive = near.alive.iter().map(|alive: &Alive| {
+        let of = match alive.symbol.code.starts_with('I') {
+            true => "largest moment of inertia",
+            false => "size",
+        };
+        let [value, vanishing] = [alive.value, alive.vanishing].map(rounded);
+        let part = percent(alive.part);
+        format!(
+            "{} would vanish if {} were {vanishing}: it is {value}, {part} of its link's {of} away",
+            many(&alive.entries),
+            alive.symbol.text,
+        )
+    });
+    lines.extend(alive);
+    if let Some((symbols, entries)) = &near.small {
+        let symbols: Vec<&str> = symbols.iter().map(|symbol| symbol.text.as_str()).collect();
+        lines.push(format!(
+            "{} would vanish if {} were zero, each below 1 % of its link's size",
+            many(entries),
+            symbols.join(" and ")
+        ));
+    }
+    lines
+}
+
+fn many(entries: &[Entry]) -> String {
+    let names = names(entries);
+    match names.len() {
+        0..=8 => names.join(", "),
+        count => format!("{} and {} more", names[..6].join(", "), count - 6),
+    }
+}
+
+fn names(entries: &[Entry]) -> Vec<String> {
+    entries.iter().map(|entry| entry.name().text).collect()
+}
+
+fn percent(part: f64) -> String {
+    let percent = 100.0 * part;
+    // Two digits that count.
+    let places = (1.0 - percent.log10().floor()).clamp(0.0, 9.0) as usize;
+    format!("{percent:.places$} %")
+}
+
+fn rounded(value: f64) -> String {
+    format!("{value:.6}")
+        .trim_end_matches('0')
+        .trim_end_matches('.')
+        .replace('-', "−")
+}
+
+/// Adds how many coefficients vanish and repeat; nothing of a robot that has no formulas.
+pub(crate) fn count(report: &mut Report, robot: &Robot) {
+    let Ok(inventory) = Inventory::new(robot) else {
+        return;
+    };
+    let mut table = Table::keyed("coefficients|total|zero|distinct up to sign");
+    for (quantity, name) in [
+        (Quantity::Inertia, "D"),
+        (Quantity::Christoffel, "h"),
+        (Quantity::Gravity, "c"),
+    ] {
+        let [total, zero, distinct] = inventory.summary(quantity);
+        table.row(cells![name, total, zero, distinct]);
+    }
+    report.table("coefficients", "", table);
 }

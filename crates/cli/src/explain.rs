@@ -1,23 +1,27 @@
 //! `dalembert explain`: what each step of the generator brings for a robot, in operations and in rounding;
-//! Table 3 of the paper; and the coefficients that vanish or repeat.
+//! Table 3 of the paper; closed forms of the coefficients; and why some of them vanish.
+
+use std::path::Path;
 
 use dalembert_codegen::workspace::{
-    Argument, Input, Job, JointState, Quantity, SEED, Setup, admitted, input_hash,
+    Argument, Input, Job, JointState, SEED, Setup, admitted, input_hash,
 };
 use dalembert_codegen::{Function, GenerateError, Program, Request, ScalarType};
 use dalembert_import::ChainArgs;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
+use dalembert_stamp::{Comment, sealed};
 
 use crate::args::Options;
-use crate::couplings::{Coupling, Value, couplings, summary};
-use crate::files::Files;
+use crate::couplings;
+use crate::files::{Files, Target, ends_in};
 use crate::formulas::{self, FormulaArgs};
 use crate::measure::{Bench, Code as Measured, largest};
-use crate::output::{Context, Outcome};
+use crate::output::{Context, Done, Failure, Outcome};
 use crate::progress;
 use crate::report::{COUNTS, Cell, Report, Table, cells, counts};
+use crate::robot_report;
 use crate::source::Source;
 use crate::steps::{self, Code, Row};
 use crate::table3::comparisons;
@@ -27,9 +31,9 @@ use crate::table3::comparisons;
 pub struct ExplainArgs {
     /// The robot: a robot file, a URDF or an MJCF
     robot: std::path::PathBuf,
-    /// List every coefficient: D_ik, h_ikm, c_i, and which vanish or repeat another
-    #[arg(long, conflicts_with = "scene")]
-    coefficients: bool,
+    /// Say which of D_ik, h_ikm and c_i vanish, why, and which nearly do
+    #[arg(long, conflicts_with_all = ["scene", "outputs", "effort"])]
+    couplings: bool,
     #[command(flatten)]
     formulas: FormulaArgs,
     #[command(flatten)]
@@ -150,6 +154,9 @@ fn formula(
 
 pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
     let mut source = Source::open(context, &args.robot, &args.chain)?;
+    if args.couplings {
+        return Ok(couplings::report(&source.robot)?.into());
+    }
     if let Some(quantities) = &args.formulas.formulas {
         let request = source.request(&args.options.0, &ScalarType::ALL)?;
         let output = args.formulas.output.as_deref();
@@ -159,6 +166,7 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
         let scene = request.scene.as_ref();
         return formulas::run(&args.formulas, quantities, &source.robot, scene, target);
     }
+    let targets = targets(args, context)?;
     source.outputs = vec![Function::InverseDynamics];
     let mut request = source.request(&args.options.0, &ScalarType::ALL)?;
     let session = progress::watch(&mut request);
@@ -170,6 +178,19 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
     }
     let explained = explain(&source.robot, &request)?;
     drop(session);
+    if let Some([page, picture]) = targets {
+        let shown = picture
+            .file()
+            .unwrap_or(Path::new("picture.svg"))
+            .to_owned();
+        let [text, svg] = robot_report::page(&source.robot, &explained, &shown)?;
+        let text = sealed(Comment::Xml, "dalembert explain", &text);
+        let svg = sealed(Comment::Xml, "dalembert explain", &svg);
+        return Ok(Done {
+            files: vec![(page, text), (picture, svg)],
+            ..Done::default()
+        });
+    }
     let robot = &source.robot;
     let mut report = Report::of(robot, request.scene.as_ref());
     report.line(format!(
@@ -196,10 +217,27 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
              numbers that cancel are gone."
         );
     }
-    if let Some(couplings) = couplings(robot).filter(|_| request.scene.is_none()) {
-        coefficients(&mut report, &couplings, args.coefficients);
+    if request.scene.is_none() {
+        couplings::count(&mut report, robot);
     }
     Ok(report.into())
+}
+
+/// Reserves the files of a page about the robot, if one is asked for: the page and its drawing.
+fn targets(args: &ExplainArgs, context: &Context) -> Result<Option<[Target; 2]>, Failure> {
+    let Some(page) = args.formulas.output.as_deref() else {
+        return Ok(None);
+    };
+    ends_in(Some(page), "md")?;
+    if page == Path::new("-") {
+        let why = "a page has its drawing beside it: give a file, such as -o robot.md";
+        return Err(Failure::input(why));
+    }
+    let mut files = Files::new(context, &[&args.robot]);
+    Ok(Some([
+        files.add(page)?,
+        files.add(&page.with_extension("svg"))?,
+    ]))
 }
 
 fn steps_of(own: &Explanation) -> Table {
@@ -219,31 +257,4 @@ fn steps_of(own: &Explanation) -> Table {
         table.row(cells);
     }
     table.without_zeros("fma|div|sqrt|trig_mul|trig_add")
-}
-
-fn coefficients(report: &mut Report, couplings: &[Coupling], each: bool) {
-    let mut table = Table::keyed("coefficients|total|zero|distinct up to sign");
-    for (quantity, name) in [
-        (Quantity::Inertia, "D"),
-        (Quantity::Christoffel, "h"),
-        (Quantity::Gravity, "c"),
-    ] {
-        let [total, zero, distinct] = summary(couplings, quantity);
-        table.row(cells![name, total, zero, distinct]);
-    }
-    report.table("coefficients", "", table);
-    if each {
-        let rows = couplings.iter().map(|Coupling { name, value, .. }| {
-            let value = match value {
-                Value::Zero => "0".to_owned(),
-                Value::Constant => "constant".to_owned(),
-                Value::Distinct => "·".to_owned(),
-                Value::Equals(other) => other.clone(),
-                Value::OppositeOf(other) => format!("−{other}"),
-            };
-            cells![name.as_str(), value]
-        });
-        let title = "D_ik with i ≤ k, h_ikm = h_imk with k ≤ m, c_i";
-        report.table("entries", title, Table::new("name=|value=").with(rows));
-    }
 }

@@ -2,10 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::builder::{StringValueParser, TypedValueParser};
+use dalembert_codegen::workspace::Word;
 use dalembert_formulas::{Digits, Formulas, Layout, Quantity, Request, Style};
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 use dalembert_stamp::{Comment, sealed};
+use serde_json::json;
 
 use crate::args::values::word_parser;
 use crate::files::Target;
@@ -17,19 +20,21 @@ const HEADING: &str = "Formulas";
 /// Options of formulas.
 #[derive(Debug, clap::Args)]
 pub struct FormulaArgs {
-    /// Write closed forms of these, separated by commas [default: D,h,c]
+    /// Write closed forms of these, separated by commas: D, h, c, tau, D_rot, D_tran, h_rot, h_tran, T, U,
+    /// pose, jacobian [default: D,h,c]
     #[arg(
         long,
         value_name = "LIST",
         num_args = 0..=1,
         value_delimiter = ',',
         default_missing_value = "D,h,c",
-        value_parser = word_parser::<Quantity>(),
-        conflicts_with_all = ["outputs", "effort", "coefficients"],
+        value_parser = quantity_parser(),
+        conflicts_with_all = ["outputs", "effort", "couplings"],
         help_heading = HEADING
     )]
     pub formulas: Option<Vec<Quantity>>,
-    /// The symbols: numbers alone; lengths, masses and inertias by name; or constants K1, K2, …
+    /// The symbols: numbers alone; names of lengths and base parameters (of a small arm those of the file);
+    /// constants K1, K2, …; or the file's masses, centres and inertias
     #[arg(
         long = "with",
         value_name = "WORD",
@@ -51,22 +56,68 @@ pub struct FormulaArgs {
     /// All digits of numbers; otherwise six
     #[arg(long, requires = "formulas", help_heading = HEADING)]
     pub all_digits: bool,
-    /// Write here: .txt, .md, .tex or .py [default: standard output]
-    #[arg(short, long, value_name = "FILE", requires = "formulas", help_heading = HEADING)]
+    /// Write here: .txt, .md, .tex or .py [default: standard output]. Without --formulas, a page (.md)
+    /// about all of the robot's equations, and its drawing beside it
+    #[arg(short, long, value_name = "FILE", conflicts_with = "couplings", help_heading = HEADING)]
     pub output: Option<PathBuf>,
 }
 
+/// Each ending with its format.
+const ENDINGS: [(&str, Layout); 5] = [
+    ("txt", Layout::Text),
+    ("md", Layout::Markdown),
+    ("markdown", Layout::Markdown),
+    ("tex", Layout::Latex),
+    ("py", Layout::Sympy),
+];
+
 impl FormulaArgs {
-    fn layout(&self) -> Layout {
-        let ending = self.output.as_ref().and_then(|path| path.extension());
-        let meant = match ending.and_then(|ending| ending.to_str()) {
-            Some("md" | "markdown") => Layout::Markdown,
-            Some("tex") => Layout::Latex,
-            Some("py") => Layout::Sympy,
-            _ => Layout::Text,
+    /// Returns the format; refuses an ending of the output that means another, or none.
+    fn layout(&self) -> Result<Layout, Failure> {
+        let Some(path) = self
+            .output
+            .as_deref()
+            .filter(|path| *path != Path::new("-"))
+        else {
+            return Ok(self.format.unwrap_or_default());
         };
-        self.format.unwrap_or(meant)
+        let ending = path
+            .extension()
+            .and_then(|ending| ending.to_str())
+            .unwrap_or_default();
+        let meant = ENDINGS
+            .iter()
+            .find(|(known, _)| ending.eq_ignore_ascii_case(known));
+        let is_other = |layout: Layout| self.format.is_some_and(|format| format != layout);
+        match meant {
+            Some((_, layout)) if !is_other(*layout) => Ok(*layout),
+            _ => Err(Failure::Input(format!(
+                "error: `{}` has not the ending of {}\n  = help: .txt is text, .md Markdown, .tex LaTeX and .py a \
+                 module for SymPy; `-o -` writes to standard output",
+                path.display(),
+                self.format.map_or("a format", |format| word_of(&format)),
+            ))),
+        }
     }
+}
+
+fn word_of(layout: &Layout) -> &'static str {
+    let mut all = Layout::all().into_iter();
+    all.find(|(_, other)| other == layout)
+        .map_or("", |(word, _)| word)
+}
+
+/// Parses a quantity; a robot file in its place is told where it belongs.
+fn quantity_parser() -> impl TypedValueParser<Value = Quantity> {
+    StringValueParser::new().try_map(|word| {
+        Quantity::from_name(word.trim()).ok_or_else(|| {
+            let known = Quantity::known().join(", ");
+            match word.contains('.') {
+                true => format!("the robot file comes before --formulas, whose values are {known}"),
+                false => format!("expected {known}"),
+            }
+        })
+    })
 }
 
 /// Writes the formulas of a robot in a scene.
@@ -87,9 +138,9 @@ pub(crate) fn run(
     } else {
         Digits::Six
     };
-    let layout = args.layout();
+    let layout = args.layout()?;
     let Some(target) = target else {
-        return Ok(json(&formulas, robot, scene, digits).into());
+        return Ok(in_json(&formulas, robot, scene, digits).into());
     };
     let text = formulas.write(layout, digits);
     let text = match args
@@ -114,10 +165,16 @@ fn comment(layout: Layout) -> Comment {
     }
 }
 
-fn json(formulas: &Formulas, robot: &Robot, scene: Option<&Scene>, digits: Digits) -> Report {
+fn in_json(formulas: &Formulas, robot: &Robot, scene: Option<&Scene>, digits: Digits) -> Report {
     let mut report = Report::of(robot, scene);
     for (name, text) in formulas.entries(digits) {
         report.value(&format!("formulas/{name}"), text);
+    }
+    for (name, sum, value) in formulas.symbols() {
+        report.value(
+            &format!("symbols/{name}"),
+            json!({ "sum": sum, "value": value }),
+        );
     }
     report
 }

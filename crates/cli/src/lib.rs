@@ -9,8 +9,8 @@
 //! - `verify`; [`measure`]: rounding errors against 256-bit arithmetic; [`extremes`]: the same in
 //!   extreme cases; [`given`]: states and results from another program
 //! - `certify`: checks by the independent checker
-//! - [`explain`]; [`steps`]: the operations that each step saves; [`couplings`]: coefficients that
-//!   vanish or repeat; [`table3`]: the paper's counts beside the formulas'
+//! - [`explain`]; [`steps`]: the operations that each step saves; `formulas`: closed forms to read;
+//!   `couplings`: why coefficients vanish; `robot_report`: a page with all of them; [`table3`]: the paper's counts beside the formulas'
 //! - `tradeoff`; `ladder`: its variants, tolerance by tolerance; `chart`: its picture
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::missing_errors_doc)]
@@ -20,7 +20,7 @@ mod certify;
 mod chart;
 mod code;
 mod count;
-pub mod couplings;
+mod couplings;
 pub mod drawing;
 pub mod explain;
 pub mod extremes;
@@ -38,6 +38,7 @@ mod pose;
 mod progress;
 mod renew;
 mod report;
+mod robot_report;
 mod show;
 mod source;
 pub mod steps;
@@ -96,7 +97,7 @@ enum Command {
     Verify(verify::VerifyArgs),
     /// Check generated code with a second program, which has equations of its own
     Certify(certify::CertifyArgs),
-    /// Show how many operations each step of the generator saves
+    /// Write a robot's equations, say why coefficients vanish, or show what each step of the generator saves
     Explain(explain::ExplainArgs),
     /// Measure the cost of accuracy: bounds of the error against numbers of operations
     Tradeoff(tradeoff::TradeoffArgs),

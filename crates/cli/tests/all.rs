@@ -1,7 +1,6 @@
 //! All test files in one program: it is linked once, and its tests share the cores.
 
 mod accuracy_campaign;
-mod couplings;
 mod extremes_growth;
 mod extremes_not_finite;
 mod extremes_of_chains;

@@ -1,13 +1,13 @@
 //! A robot whose motion, and on request whose lengths, masses and inertias, are symbols.
 
 use dalembert_codegen::workspace::Setup;
-use dalembert_model::equations::chain::{Chain, Displacement, Regrouping, Skeleton};
-use dalembert_model::equations::following::Following;
+use dalembert_model::equations::chain::{Body, Chain, Displacement, Regrouping, Skeleton};
 use dalembert_model::equations::{Arm, JointPosition};
 use dalembert_model::number::{Angle, Rational, Wide};
 use dalembert_model::robot::{Joint, JointKind, Robot};
 use dalembert_model::scalar::{Scalar, SinCosPair};
 
+use crate::entries::Coefficients;
 use crate::error::FormulaError;
 use crate::naming::Naming;
 use crate::number::{Constants, Number};
@@ -52,7 +52,7 @@ pub struct SymbolicArm {
     pub arm: Arm<Polynomial>,
     /// The joints that move, in the order of results.
     pub variables: Vec<Variable>,
-    /// Where each row is.
+    /// The position of each row.
     pub position: Vec<JointPosition<Polynomial>>,
     /// The joints that stay where a lock says and are merged into the link before.
     pub locks: Vec<Option<JointPosition<Polynomial>>>,
@@ -75,9 +75,11 @@ impl SymbolicArm {
         let mut constants = Constants::new();
         let mut arm = setup.arm(|x| Polynomial::constant(constants.number(x)));
         let following = setup.following(|x| Polynomial::constant(constants.number(x)));
-        let locks = setup.merged().into_iter();
-        let locks = locks.map(|lock| lock.map(|at| fixed(&at, &mut constants)));
-        let locks: Vec<_> = locks.collect();
+        let locks = setup
+            .merged()
+            .into_iter()
+            .map(|lock| lock.map(|at| fixed(&at, &mut constants)))
+            .collect();
         let mut position: Vec<Option<JointPosition<Polynomial>>> = vec![None; arm.links.len()];
         let mut variables = Vec::new();
         for (joint, row) in (0..robot.joints.len()).map(|joint| (joint, robot.row_of(joint))) {
@@ -85,7 +87,7 @@ impl SymbolicArm {
                 position[row] = Some(fixed(lock, &mut constants));
                 continue;
             }
-            let is_followed = following.iter().any(|own| own.leader == row);
+            let is_followed = following.iter().any(|follower| follower.leader == row);
             let offset = match is_followed {
                 true => Offset::None,
                 false => take_offset(&mut arm, row, &robot.joints[joint]),
@@ -101,9 +103,9 @@ impl SymbolicArm {
                 JointKind::Prismatic => JointPosition::Prismatic(Polynomial::slide(joint)),
             });
         }
-        for own in &following {
-            let leader = position[own.leader].as_ref();
-            position[own.row] = leader.map(|leader| leader.followed_by(own));
+        for follower in &following {
+            let leader = position[follower.leader].as_ref();
+            position[follower.row] = leader.map(|leader| leader.followed_by(follower));
         }
         if !constants.fits {
             return Err(FormulaError::Unfit);
@@ -126,34 +128,24 @@ impl SymbolicArm {
         Ok(symbolic_arm)
     }
 
-    /// Returns the chain of a regrouping, and where its joints are.
-    pub fn chain(&self, arm: &Arm<Polynomial>) -> SymbolicChain {
-        let skeleton = Skeleton::new(arm, &self.locks);
-        let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
-        let rows: Vec<usize> = skeleton.links.iter().map(|link| link.joint).collect();
-        let at = rows
-            .iter()
-            .zip(&chain.links)
-            .map(|(&row, link)| match &self.position[row] {
-                JointPosition::Revolute(pair) => Displacement::Turn(pair.compose(&link.theta)),
-                JointPosition::Prismatic(q) => Displacement::Slide(q.clone()),
-            });
-        SymbolicChain {
-            at: at.collect(),
-            whole: unmoved(&skeleton),
-            chain,
-            rows,
-        }
+    /// Returns the chain of an arm with this one's locks and position.
+    pub fn chain(&self, arm: &Arm<Polynomial>) -> PosedChain<Polynomial> {
+        posed(arm, &self.locks, &self.position)
     }
 
-    /// Returns the joints that follow others.
-    pub fn following(&self) -> &[Following<Polynomial>] {
-        &self.arm.following
+    /// Computes the coefficients of a chain with the frames of a posed one.
+    pub fn coefficients(
+        &self,
+        setup: &Setup,
+        posed: &PosedChain<Polynomial>,
+        chain: &Chain<Polynomial>,
+    ) -> Coefficients<Polynomial> {
+        Coefficients::new(setup, &self.arm.following, posed, chain)
     }
 
     /// Returns the value of a polynomial without motion, whose parameters are the file's.
     pub fn evaluate(&self, polynomial: &Polynomial) -> Number {
-        let values = self.parameters.iter().map(|own| own.value);
+        let values = self.parameters.iter().map(|parameter| parameter.value);
         self.evaluate_with(polynomial, &values.collect::<Vec<_>>())
     }
 
@@ -177,32 +169,56 @@ impl SymbolicArm {
     }
 }
 
-/// A chain of a symbolic arm.
+/// A chain at a position.
 #[derive(Clone, Debug)]
-pub struct SymbolicChain {
-    /// In base parameters.
-    pub chain: Chain<Polynomial>,
-    /// The same frames, every body as its link has it.
-    pub whole: Chain<Polynomial>,
-    /// Where the joints are.
-    pub at: Vec<Displacement<Polynomial>>,
+pub struct PosedChain<S> {
+    /// The chain, regrouped.
+    pub chain: Chain<S>,
+    /// A chain with these frames whose links keep all of their bodies.
+    pub whole: Chain<S>,
+    /// The positions of its joints.
+    pub at: Vec<Displacement<S>>,
     /// The row of each link.
     pub rows: Vec<usize>,
 }
 
+/// Returns the chain of an arm at a position; joints with a lock stay where that says.
+pub fn posed<S: Scalar>(
+    arm: &Arm<S>,
+    locks: &[Option<JointPosition<S>>],
+    position: &[JointPosition<S>],
+) -> PosedChain<S> {
+    let skeleton = Skeleton::new(arm, locks);
+    let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
+    let rows: Vec<usize> = skeleton.links.iter().map(|segment| segment.joint).collect();
+    let at = rows
+        .iter()
+        .zip(&chain.links)
+        .map(|(&row, link)| match &position[row] {
+            JointPosition::Revolute(pair) => Displacement::Turn(pair.compose(&link.theta)),
+            JointPosition::Prismatic(q) => Displacement::Slide(q.clone()),
+        });
+    PosedChain {
+        at: at.collect(),
+        whole: unmoved(&skeleton),
+        chain,
+        rows,
+    }
+}
+
 /// Returns the chain with the frames of base parameters and all of each body on its link.
-fn unmoved(skeleton: &Skeleton<Polynomial>) -> Chain<Polynomial> {
+fn unmoved<S: Scalar>(skeleton: &Skeleton<S>) -> Chain<S> {
     let mut empty = skeleton.clone();
     for segment in &mut empty.links {
-        segment.link.body = segment.link.body.map(|_| Polynomial::zero());
+        segment.link.body = Body::zero();
     }
     let mut chain = Chain::new(&empty, &Regrouping::base(skeleton));
     for (link, segment) in chain.links.iter_mut().zip(&skeleton.links) {
-        let origin = match segment.link.kind {
-            JointKind::Revolute => [Polynomial::zero(), Polynomial::zero(), segment.d.neg()],
-            JointKind::Prismatic => [Polynomial::zero(), Polynomial::zero(), Polynomial::zero()],
+        let along = match segment.link.kind {
+            JointKind::Revolute => segment.d.neg(),
+            JointKind::Prismatic => S::zero(),
         };
-        link.body = segment.link.body.moved(&origin);
+        link.body = segment.link.body.moved(&[S::zero(), S::zero(), along]);
     }
     chain
 }
@@ -216,8 +232,13 @@ fn check(robot: &Robot) -> Result<(), FormulaError> {
         return Err(FormulaError::ManyJoints(joints));
     }
     for joint in 0..joints {
-        let followers = robot.followers.iter().filter(|own| own.leader == joint);
-        let turns: u32 = followers.map(|own| own.turns().unsigned_abs()).sum();
+        let followers = robot
+            .followers
+            .iter()
+            .filter(|follower| follower.leader == joint);
+        let turns: u32 = followers
+            .map(|follower| follower.turns().unsigned_abs())
+            .sum();
         if 2 * (1 + turns as usize) > MAX_POWER {
             return Err(FormulaError::FarFollower(joint));
         }

@@ -10,102 +10,130 @@ use dalembert_model::equations::chain::{Body, Chain};
 use dalembert_model::robot::{Inertia, JointKind};
 use dalembert_model::scalar::Scalar;
 
-use crate::arm::{SymbolicArm, SymbolicChain};
+use crate::arm::{PosedChain, SymbolicArm};
 use crate::number::Number;
 use crate::ring::{Polynomial, Symbols};
 use crate::symbol::{Definition, Symbol};
 
+/// The moments of a link that can be base parameters.
+pub const MOMENTS: [&str; 9] = ["M", "MX", "MY", "MZ", "XX", "ZZ", "XY", "XZ", "YZ"];
+
+/// The link and the moment of each base parameter, as places in the chain and in [`MOMENTS`].
+pub type BaseMoments = Vec<(usize, usize)>;
+
 /// A chain whose bodies are symbols.
 pub struct BaseBodies {
-    /// The chain; what is zero in this robot is not a symbol.
+    /// The chain.
     pub chain: Chain<Polynomial>,
     /// The symbols, each with its value as a polynomial in the file's numbers.
     pub parameters: Vec<Definition<Polynomial>>,
     /// Their values.
     pub values: Vec<Number>,
+    /// The moments that they are; none of an armature.
+    pub moments: BaseMoments,
+}
+
+/// Returns the body that has these of [`MOMENTS`], YY zero.
+pub fn body_of<S: Scalar>(kind: JointKind, moments: [S; MOMENTS.len()]) -> Body<S> {
+    let [m, x, y, z, xx, zz, xy, xz, yz] = moments;
+    Body {
+        mass: m,
+        first: [x, y, z],
+        second: match kind {
+            JointKind::Revolute => Inertia {
+                xx: zz.sub(&xx).half(),
+                yy: zz.add(&xx).half(),
+                zz: xx.sub(&zz).half(),
+                xy: xy.neg(),
+                yz: yz.neg(),
+                xz: xz.neg(),
+            },
+            JointKind::Prismatic => Inertia::symmetric(|_, _| S::zero()),
+        },
+    }
+}
+
+/// Returns the moments of a body in the order of [`MOMENTS`].
+pub fn moments_of<S: Scalar>(body: &Body<S>) -> [S; MOMENTS.len()] {
+    let tensor = body.tensor();
+    let [x, y, z] = body.first.clone();
+    [
+        body.mass.clone(),
+        x,
+        y,
+        z,
+        tensor.xx,
+        tensor.zz,
+        tensor.xy,
+        tensor.xz,
+        tensor.yz,
+    ]
+}
+
+fn is_kept(kind: JointKind, moment: usize) -> bool {
+    let name = MOMENTS[moment];
+    match kind {
+        JointKind::Revolute => name != "M" && name != "MZ",
+        JointKind::Prismatic => name.starts_with('M'),
+    }
 }
 
 impl BaseBodies {
-    /// Makes the symbols of a chain; `mark` stands behind the letters of each.
-    pub fn new(arm: &SymbolicArm, chain: &SymbolicChain, mark: &str) -> BaseBodies {
+    /// Makes symbols of the base parameters that are not zero; `mark` stands behind the letters of each.
+    pub fn new(arm: &SymbolicArm, posed: &PosedChain<Polynomial>, mark: &str) -> BaseBodies {
+        BaseBodies::with(arm, posed, mark, |value, _| !value.is_zero())
+    }
+
+    /// Makes symbols of all base parameters that an arm with these joints has, but for armatures.
+    pub fn whole(arm: &SymbolicArm, posed: &PosedChain<Polynomial>) -> BaseBodies {
+        BaseBodies::with(arm, posed, "", |_, is_moment| is_moment)
+    }
+
+    fn with(
+        arm: &SymbolicArm,
+        posed: &PosedChain<Polynomial>,
+        mark: &str,
+        is_symbol: impl Fn(&Number, bool) -> bool,
+    ) -> BaseBodies {
         let mut bodies = BaseBodies {
-            chain: chain.whole.clone(),
+            chain: posed.whole.clone(),
             parameters: Vec::new(),
             values: Vec::new(),
+            moments: Vec::new(),
         };
-        let mut carried: Vec<Body<Polynomial>> = vec![Body::zero(); chain.rows.len()];
-        let mut kept: Vec<Body<Polynomial>> = vec![Body::zero(); chain.rows.len()];
-        for i in (0..chain.rows.len()).rev() {
-            let link = &chain.whole.links[i];
-            let body = link.body.with(&carried[i]);
-            let yy = match link.kind {
-                JointKind::Revolute => body.second.xx.clone(),
-                JointKind::Prismatic => Polynomial::zero(),
-            };
-            let mut shifted = body;
-            shifted.second.zz = shifted.second.zz.add(&yy);
-            let (mut stays, moves) = link.split_base(&shifted);
-            stays.second.zz = stays.second.zz.sub(&yy);
-            kept[i] = stays;
-            if let Some(parent) = link.parent {
-                carried[parent] = carried[parent].with(&moves);
-            }
-        }
-        for (i, body) in kept.into_iter().enumerate() {
-            let number = chain.rows[i] + 1;
-            let tensor = body.tensor();
-            let turns = chain.whole.links[i].kind == JointKind::Revolute;
-            let all = [
-                ("M", body.mass),
-                ("MX", body.first[0].clone()),
-                ("MY", body.first[1].clone()),
-                ("MZ", body.first[2].clone()),
-                ("XX", tensor.xx),
-                ("ZZ", tensor.zz),
-                ("XY", tensor.xy),
-                ("XZ", tensor.xz),
-                ("YZ", tensor.yz),
-            ];
-            let [m, x, y, z, xx, zz, xy, xz, yz] = all.map(|(letters, value)| {
-                let symbol = Symbol::marked(letters, mark, number);
-                bodies.symbol(arm, symbol, value, chain.rows[i])
+        for (link, body) in kept_bodies(&posed.whole).iter().enumerate() {
+            let (kind, row) = (posed.whole.links[link].kind, posed.rows[link]);
+            let mut moment = 0;
+            let moments = moments_of(body).map(|value| {
+                let place = moment;
+                moment += 1;
+                let number = arm.evaluate(&value);
+                if !is_kept(kind, place) || !is_symbol(&number, true) {
+                    return Polynomial::constant(number);
+                }
+                bodies.moments.push((link, place));
+                let symbol = Symbol::marked(MOMENTS[place], mark, row + 1);
+                bodies.symbol(symbol, value, number, row)
             });
-            let link = &mut bodies.chain.links[i];
-            link.body = Body {
-                mass: m,
-                first: [x, y, z],
-                second: match turns {
-                    true => Inertia {
-                        xx: zz.sub(&xx).half(),
-                        yy: zz.add(&xx).half(),
-                        zz: xx.sub(&zz).half(),
-                        xy: xy.neg(),
-                        yz: yz.neg(),
-                        xz: xz.neg(),
-                    },
-                    false => Inertia::symmetric(|_, _| Polynomial::zero()),
-                },
+            bodies.chain.links[link].body = body_of(kind, moments);
+            let armature = posed.whole.links[link].armature.clone();
+            let number = arm.evaluate(&armature);
+            bodies.chain.links[link].armature = match is_symbol(&number, false) {
+                true => bodies.symbol(Symbol::inertia(row + 1, "a"), armature, number, row),
+                false => Polynomial::constant(number),
             };
-            let (armature, row) = (chain.whole.links[i].armature.clone(), chain.rows[i]);
-            let symbol = Symbol::inertia(number, "a");
-            bodies.chain.links[i].armature = bodies.symbol(arm, symbol, armature, row);
         }
         bodies
     }
 
     fn symbol(
         &mut self,
-        arm: &SymbolicArm,
         symbol: Symbol,
         value: Polynomial,
+        number: Number,
         row: usize,
     ) -> Polynomial {
-        let number = arm.evaluate(&value);
-        if number.is_zero() {
-            return Polynomial::zero();
-        }
-        let place = Symbols::parameter(self.parameters.len());
-        let Some(symbols) = place else {
+        let Some(symbols) = Symbols::parameter(self.parameters.len()) else {
             return Polynomial::constant(number);
         };
         let row = Some(row);
@@ -113,4 +141,28 @@ impl BaseBodies {
         self.values.push(number);
         Polynomial::symbol(symbols)
     }
+}
+
+/// Moves inward all that can: returns the bodies that links keep.
+fn kept_bodies(chain: &Chain<Polynomial>) -> Vec<Body<Polynomial>> {
+    let n = chain.links.len();
+    let mut arriving: Vec<Body<Polynomial>> = vec![Body::zero(); n];
+    let mut kept: Vec<Body<Polynomial>> = vec![Body::zero(); n];
+    for i in (0..n).rev() {
+        let link = &chain.links[i];
+        let mut body = link.body.with(&arriving[i]);
+        // The model moves ∫ z² dm; with ∫ x² dm more of it, YY moves.
+        let more = match link.kind {
+            JointKind::Revolute => body.second.xx.clone(),
+            JointKind::Prismatic => Polynomial::zero(),
+        };
+        body.second.zz = body.second.zz.add(&more);
+        let (mut stays, moves) = link.split_base(&body);
+        stays.second.zz = stays.second.zz.sub(&more);
+        kept[i] = stays;
+        if let Some(parent) = link.parent {
+            arriving[parent] = arriving[parent].with(&moves);
+        }
+    }
+    kept
 }

@@ -28,7 +28,7 @@ pub struct Wave {
     pub multiples: Vec<i32>,
 }
 
-/// What a term has beside its coefficient: powers of slides and, for each run, waves.
+/// The factors of a term beside its coefficient: powers of slides and, for each run, waves.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Shape {
     /// The number of factors, by which terms are sorted first.
@@ -57,7 +57,7 @@ pub struct Runs {
 /// A product of waves, one of each run, with its coefficient.
 type Products = BTreeMap<(Vec<usize>, Vec<Wave>), Form>;
 
-/// What the sum of two waves is: each with its factor.
+/// A way to write a wave: products of waves, each with its factor.
 type Alternative = Vec<(f64, Vec<Wave>)>;
 
 impl Wave {
@@ -148,8 +148,11 @@ impl Runs {
     fn products(&self, polynomial: &Polynomial, memory: &mut Memory) -> Products {
         let mut products = Products::new();
         for (Monomial { symbols, motion }, x) in polynomial.terms() {
-            let slides = self.slides.iter().map(|&joint| powers(*motion, joint)[0]);
-            let slides: Vec<usize> = slides.collect();
+            let slides: Vec<usize> = self
+                .slides
+                .iter()
+                .map(|&joint| powers(*motion, joint)[0])
+                .collect();
             let mut partial: Vec<(f64, Vec<Wave>)> = vec![(1.0, Vec::new())];
             for run in &self.runs {
                 let waves = memory.of_run(run, *motion);
@@ -278,7 +281,7 @@ impl Splits {
             for _ in 0..SWEEPS {
                 let improved = waves
                     .iter()
-                    .filter(|own| descent.improve(&mut splits.choices, own));
+                    .filter(|wave| descent.improve(&mut splits.choices, wave));
                 if improved.count() == 0 {
                     break;
                 }
@@ -373,7 +376,7 @@ impl Descent {
                 for (run, wave) in waves
                     .iter()
                     .enumerate()
-                    .filter(|(_, own)| own.is_multiple())
+                    .filter(|(_, wave)| wave.is_multiple())
                 {
                     descent
                         .with

@@ -1,4 +1,4 @@
-//! Whole documents: variables, formulas and legend, a file a format.
+//! Documents with variables, formulas and legend, a file a format.
 
 mod latex;
 mod sympy;
@@ -10,6 +10,7 @@ use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::JointKind;
 
 use crate::arm::{Offset, Variable};
+use crate::expression::{Factor, Sum, Term};
 use crate::formulas::Formulas;
 use crate::legend::Entry;
 use crate::line::Section;
@@ -42,9 +43,10 @@ impl Word for Layout {
     }
 }
 
-const BASE_PARAMETERS: &str = "Base parameters: moments of link i about a point of its axis, z along the axis, x as of \
-                               the link. What torques cannot tell from the link before has moved there (mass, MZ, \
-                               YY), so that XX is Ixx − Iyy";
+const BASE_PARAMETERS: &str = "Base parameters: the combinations of masses and inertias that the torques depend on. \
+                               Those of link i are taken in a frame on the axis of joint i: z is the axis, x is that \
+                               of the link. Parts that the torques cannot tell from the link before count there \
+                               (mass, MZ, YY), so that XX stands for Ixx − Iyy";
 const CONSTANTS: &str = "Constants";
 const SMALL: &str = "in parentheses at the end of a line: terms below 1/1000 of its largest";
 
@@ -76,9 +78,26 @@ impl Formulas {
                 }
             }
             let zeros = section.zeros.iter();
-            entries.extend(zeros.map(|own| (own.code.clone(), "0".to_owned())));
+            entries.extend(zeros.map(|zero| (zero.code.clone(), "0".to_owned())));
         }
         entries
+    }
+
+    /// Lists the symbols by their identifiers, each with the sum that it stands for, if it stands for one,
+    /// and its value.
+    pub fn symbols(&self) -> Vec<(String, Option<String>, f64)> {
+        let legend = &self.legend;
+        let of_file = legend.groups.iter().flat_map(|group| &group.entries);
+        let all = legend
+            .constants
+            .iter()
+            .chain(&legend.parameters)
+            .chain(of_file);
+        all.map(|entry| {
+            let sum = (!entry.sum.is_empty()).then(|| written(&entry.sum));
+            (entry.symbol.code.clone(), sum, entry.value.to_f64())
+        })
+        .collect()
     }
 
     /// Lists the variables that are not q_i, as `θ3 = q3 + pi/2`.
@@ -87,8 +106,10 @@ impl Formulas {
             let number = variable.joint + 1;
             match &variable.offset {
                 Offset::None => None,
-                Offset::Angle(own) => Some(format!("{turn}{number} = q{number}{}", angle(own))),
-                Offset::Length(own) => Some(format!("d{number} = q{number}{}", plus(own))),
+                Offset::Angle(turn_by) => {
+                    Some(format!("{turn}{number} = q{number}{}", angle(turn_by)))
+                }
+                Offset::Length(shift) => Some(format!("d{number} = q{number}{}", plus(shift))),
             }
         };
         self.variables.iter().filter_map(line).collect()
@@ -96,7 +117,7 @@ impl Formulas {
 
     /// The name of an angle: θ where one is not q.
     fn angle(&self) -> &'static str {
-        let is_moved = |own: &Variable| matches!(own.offset, Offset::Angle(_));
+        let is_moved = |variable: &Variable| matches!(variable.offset, Offset::Angle(_));
         if self.variables.iter().any(is_moved) {
             "θ"
         } else {
@@ -115,16 +136,53 @@ impl Formulas {
         let slides = self
             .variables
             .iter()
-            .filter(|own| own.kind == JointKind::Prismatic);
-        let plain = slides.filter(|own| own.offset == Offset::None);
-        plain.map(|own| own.joint + 1)
+            .filter(|variable| variable.kind == JointKind::Prismatic);
+        let plain = slides.filter(|variable| variable.offset == Offset::None);
+        plain.map(|variable| variable.joint + 1)
     }
 
-    fn has_turns(&self) -> bool {
-        self.variables
-            .iter()
-            .any(|own| own.kind == JointKind::Revolute)
+    /// True if a line has the sine or the cosine of a multiple of an angle.
+    fn has_multiples(&self) -> bool {
+        let lines = self.sections.iter().flat_map(|section| &section.lines);
+        lines.flat_map(|line| &line.sum).any(has_multiple)
     }
+
+    /// The numbers of the first two joints that turn; of one joint twice the same.
+    fn turning(&self) -> Option<[usize; 2]> {
+        let turning = self
+            .variables
+            .iter()
+            .filter(|variable| variable.kind == JointKind::Revolute);
+        let mut numbers = turning.map(|variable| variable.joint + 1);
+        let first = numbers.next()?;
+        Some([first, numbers.next().unwrap_or(first)])
+    }
+
+    /// True if D, h or c are among the formulas.
+    fn has_coefficients(&self) -> bool {
+        let first = |section: &Section| section.list.as_ref().map(|list| list.name.clone());
+        let names: Vec<String> = self.sections.iter().filter_map(first).collect();
+        ["D", "h", "c"]
+            .iter()
+            .any(|name| names.iter().any(|other| other == name))
+    }
+}
+
+/// Writes a sum as plain text, six digits a number.
+pub fn written(sum: &Sum) -> String {
+    let format = Text {
+        digits: Digits::Six,
+        joins: true,
+    };
+    format.sum(sum)
+}
+
+fn has_multiple(term: &Term) -> bool {
+    term.factors.iter().any(|factor| match factor {
+        Factor::Wave(trig, _) => trig.angle.iter().any(|(multiple, _)| multiple.abs() > 1),
+        Factor::Sum(sum) => sum.iter().any(has_multiple),
+        _ => false,
+    })
 }
 
 fn zeros(section: &Section, format: &impl Format) -> Option<String> {

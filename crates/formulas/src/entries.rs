@@ -1,54 +1,54 @@
-//! The coefficients of the dynamics as polynomials, from the equations of the model.
+//! The coefficients of the dynamics from the equations of the model, over any scalar.
 
 use dalembert_codegen::workspace::{Quantity, Setup, Sizes};
 use dalembert_model::equations::Formulation;
+use dalembert_model::equations::chain::Chain;
 use dalembert_model::equations::chain::composite::{Composite, CompositeOrder};
-use dalembert_model::equations::chain::{Chain, Displacement};
-use dalembert_model::equations::following::gathered_rows;
+use dalembert_model::equations::following::{Following, gathered_rows};
 use dalembert_model::equations::matrix::Columns;
+use dalembert_model::scalar::Scalar;
 
-use crate::arm::SymbolicArm;
+use crate::arm::{PosedChain, SymbolicArm};
 use crate::ring::Polynomial;
 
 /// D_ik, h_ikm and c_i of the joints that results are over.
 #[derive(Clone, Debug)]
-pub struct Coefficients {
+pub struct Coefficients<S> {
     /// n×n, symmetric.
-    pub inertia: Vec<Vec<Polynomial>>,
+    pub inertia: Vec<Vec<S>>,
     /// n×n×n, symmetric in the last two.
-    pub christoffel: Vec<Vec<Vec<Polynomial>>>,
+    pub christoffel: Vec<Vec<Vec<S>>>,
     /// n.
-    pub gravity: Vec<Polynomial>,
+    pub gravity: Vec<S>,
 }
 
-impl Coefficients {
-    /// Computes them from the composite bodies of a chain.
+impl<S: Scalar> Coefficients<S> {
+    /// Computes them from the composite bodies of a chain, whose frames are those of a posed one.
     pub fn new(
         setup: &Setup,
-        arm: &SymbolicArm,
-        chain: &Chain<Polynomial>,
-        at: &[Displacement<Polynomial>],
-        rows: &[usize],
-    ) -> Coefficients {
-        let composite = Composite::new(chain, at);
+        following: &[Following<S>],
+        posed: &PosedChain<S>,
+        chain: &Chain<S>,
+    ) -> Coefficients<S> {
+        let composite = Composite::new(chain, &posed.at);
         let n = setup.rows().len();
         let sizes = Sizes::of(setup.robot());
-        let over = |quantity: Quantity, values: Vec<Polynomial>| {
-            setup.select(quantity, sizes, rows, arm.following(), values)
+        let select = |quantity: Quantity, values: Vec<S>| {
+            setup.select(quantity, sizes, &posed.rows, following, values)
         };
-        let inertia = composite.inertia(CompositeOrder::Inward);
-        let inertia = over(Quantity::Inertia, inertia.into_iter().flatten().collect());
-        let christoffel = composite.christoffel().into_iter().flatten().flatten();
-        let christoffel = over(Quantity::Christoffel, christoffel.collect());
-        let gravity = over(
-            Quantity::Gravity,
-            composite.gravity(CompositeOrder::Outward),
-        );
-        let square = |values: &[Polynomial]| values.chunks(n).map(<[_]>::to_vec).collect();
+        let inertia = composite.inertia(CompositeOrder::Inward).into_iter();
+        let christoffel = composite.christoffel().into_iter().flatten();
+        let square = |values: &[S]| values.chunks(n).map(<[S]>::to_vec).collect();
         Coefficients {
-            inertia: square(&inertia),
-            christoffel: christoffel.chunks(n * n).map(square).collect(),
-            gravity,
+            inertia: square(&select(Quantity::Inertia, inertia.flatten().collect())),
+            christoffel: select(Quantity::Christoffel, christoffel.flatten().collect())
+                .chunks(n * n)
+                .map(square)
+                .collect(),
+            gravity: select(
+                Quantity::Gravity,
+                composite.gravity(CompositeOrder::Outward),
+            ),
         }
     }
 }
@@ -62,13 +62,10 @@ pub fn hand(arm: &SymbolicArm) -> Columns<Polynomial> {
 /// Returns the Jacobian of the hand, 6×n, linear velocity first, in base axes.
 pub fn jacobian(setup: &Setup, arm: &SymbolicArm) -> Vec<Vec<Polynomial>> {
     let at = arm.arm.at(&arm.position);
-    let rows = Formulation::Dalembert.jacobian(&arm.arm, &at);
-    let gathered = gathered_rows(arm.following(), rows);
-    let columns = setup
-        .rows()
-        .iter()
-        .map(|&joint| setup.robot().row_of(joint));
-    let columns: Vec<usize> = columns.collect();
+    let by_rows = Formulation::Dalembert.jacobian(&arm.arm, &at);
+    let gathered = gathered_rows(&arm.arm.following, by_rows);
+    let joints = setup.rows().iter();
+    let columns: Vec<usize> = joints.map(|&joint| setup.robot().row_of(joint)).collect();
     let picked = |row: Vec<Polynomial>| columns.iter().map(|&k| row[k].clone()).collect();
     gathered.into_iter().map(picked).collect()
 }

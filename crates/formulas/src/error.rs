@@ -1,4 +1,4 @@
-//! Why a robot has no formulas.
+//! The reasons why a robot has no formulas.
 
 use std::error::Error;
 use std::fmt;
@@ -29,7 +29,7 @@ impl fmt::Display for FormulaError {
         match self {
             FormulaError::Floating => f.write_str(
                 "formulas are written for a robot that stands on its base, and this base floats\n  \
-                 = help: import it without --floating, or lock the base in a scene: lock_base = true",
+                 = help: import it without --floating, or hold the base in a scene: lock = { base = \"level\" }",
             ),
             FormulaError::ManyJoints(joints) => write!(
                 f,

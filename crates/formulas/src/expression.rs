@@ -70,20 +70,22 @@ pub fn products(sum: &[Term]) -> usize {
 
 /// Writes the factors of a shape.
 pub fn shaped(shape: &Shape, runs: &Runs) -> Vec<Factor> {
-    let slides = shape.slides.iter().zip(&runs.slides);
-    let slides = slides.filter(|(power, _)| **power > 0);
-    let mut factors: Vec<Factor> = slides
+    let mut factors: Vec<Factor> = shape
+        .slides
+        .iter()
+        .zip(&runs.slides)
+        .filter(|(power, _)| **power > 0)
         .map(|(power, joint)| Factor::Symbol(Symbol::indexed("d", joint + 1), *power as u32))
         .collect();
     for (waves, run) in shape.waves.iter().zip(&runs.runs) {
         let mut waves: Vec<_> = waves.iter().collect();
         waves.sort_by_key(|wave| (!wave.is_sine, &wave.multiples));
         for group in waves.chunk_by(|a, b| a == b) {
-            let angle = group[0].multiples.iter().zip(run);
-            let angle = angle.filter(|(multiple, _)| **multiple != 0);
+            let multiples = group[0].multiples.iter().zip(run);
             let trig = Trig {
                 is_sine: group[0].is_sine,
-                angle: angle
+                angle: multiples
+                    .filter(|(multiple, _)| **multiple != 0)
                     .map(|(multiple, joint)| (*multiple, joint + 1))
                     .collect(),
             };
@@ -95,8 +97,8 @@ pub fn shaped(shape: &Shape, runs: &Runs) -> Vec<Factor> {
 
 /// Writes an entry whose coefficients are numbers.
 pub fn with_numbers(terms: &Terms, runs: &Runs) -> Sum {
-    let largest = terms.values().flat_map(Form::values).map(Number::magnitude);
-    let largest = largest.fold(0.0, f64::max);
+    let sizes = terms.values().flat_map(Form::values).map(Number::magnitude);
+    let largest = sizes.fold(0.0, f64::max);
     let term = |(shape, form): (&Shape, &Form)| {
         let value = form.values().fold(Number::zero(), |sum, x| sum.add(x));
         if value.is_negligible(largest) {
@@ -123,7 +125,7 @@ pub fn by_symbols(terms: &Terms, runs: &Runs, name: impl Fn(Symbols) -> Vec<Fact
     let mut groups: Vec<(Symbols, Vec<(&Shape, Number)>)> = Vec::new();
     for (shape, form) in terms {
         for (symbols, x) in form {
-            match groups.iter_mut().find(|(own, _)| own == symbols) {
+            match groups.iter_mut().find(|(known, _)| known == symbols) {
                 Some((_, group)) => group.push((shape, *x)),
                 None => groups.push((*symbols, vec![(shape, *x)])),
             }
@@ -162,7 +164,7 @@ pub fn collected(sum: Sum) -> Sum {
         } else {
             number
         };
-        match sums.iter_mut().find(|(own, _)| *own == symbols) {
+        match sums.iter_mut().find(|(known, _)| *known == symbols) {
             Some((_, sum)) => *sum = sum.add(&number),
             None => sums.push((symbols, number)),
         }

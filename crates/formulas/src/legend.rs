@@ -56,19 +56,50 @@ impl Legend {
         }
     }
 
-    /// The meaning of the file's symbols.
-    pub(crate) fn title_of_groups(&self) -> &'static str {
-        match self.is_placed {
-            false => {
-                "Entries of the robot file, in m, kg, kg m² and m/s²: a and d of a row, mass m; centre of \
-                 mass x̄, ȳ, z̄ in the frame of the link, moments of inertia I about it, armature Ia; tool tx, \
-                 ty, tz and base bx, by, bz"
-            }
+    /// The meaning of the file's symbols that occur.
+    pub(crate) fn title_of_groups(&self) -> String {
+        let frame = match self.is_placed {
+            false => "x̄, ȳ, z̄ centre of mass in the frame of the link",
             true => {
-                "Entries of the robot file, in m, kg, kg m² and m/s²: origin px, py, pz in the frame of the link \
-                 before, mass m; centre of mass x̄, ȳ, z̄ in the frame of the link, moments of inertia I about \
-                 it, armature Ia; each frame is turned until its z is the axis of its joint"
+                "x̄, ȳ, z̄ centre of mass in the frame of the link, turned until its z is the axis of the joint"
             }
-        }
+        };
+        let meanings = [
+            (&["g", "gx", "gy", "gz"][..], "g gravity"),
+            (&["a"], "a length of the row"),
+            (&["d"], "d offset of the row"),
+            (
+                &["px", "py", "pz"],
+                "px, py, pz origin of the joint in the frame of the link before, turned in the same way",
+            ),
+            (&["m"], "m mass"),
+            (&["x", "y", "z"], frame),
+            (&["I"], "I moment of inertia about the centre of mass"),
+            (&["Ia"], "Ia armature"),
+            (&["tx", "ty", "tz"], "tx, ty, tz place of the tool"),
+            (&["bx", "by", "bz"], "bx, by, bz place of the base"),
+        ];
+        let occurs = |letters: &&str| {
+            let mut entries = self.groups.iter().flat_map(|group| &group.entries);
+            entries.any(|entry| kind(&entry.symbol.code) == **letters)
+        };
+        let phrases = meanings
+            .into_iter()
+            .filter(|(letters, _)| letters.iter().any(occurs));
+        let phrases: Vec<&str> = phrases.map(|(_, phrase)| phrase).collect();
+        format!(
+            "Entries of the robot file: in m, kg, kg m² and m/s²; {}",
+            phrases.join("; ")
+        )
+    }
+}
+
+/// Returns the letters of an identifier: `I` of `I2zz`, `Ia` of `I2a`.
+fn kind(code: &str) -> String {
+    let letters: String = code.chars().filter(|c| c.is_alphabetic()).collect();
+    match letters.strip_prefix('I') {
+        Some("a") => "Ia".to_owned(),
+        Some(_) => "I".to_owned(),
+        None => letters,
     }
 }

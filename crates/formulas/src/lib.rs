@@ -33,7 +33,9 @@
 
 mod arm;
 mod bodies;
+mod builder;
 mod canonical;
+pub mod couplings;
 mod document;
 mod entries;
 mod error;
@@ -41,19 +43,21 @@ mod expression;
 mod formulas;
 mod legend;
 mod line;
+mod lists;
 mod names;
 mod naming;
 mod number;
 mod quantity;
 mod ring;
 mod rows;
+mod runs;
 mod symbol;
 mod write;
 
 pub use arm::{Offset, Variable};
-pub use document::Layout;
+pub use document::{Layout, written};
 pub use error::FormulaError;
-pub use expression::products;
+pub use expression::{Factor, Sum, Term, Trig, products};
 pub use formulas::{Formulas, Request, Style};
 pub use legend::{Entry, Group, Legend};
 pub use line::{Line, List, Section};

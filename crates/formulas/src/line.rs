@@ -34,6 +34,6 @@ pub struct List {
     pub name: String,
     /// The entries in the order of their indices.
     pub entries: Vec<Symbol>,
-    /// How many entries the list has at each depth.
+    /// The number of entries at each depth.
     pub lengths: Vec<usize>,
 }

@@ -46,8 +46,8 @@ impl Naming {
         if naming.lengths.len() > MAX_LENGTHS {
             return Err(FormulaError::ManyLengths(naming.lengths.len()));
         }
-        let centres = arm.links.iter().flat_map(|link| &link.com);
-        let centres = centres.filter(|entry| !entry.is_zero()).count();
+        let coordinates = arm.links.iter().flat_map(|link| &link.com);
+        let centres = coordinates.filter(|entry| !entry.is_zero()).count();
         naming.has_numeric_centres = naming.lengths.len() + centres > MAX_LENGTHS;
         for (row, link) in arm.links.iter_mut().enumerate() {
             let number = row + 1;

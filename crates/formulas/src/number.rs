@@ -1,15 +1,15 @@
 //! A coefficient known twice: by a residue, which decides if it is zero, and by a value of 256 bits,
 //! which is printed.
 
-use dalembert_model::number::parse::{parse_decimal, write_decimal};
+use dalembert_model::number::parse::write_decimal;
+use dalembert_model::number::recover::recovered;
 use dalembert_model::number::{Angle, Exact, Rational, Wide};
 use dalembert_model::scalar::field::{Field, Points};
 use dalembert_model::scalar::{Scalar, SinCosPair};
 use num_bigint::BigInt;
 
 const SEED: u64 = 0x666f_726d;
-const SMALL_DENOMINATORS: i64 = 64;
-const PLACES: u32 = 30;
+const PLACES: u32 = 36;
 
 /// A real number with its residue modulo 2⁶¹ − 1.
 ///
@@ -82,23 +82,13 @@ impl Number {
         })
     }
 
-    /// Returns the fraction that it is, if that has a small denominator or is a decimal of at most 30
+    /// Returns the fraction that it is, if that has a denominator below 2⁹⁰ or is a decimal of at most 36
     /// places. The residue decides.
     pub fn to_fraction(self) -> Option<Rational> {
         let is_it = |x: &Rational| Field::from_rational(x) == Some(self.residue);
-        let value = self.to_f64();
-        if value.abs() < 1e15 {
-            let over = |denominator: i64| {
-                let numerator = (value * denominator as f64).round() as i64;
-                Rational::new(numerator.into(), denominator.into())
-            };
-            if let Some(fraction) = (1..=SMALL_DENOMINATORS).map(over).find(is_it) {
-                return Some(fraction);
-            }
-        }
-        let shortest = parse_decimal(&format!("{value:e}")).ok();
-        if let Some(decimal) = shortest.filter(is_it) {
-            return Some(decimal);
+        let simple = recovered(&self.value, &Rational::from_integer(1.into()));
+        if is_it(&simple) {
+            return Some(simple);
         }
         let scale = Rational::from_integer(BigInt::from(10).pow(PLACES));
         Some((self.to_rational() * &scale).round() / scale).filter(is_it)
@@ -210,7 +200,14 @@ impl Constants {
             if let Some((_, pair)) = angles.iter().find(|(known, _)| known == angle) {
                 return pair.clone();
             }
-            let (sin, cos) = points.circle();
+            // Of an eighth of a turn both are √½, which the field has: 2³⁰.
+            let eighth = Angle::PiTimes(Rational::new(1.into(), 4.into()));
+            let root = Field::new(1 << 30);
+            let (sin, cos) = if *angle == eighth {
+                (root, root)
+            } else {
+                points.circle()
+            };
             angles.push((angle.clone(), SinCosPair { sin, cos }));
             SinCosPair { sin, cos }
         };
@@ -256,7 +253,7 @@ mod tests {
     #[test]
     fn fractions_are_confirmed_by_the_residue() {
         assert_eq!(number(22, 7).to_fraction(), Some(ratio(22, 7)));
-        assert_eq!(number(355, 113).to_fraction(), None);
+        assert_eq!(number(7, 300).to_fraction(), Some(ratio(7, 300)));
         let decimal = ratio(-123_456_789_123, 1_000_000_000_000);
         let square = number(-123_456_789_123, 1_000_000_000_000);
         let square = square.mul(&square);
@@ -265,6 +262,10 @@ mod tests {
         let odd = Constants::new().number(&pair.sin);
         assert_eq!(odd.to_fraction(), None);
         assert_eq!(odd.rounded(6), "0.866025");
+        let eighth = Exact::sincos(&Angle::PiTimes(ratio(1, 4)));
+        let mut constants = Constants::new();
+        let [sin, cos] = [&eighth.sin, &eighth.cos].map(|x| constants.number(x));
+        assert!(sin.sub(&cos).is_zero() && sin.mul(&sin).double().is_one());
         assert_eq!(Number::of_dyadic(-0.375), number(-3, 8));
     }
 }

@@ -69,6 +69,18 @@ impl Symbols {
         all.filter(|(_, power)| *power > 0)
     }
 
+    /// Returns the power of one symbol, and the product of the others.
+    pub fn without(self, symbol: Symbols) -> (usize, Symbols) {
+        match symbol.parameter_index() {
+            Some(index) if self.parameter_index() == Some(index) => (1, Symbols(self.0 - symbol.0)),
+            Some(_) => (0, self),
+            None => {
+                let power = (self.0 / symbol.0) & 3;
+                (power as usize, Symbols(self.0 - power * symbol.0))
+            }
+        }
+    }
+
     /// Returns the product of two.
     #[must_use]
     pub fn times(self, other: Symbols) -> Symbols {

@@ -15,7 +15,8 @@ use dalembert_model::equations::chain::Chain;
 use dalembert_model::equations::chain::composite::Composite;
 use dalembert_model::scalar::Scalar;
 
-use crate::arm::SymbolicChain;
+use crate::arm::PosedChain;
+use crate::bodies::{MOMENTS, moments_of};
 use crate::expression::{Factor, Sum, Term, collected};
 use crate::number::Number;
 use crate::ring::Polynomial;
@@ -53,22 +54,8 @@ impl Moments {
         factor: impl Fn(&Polynomial) -> Option<(bool, Factor)>,
     ) -> Moments {
         let links = bodies.links.iter().map(|link| {
-            let body = &link.body;
-            let tensor = body.tensor();
-            let all = [
-                ("M", &body.mass),
-                ("MX", &body.first[0]),
-                ("MY", &body.first[1]),
-                ("MZ", &body.first[2]),
-                ("XX", &tensor.xx),
-                ("ZZ", &tensor.zz),
-                ("XY", &tensor.xy),
-                ("XZ", &tensor.xz),
-                ("YZ", &tensor.yz),
-            ];
-            let written = all
-                .into_iter()
-                .filter_map(|(name, value)| Some((name, factor(value)?)));
+            let moments = MOMENTS.into_iter().zip(moments_of(&link.body));
+            let written = moments.filter_map(|(name, value)| Some((name, factor(&value)?)));
             written.collect()
         });
         let armatures = bodies
@@ -97,10 +84,10 @@ impl Moments {
                 }
                 _ => (false, vec![Factor::Sum(sum)]),
             };
-            let is_number = |own: &Factor| matches!(own, Factor::Exact(_));
-            let numbers = factors.iter().filter(|own| is_number(own)).cloned();
+            let is_number = |factor: &Factor| matches!(factor, Factor::Exact(_));
+            let numbers = factors.iter().filter(|factor| is_number(factor)).cloned();
             let mut all: Vec<Factor> = numbers.chain([factor.clone()]).collect();
-            all.extend(factors.iter().filter(|own| !is_number(own)).cloned());
+            all.extend(factors.iter().filter(|factor| !is_number(factor)).cloned());
             weighed.push(Term::new(sign != *is_negative, all));
         }
         weighed
@@ -121,7 +108,7 @@ pub struct Rows<'a> {
 
 impl<'a> Rows<'a> {
     /// Makes the rows of a chain, whose coordinates drive these links.
-    pub fn new(chain: &'a SymbolicChain, driven: Vec<Vec<(usize, Number)>>) -> Rows<'a> {
+    pub fn new(chain: &'a PosedChain<Polynomial>, driven: Vec<Vec<(usize, Number)>>) -> Rows<'a> {
         let frames = &chain.chain;
         let mut gravity: Vec<[Polynomial; 3]> = Vec::new();
         for (link, at) in frames.links.iter().zip(&chain.at) {
@@ -224,8 +211,8 @@ impl<'a> Rows<'a> {
         for (a, x) in self.driven[i].clone() {
             for (b, y) in self.driven[k].clone() {
                 for (c, z) in self.driven[m].clone() {
-                    let own = self.christoffel_of(of, [a, b.min(c), b.max(c)]);
-                    sum.extend(scaled(own, &x.mul(&y).mul(&z)));
+                    let part = self.christoffel_of(of, [a, b.min(c), b.max(c)]);
+                    sum.extend(scaled(part, &x.mul(&y).mul(&z)));
                 }
             }
         }
@@ -247,8 +234,8 @@ impl<'a> Rows<'a> {
             let [w, v] = [self.turn(s, i), self.shift(s, i)];
             let [x, y] = [self.turn(s, k), self.shift(s, k)];
             let mut firsts = cross_products(&v, &x);
-            for (own, other) in firsts.iter_mut().zip(cross_products(&y, &w)) {
-                own.extend(other);
+            for (products, other) in firsts.iter_mut().zip(cross_products(&y, &w)) {
+                products.extend(other);
             }
             sum.extend(of.weighed(
                 s,
@@ -278,8 +265,8 @@ impl<'a> Rows<'a> {
             let [b_km, b_ki] = [self.bent(s, k, m), self.bent(s, k, i)];
             let u = self.cross("u", &[s, m, i], [&w_m, &w_i]);
             let mut firsts = cross_products(&w_m, &b_ki);
-            for (own, other) in firsts.iter_mut().zip(cross_products(&b_km, &w_i)) {
-                own.extend(other);
+            for (products, other) in firsts.iter_mut().zip(cross_products(&b_km, &w_i)) {
+                products.extend(other);
             }
             let term = |a: usize, b: usize, factor: &Number| product(factor, [&u[a], &w_k[b]]);
             sum.extend(of.weighed(s, seconds(dot_products(&v_i, &b_km), firsts, term)));
@@ -390,7 +377,7 @@ fn moments(
     ]
 }
 
-/// The same, of ½ tr(I) 1 − I between two vectors.
+/// Lists them of the tensor ½ tr(I) 1 − I.
 fn seconds(
     mass: Sum,
     [x, y, z]: [Sum; 3],

@@ -115,7 +115,7 @@ pub(crate) trait Format {
     }
 }
 
-/// How many digits a number that was measured has.
+/// The digits of a number that was measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Digits {
     /// Six, for reading.

@@ -19,6 +19,8 @@ use dalembert_model::reference::{Reference, WrongLength};
 use dalembert_model::robot::{Convention, JointKind, Robot};
 use nalgebra::DVector;
 
+pub(crate) use table::lines;
+
 use page::View;
 use paper::Paper;
 

@@ -9,7 +9,8 @@ use dalembert_model::robot::{
 
 use crate::report::{Cell, Table};
 
-pub(super) fn lines(robot: &Robot, q: &[f64]) -> Vec<String> {
+/// Lists the rows of the robot, and what is wrong with its bodies.
+pub(crate) fn lines(robot: &Robot, q: &[f64]) -> Vec<String> {
     let convention = match robot.convention {
         _ if robot.is_tree() => "joints are placed on the links that carry them",
         Convention::Standard => "standard DH",

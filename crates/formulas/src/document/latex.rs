@@ -1,24 +1,25 @@
 //! A LaTeX document.
 
-use super::{BASE_PARAMETERS, CONSTANTS, SMALL, signed, value, zeros};
+use super::{BASE_PARAMETERS, CONSTANTS, signed, value, zeros};
 use crate::formulas::Formulas;
 use crate::legend::Entry;
 use crate::write::{Format, Latex};
 
 const HEAD: &str = "\\documentclass{article}\n\\usepackage{amsmath}\n\\usepackage[margin=15mm]{geometry}\n\
-                    \\sloppy\\setlength\\parindent{0pt}\\setlength\\parskip{2pt}\n\\begin{document}\n\
+                    \\raggedright\\setlength\\parindent{0pt}\\setlength\\parskip{2pt}\n\\begin{document}\n\
                     \\relpenalty=10000\\binoppenalty=0\n";
 
 impl Formulas {
     pub(super) fn latex(&self, format: &Latex) -> String {
         let mut text = String::from(HEAD);
-        text += &format!("\\section*{{{}}}\n", prose(&self.robot));
+        text += &format!("\\section*{{{}}}\n", plain(&self.robot));
         text += &format!("{}.\n", self.variables_in_latex().join(", "));
+        if self.has_coefficients() {
+            text += "\nThe equations of motion are $\\tau_i = \\sum_k D_{ik}\\,\\ddot q_k + \\sum_k\\sum_m h_{ikm}\\,\\dot \
+                     q_k\\,\\dot q_m + c_i$ with $h_{ikm} = h_{imk}$: a pair $k < m$ counts twice.\n";
+        }
         if self.has_small_terms() {
-            text += &format!(
-                "{}: in braces.\n",
-                prose(SMALL.split_once(": ").map_or("", |own| own.1))
-            );
+            text += "\nTerms below 1/1000 of the largest of a line are in braces at its end.\n";
         }
         if self.legend.has_numeric_centres {
             text += "Centres of mass are numbers: there are too many of them for symbols.\n";
@@ -41,17 +42,20 @@ impl Formulas {
         ];
         for (title, entries, gap) in sums {
             if !entries.is_empty() {
-                let lines = entries.iter().map(|entry| defined(entry, format));
-                let lines: Vec<String> = lines.collect();
+                let lines: Vec<String> =
+                    entries.iter().map(|entry| defined(entry, format)).collect();
                 text += &format!("{}{}.\n", heading(title), lines.join(gap));
             }
         }
         if !legend.groups.is_empty() {
-            text += &heading(legend.title_of_groups());
+            text += &heading(&legend.title_of_groups());
             for group in &legend.groups {
-                let entries = group.entries.iter().map(|entry| defined(entry, format));
-                let entries: Vec<String> = entries.collect();
-                text += &format!("{}: {}\\par\n", prose(&group.label), entries.join(", "));
+                let entries: Vec<String> = group
+                    .entries
+                    .iter()
+                    .map(|entry| defined(entry, format))
+                    .collect();
+                text += &format!("{}: {}\\par\n", plain(&group.label), entries.join(", "));
             }
         }
         text + "\\end{document}\n"
@@ -59,19 +63,27 @@ impl Formulas {
 
     fn variables_in_latex(&self) -> Vec<String> {
         let mut parts = Vec::new();
-        if self.has_turns() {
+        if let Some([first, second]) = self.turning() {
             let angle = if self.angle() == "θ" { "\\theta" } else { "q" };
-            parts.push(format!("$\\mathrm{{S}}_1 = \\sin {angle}_1$"));
             parts.push(format!(
-                "$\\mathrm{{C}}_{{12}} = \\cos({angle}_1 + {angle}_2)$"
+                "$\\mathrm{{S}}_{{{first}}} = \\sin {angle}_{{{first}}}$"
             ));
+            if first != second {
+                let sum = format!("{angle}_{{{first}}} + {angle}_{{{second}}}");
+                let gap = if self.joints < 10 { "" } else { "+" };
+                parts.push(format!(
+                    "$\\mathrm{{C}}_{{{first}{gap}{second}}} = \\cos({sum})$"
+                ));
+            }
         }
-        let offsets = self.offsets("θ", |own| {
-            signed(&own.to_string().replace("pi", "\\pi ").replace('*', "\\,"))
+        let offsets = self.offsets("θ", |turn| {
+            signed(&turn.to_string().replace("pi", "\\pi ").replace('*', "\\,"))
         });
-        let slides = self.plain_slides().map(|own| format!("d{own} = q{own}"));
-        for own in offsets.into_iter().chain(slides) {
-            let Some((left, right)) = own.split_once(" = q") else {
+        let slides = self
+            .plain_slides()
+            .map(|slide| format!("d{slide} = q{slide}"));
+        for line in offsets.into_iter().chain(slides) {
+            let Some((left, right)) = line.split_once(" = q") else {
                 continue;
             };
             let digits = right.find(' ').unwrap_or(right.len());
@@ -104,17 +116,34 @@ fn heading(title: &str) -> String {
     }
 }
 
-/// Writes words of a heading or a legend.
+/// Writes words of a heading or a legend; `D_ik` and `D^rot_ik` are mathematics.
 fn prose(text: &str) -> String {
+    let words = text.split(' ').map(|word| {
+        let end = word.trim_end_matches([',', ':', ';', '.']).len();
+        let (symbol, end) = word.split_at(end);
+        match symbol.split_once('_') {
+            Some((letters, indices)) if letters.chars().all(|c| c.is_alphabetic() || c == '^') => {
+                let letters = match letters.split_once('^') {
+                    Some((letter, mark)) => format!("{letter}^{{\\mathrm{{{mark}}}}}"),
+                    None => letters.replace('τ', "\\tau"),
+                };
+                format!("${letters}_{{{indices}}}${end}")
+            }
+            _ => plain(word),
+        }
+    });
+    words.collect::<Vec<String>>().join(" ")
+}
+
+/// Writes words without mathematics.
+fn plain(text: &str) -> String {
     let mut latex = String::new();
     for c in text.chars() {
         match c {
             '_' => latex += "\\_",
-            '^' => latex += "\\^{}",
             '≤' => latex += "$\\le$",
             '−' => latex += "$-$",
             '²' => latex += "$^2$",
-            'τ' => latex += "$\\tau$",
             '×' => latex += "$\\times$",
             'ȳ' => latex += "$\\bar y$",
             // A combining macron belongs to the letter before it.

@@ -7,6 +7,7 @@ use dalembert_model::robot::JointKind;
 use super::value;
 use crate::arm::Offset;
 use crate::formulas::Formulas;
+use crate::legend::Entry;
 use crate::line::List;
 use crate::write::{Format, Python};
 
@@ -18,22 +19,22 @@ impl Formulas {
             self.robot
         );
         for letter in ["q", "dq", "ddq"] {
-            let names = self
-                .variables
-                .iter()
-                .map(|own| format!("{letter}{}", own.joint + 1));
-            let names: Vec<String> = names.collect();
-            let (left, right) = (names.join(", "), names.join(" "));
-            text += &format!("{left}, = symbols('{right}', real=True, seq=True)\n");
+            let names = self.variables.iter();
+            text += &declared(
+                names
+                    .map(|variable| format!("{letter}{}", variable.joint + 1))
+                    .collect(),
+            );
         }
-        for own in &self.variables {
-            let number = own.joint + 1;
-            let letter = if own.kind == JointKind::Revolute {
+        text += "# θ and d of the table: positions with their offsets.\n";
+        for variable in &self.variables {
+            let number = variable.joint + 1;
+            let letter = if variable.kind == JointKind::Revolute {
                 "t"
             } else {
                 "d"
             };
-            let offset = match &own.offset {
+            let offset = match &variable.offset {
                 Offset::None => String::new(),
                 Offset::Angle(angle) => format!(" + {}", python_angle(angle)),
                 Offset::Length(length) => format!(" + {}", python_number(length)),
@@ -42,12 +43,17 @@ impl Formulas {
         }
         let legend = &self.legend;
         let of_file = legend.groups.iter().flat_map(|group| &group.entries);
-        for entry in of_file.chain(&legend.parameters).chain(&legend.constants) {
-            let right = match entry.sum.is_empty() {
-                true => value(entry, &format),
-                false => format.sum(&entry.sum),
-            };
-            text += &format!("{} = {right}\n", entry.symbol.code);
+        let symbols: Vec<&Entry> = of_file
+            .chain(&legend.parameters)
+            .chain(&legend.constants)
+            .collect();
+        if !symbols.is_empty() {
+            text += &declared(
+                symbols
+                    .iter()
+                    .map(|entry| entry.symbol.code.clone())
+                    .collect(),
+            );
         }
         for section in &self.sections {
             text += &format!("\n# {}\n", section.title);
@@ -66,8 +72,25 @@ impl Formulas {
                 text += &format!("{} = {}\n", list.name, nested(list, 0, 0).0);
             }
         }
-        text
+        if symbols.is_empty() {
+            return text;
+        }
+        text += "\n# The symbols in other symbols, and their values: D[0][0].subs(values).\ndefinitions = {\n";
+        for entry in symbols.iter().filter(|entry| !entry.sum.is_empty()) {
+            text += &format!("    {}: {},\n", entry.symbol.code, format.sum(&entry.sum));
+        }
+        text += "}\nvalues = {\n";
+        for entry in &symbols {
+            text += &format!("    {}: {},\n", entry.symbol.code, value(entry, &format));
+        }
+        text + "}\n"
     }
+}
+
+/// Writes the declaration of symbols.
+fn declared(names: Vec<String>) -> String {
+    let (left, right) = (names.join(", "), names.join(" "));
+    format!("[{left}] = symbols('{right}', real=True, seq=True)\n")
 }
 
 fn python_number(value: &Rational) -> String {

@@ -3,7 +3,7 @@
 use super::{BASE_PARAMETERS, CONSTANTS, SMALL, signed, value, zeros};
 use crate::formulas::Formulas;
 use crate::legend::Entry;
-use crate::write::{Format, Text};
+use crate::write::{Digits, Format, Text};
 
 impl Formulas {
     pub(super) fn text(&self, format: &Text) -> String {
@@ -27,10 +27,13 @@ impl Formulas {
             }
         }
         if !self.legend.groups.is_empty() {
-            text += &format!("\n{}\n", self.legend.title_of_groups());
+            text += &format!("\n{}\n", &self.legend.title_of_groups());
             for group in &self.legend.groups {
-                let entries = group.entries.iter().map(|entry| defined(entry, format));
-                let entries: Vec<String> = entries.collect();
+                let entries: Vec<String> = group
+                    .entries
+                    .iter()
+                    .map(|entry| defined(entry, format))
+                    .collect();
                 text += &format!("{}: {}\n", group.label, entries.join(", "));
             }
         }
@@ -38,15 +41,22 @@ impl Formulas {
     }
 
     pub(super) fn markdown(&self, format: &Text) -> String {
-        let mut text = format!("# {}\n\n", self.robot.replace('_', "\\_"));
-        for note in self.notes() {
-            text += &format!("- {note}\n");
-        }
-        text + &self.tables(format, 2)
+        let title = self.robot.replace('_', "\\_");
+        format!("# {title}\n\n{}", self.notes_and_tables(format, 2))
     }
 
-    /// Writes formulas and legend as tables of Markdown, below headings of a level.
-    pub(crate) fn tables(&self, format: &Text, level: usize) -> String {
+    /// Writes formulas and legend as Markdown, below headings of a level.
+    pub fn in_markdown(&self, level: usize, digits: Digits) -> String {
+        let joins = self.joints < 10;
+        self.notes_and_tables(&Text { digits, joins }, level)
+    }
+
+    fn notes_and_tables(&self, format: &Text, level: usize) -> String {
+        let notes = self.notes().into_iter().map(|note| format!("- {note}\n"));
+        notes.collect::<String>() + &self.tables(format, level)
+    }
+
+    fn tables(&self, format: &Text, level: usize) -> String {
         let head = "#".repeat(level);
         let mut text = String::new();
         let mut table = |title: &str, columns: [&str; 2], rows: Vec<[String; 2]>| {
@@ -54,7 +64,7 @@ impl Formulas {
             let title = title.replace('_', "\\_").replace('^', "\\^");
             let (title, below) = match title.split_once(": ") {
                 Some((title, below)) if below.len() > 60 => {
-                    (title.to_owned(), format!("{below}.\n\n"))
+                    (title.to_owned(), format!("{}.\n\n", capital(below)))
                 }
                 _ => (title, String::new()),
             };
@@ -72,24 +82,27 @@ impl Formulas {
             if let Some(zeros) = zeros(section, format) {
                 rows.push([zeros, "0".to_owned()]);
             }
-            table(&section.title, ["entry", "is"], rows);
+            table(&section.title, ["coefficient", "value"], rows);
         }
         for (title, entries) in self.sums() {
             let rows = entries.iter().map(|entry| {
                 let right = format!("{} = {}", format.sum(&entry.sum), value(entry, format));
                 [format.symbol(&entry.symbol), right]
             });
-            table(title, ["symbol", "is"], rows.collect());
+            table(title, ["symbol", "value"], rows.collect());
         }
         if !self.legend.groups.is_empty() {
             let rows = self.legend.groups.iter().map(|group| {
-                let entries = group.entries.iter().map(|entry| defined(entry, format));
-                let entries: Vec<String> = entries.collect();
+                let entries: Vec<String> = group
+                    .entries
+                    .iter()
+                    .map(|entry| defined(entry, format))
+                    .collect();
                 [group.label.clone(), entries.join(", ")]
             });
             table(
-                self.legend.title_of_groups(),
-                ["of", "entries"],
+                &self.legend.title_of_groups(),
+                ["joint", "values"],
                 rows.collect(),
             );
         }
@@ -97,22 +110,40 @@ impl Formulas {
     }
 
     /// Lists what a reader has to know before the first line.
-    pub(crate) fn notes(&self) -> Vec<String> {
+    fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
-        if self.has_turns() {
+        if self.has_coefficients() {
+            notes.push(
+                "τ_i = Σ_k D_ik q̈_k + Σ_k Σ_m h_ikm q̇_k q̇_m + c_i, h_ikm = h_imk: a pair k < m counts twice"
+                    .to_owned(),
+            );
+        }
+        if let Some([first, second]) = self.turning() {
             let angle = self.angle();
-            let sum = if self.joints < 10 { "12" } else { "(1+2)" };
+            let sum = match (first == second, self.joints < 10) {
+                (true, _) => format!("C{first} = cos {angle}{first}"),
+                (false, true) => {
+                    format!("C{first}{second} = cos({angle}{first} + {angle}{second})")
+                }
+                (false, false) => {
+                    format!("C({first}+{second}) = cos({angle}{first} + {angle}{second})")
+                }
+            };
+            let double = match self.has_multiples() {
+                true => format!(", C(2·{second}) = cos(2·{angle}{second})"),
+                false => String::new(),
+            };
             notes.push(format!(
-                "S1 = sin {angle}1, C{sum} = cos({angle}1 + {angle}2)"
+                "S and C are sine and cosine of sums of angles: {sum}{double}"
             ));
-            let offsets = self.offsets("θ", |own| signed(&own.to_string().replace("pi", "π")));
+            let offsets = self.offsets("θ", |turn| signed(&turn.to_string().replace("pi", "π")));
             if !offsets.is_empty() {
                 notes.push(offsets.join(", "));
             }
         }
         let slides: Vec<String> = self
             .plain_slides()
-            .map(|own| format!("d{own} = q{own}"))
+            .map(|slide| format!("d{slide} = q{slide}"))
             .collect();
         if !slides.is_empty() {
             notes.push(slides.join(", "));
@@ -137,6 +168,17 @@ impl Formulas {
         all.into_iter()
             .filter(|(_, entries)| !entries.is_empty())
             .collect()
+    }
+}
+
+/// Begins a sentence; symbols stay as they are.
+fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    let first = letters.next();
+    let is_word = letters.clone().next().is_some_and(char::is_alphabetic);
+    match first.filter(|_| is_word) {
+        Some(first) => first.to_uppercase().chain(letters).collect(),
+        None => words.to_owned(),
     }
 }
 

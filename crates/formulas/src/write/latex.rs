@@ -25,7 +25,7 @@ impl Format for Latex {
     fn number(&self, number: &Number) -> String {
         let text = self.digits.write(number);
         match text.split_once('e') {
-            Some((mantissa, exponent)) => format!("{mantissa}\\cdot 10^{{{exponent}}}"),
+            Some((mantissa, exponent)) => format!("{mantissa}{{\\cdot}}10^{{{exponent}}}"),
             None => text,
         }
     }

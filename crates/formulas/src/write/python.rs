@@ -23,7 +23,7 @@ impl Format for Python {
         let exact = number.to_fraction();
         match exact.as_ref().and_then(write_decimal) {
             Some(decimal) => format!("R('{decimal}')"),
-            None => match exact.filter(|exact| exact.denom().bits() <= 64) {
+            None => match exact {
                 Some(exact) => format!("R({}, {})", exact.numer(), exact.denom()),
                 None => number.digits(),
             },

@@ -1,5 +1,6 @@
 //! One program of all test files.
 
+mod couplings;
 #[path = "../../../../codegen/tests/support/draw.rs"]
 #[allow(dead_code)]
 mod draw;

@@ -27,15 +27,24 @@ impl Module {
             lines: Vec::new(),
         };
         module.place("pi");
-        for line in text.lines() {
+        // Values first: what they are of is used before them.
+        let (formulas, values) = text.split_once("values = {").unwrap_or((text, ""));
+        for line in values.lines() {
+            if let Some((name, right)) = line.trim().trim_end_matches(',').split_once(": ") {
+                module.assign(name, right);
+            }
+        }
+        for line in formulas.lines().filter(|line| !line.starts_with(' ')) {
             let is_code = !line.starts_with('#') && !line.starts_with("from");
             let Some((name, right)) = line.split_once(" = ").filter(|_| is_code) else {
                 continue;
             };
             if right.starts_with("symbols(") {
-                for name in name.split(", ") {
-                    module.place(name.trim_matches(','));
+                for name in name.trim_matches(['[', ']']).split(", ") {
+                    module.place(name);
                 }
+            } else if right == "{" {
+                continue;
             } else if right.starts_with('[') {
                 let entries = right.split(|c: char| "[], ".contains(c));
                 for (place, entry) in entries.filter(|own| !own.is_empty()).enumerate() {
@@ -44,19 +53,23 @@ impl Module {
                     module.lines.push((to, vec![Step::Load(from)]));
                 }
             } else {
-                let mut steps = Vec::new();
-                let mut reader = Reader {
-                    rest: right,
-                    places: &module.places,
-                    steps: &mut steps,
-                };
-                reader.sum();
-                assert!(reader.rest.is_empty(), "{line}");
-                let to = module.place(name);
-                module.lines.push((to, steps));
+                module.assign(name, right);
             }
         }
         module
+    }
+
+    fn assign(&mut self, name: &str, right: &str) {
+        let mut steps = Vec::new();
+        let mut reader = Reader {
+            rest: right,
+            places: &self.places,
+            steps: &mut steps,
+        };
+        reader.sum();
+        assert!(reader.rest.is_empty(), "{name} = {right}");
+        let to = self.place(name);
+        self.lines.push((to, steps));
     }
 
     fn place(&mut self, name: &str) -> usize {

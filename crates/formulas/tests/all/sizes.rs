@@ -1,4 +1,4 @@
-//! How many terms formulas have, and how they read.
+//! The number of terms of formulas, and their text.
 
 use dalembert_codegen::workspace::Word;
 use dalembert_formulas::{Digits, Formulas, Layout, Quantity, Request, Style};

@@ -1,4 +1,4 @@
-//! What the printed SymPy text gives is what the runtime gives: D, h_ikm, c_i and everything else.
+//! The printed SymPy text gives the runtime's values: D, h_ikm, c_i and everything else.
 
 use std::collections::HashMap;
 use std::fs;

@@ -1,0 +1,83 @@
+//! The symbols that formulas have, and what they mean.
+
+use std::collections::BTreeSet;
+
+use super::{Builder, OF_FILE};
+use crate::expression::{Factor, Term};
+use crate::legend::{Entry, Legend};
+use crate::line::Section;
+use crate::names::{SharedConstants, form_of};
+
+impl Builder<'_> {
+    /// Lists the symbols that occur, constants first, then base parameters, then the file's.
+    pub(super) fn legend(&self, sections: &[Section]) -> Legend {
+        let mut legend = Legend::default();
+        let mut seen: BTreeSet<String> = BTreeSet::new();
+        for line in sections.iter().flat_map(|section| &section.lines) {
+            see(&line.sum, &mut seen);
+        }
+        let names = self.names(self.constants_table());
+        for (place, form) in self.shared.forms.iter().enumerate() {
+            let sum = names.form(form);
+            see(&sum, &mut seen);
+            legend.constants.push(Entry {
+                symbol: SharedConstants::symbol(place),
+                sum,
+                value: names.value(form),
+            });
+        }
+        let of_file = self.names(OF_FILE);
+        for table in &self.tables[1..] {
+            for (definition, (_, value)) in table.definitions.iter().zip(&table.parameters) {
+                if seen.contains(&definition.symbol.code) {
+                    let sum = of_file.form(&form_of(&definition.value));
+                    see(&sum, &mut seen);
+                    legend.parameters.push(Entry {
+                        symbol: definition.symbol.clone(),
+                        sum,
+                        value: *value,
+                    });
+                }
+            }
+        }
+        let mut entries: Vec<_> = self
+            .arm
+            .lengths
+            .iter()
+            .chain(&self.arm.parameters)
+            .collect();
+        entries.sort_by_key(|entry| entry.row);
+        for entry in entries
+            .into_iter()
+            .filter(|entry| seen.contains(&entry.symbol.code))
+        {
+            legend.entry(self.label(entry.row), entry);
+        }
+        legend.is_placed = self.setup.robot().is_tree();
+        legend.has_numeric_centres = self.arm.has_numeric_centres;
+        legend
+    }
+
+    /// The name of a row's joint, or of the robot.
+    fn label(&self, row: Option<usize>) -> String {
+        let rows = self.setup.robot().rows();
+        match row.map(|row| (row + 1, rows.get(row).and_then(|joint| joint.name.as_ref()))) {
+            None => "robot".to_owned(),
+            Some((number, Some(name))) => format!("joint {number} ({name})"),
+            Some((number, None)) => format!("joint {number}"),
+        }
+    }
+}
+
+/// Notes the symbols of a sum, by their identifiers.
+fn see(sum: &[Term], seen: &mut BTreeSet<String>) {
+    for factor in sum.iter().flat_map(|term| &term.factors) {
+        match factor {
+            Factor::Symbol(symbol, _) => {
+                seen.insert(symbol.code.clone());
+            }
+            Factor::Sum(sum) => see(sum, seen),
+            Factor::Number(_) | Factor::Exact(_) | Factor::Wave(..) => {}
+        }
+    }
+}

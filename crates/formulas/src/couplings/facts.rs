@@ -1,0 +1,133 @@
+//! Special values of a robot's geometry, which may be why a coupling vanishes.
+
+use dalembert_model::equations::SinCosPair;
+use dalembert_model::robot::{Convention, JointKind};
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::field::Field;
+
+use super::world::Geometry;
+
+/// A special value of the geometry. Those that say least about an arm come first: the search for a
+/// smallest set drops them in this order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) enum Fact {
+    /// d of a row is zero.
+    NoOffset(usize),
+    /// a of a row is zero.
+    NoLength(usize),
+    /// A component of the origin of a joint that is placed is zero.
+    NoOrigin(usize, usize),
+    /// θ of a slide, or of a joint that is locked, is a right angle; a placement turns by right angles.
+    RightTurn(usize),
+    /// Gravity is along an axis of the base, or absent.
+    Gravity,
+    /// Two axes are perpendicular.
+    Across(usize),
+    /// Two axes are parallel.
+    Along(usize),
+}
+
+/// In the field a number is zero by its value, not by structure.
+pub(crate) fn is_zero(x: &Field) -> bool {
+    *x == Field::ZERO
+}
+
+pub(crate) fn is_right(pair: &SinCosPair<Field>) -> bool {
+    is_zero(&pair.sin) || is_zero(&pair.cos)
+}
+
+impl Geometry<'_> {
+    /// Lists the facts of the arm.
+    pub(crate) fn facts(&self) -> Vec<Fact> {
+        let mut facts = Vec::new();
+        let arm = &self.arm;
+        for (row, link) in arm.links.iter().enumerate() {
+            let is_constant = link.kind == JointKind::Prismatic || self.is_locked(row);
+            if let Some(place) = &link.place {
+                let origin = place.origin.iter().enumerate();
+                let zeros = origin.filter(|(_, x)| is_zero(x));
+                facts.extend(zeros.map(|(axis, _)| Fact::NoOrigin(row, axis)));
+                let along = &place.axes[2][2];
+                let entries = place.axes.iter().flatten();
+                if entries.clone().filter(|x| is_zero(x)).count() == 6 {
+                    facts.push(Fact::RightTurn(row));
+                }
+                match () {
+                    () if is_zero(along) => facts.push(Fact::Across(row)),
+                    () if along.mul(along) == Field::ONE => facts.push(Fact::Along(row)),
+                    () => {}
+                }
+                continue;
+            }
+            let slides_freely = link.kind == JointKind::Prismatic && !self.is_locked(row);
+            // The first step along the first axis moves nothing.
+            let has_effect = row > 0 || arm.convention == Convention::Modified;
+            if is_zero(&link.d) && !slides_freely && has_effect {
+                facts.push(Fact::NoOffset(row));
+            }
+            if is_zero(&link.a) {
+                facts.push(Fact::NoLength(row));
+            }
+            if is_constant && is_right(&self.constant_turn(row)) {
+                facts.push(Fact::RightTurn(row));
+            }
+            if link.beta.is_none() {
+                match () {
+                    () if is_zero(&link.alpha.sin) => facts.push(Fact::Along(row)),
+                    () if is_zero(&link.alpha.cos) => facts.push(Fact::Across(row)),
+                    () => {}
+                }
+            }
+        }
+        if arm.gravity.iter().filter(|g| !is_zero(g)).count() <= 1 {
+            facts.push(Fact::Gravity);
+        }
+        facts.sort();
+        facts
+    }
+
+    /// Writes a fact in words.
+    pub(crate) fn describe(&self, fact: Fact) -> String {
+        let axes = |row: usize| match (&self.arm.links[row].place, self.arm.convention) {
+            (Some(_), _) => {
+                let carrier = self.arm.carrier(row).map_or(0, |carrier| carrier + 1);
+                [carrier, row + 1]
+            }
+            (None, Convention::Standard) => [row + 1, row + 2],
+            (None, Convention::Modified) => [row, row + 1],
+        };
+        let number = |row: usize| row + 1;
+        match fact {
+            Fact::NoOffset(row) => format!("d{} = 0", number(row)),
+            Fact::NoLength(row) => {
+                let [x, y] = axes(row);
+                let how = if is_zero(&self.arm.links[row].alpha.sin) {
+                    "coincide"
+                } else {
+                    "meet"
+                };
+                format!("axes {x} and {y} {how}")
+            }
+            Fact::NoOrigin(row, axis) => format!("p{}{} = 0", ["x", "y", "z"][axis], number(row)),
+            Fact::RightTurn(row) => match &self.arm.links[row].place {
+                Some(_) => format!("frame {} is turned by right angles", number(row)),
+                None => format!("θ{} is a right angle", number(row)),
+            },
+            Fact::Gravity => {
+                let along = self.arm.gravity.iter().position(|g| !is_zero(g));
+                match along {
+                    Some(axis) => format!("gravity is along {}0", ["x", "y", "z"][axis]),
+                    None => "there is no gravity".to_owned(),
+                }
+            }
+            Fact::Across(row) => {
+                let [x, y] = axes(row);
+                format!("axes {x} and {y} are perpendicular")
+            }
+            Fact::Along(row) => {
+                let [x, y] = axes(row);
+                format!("axes {x} and {y} are parallel")
+            }
+        }
+    }
+}

@@ -1,0 +1,213 @@
+//! Coefficients that vanish or repeat, and why.
+
+use std::collections::BTreeMap;
+
+use dalembert_formulas::Quantity;
+use dalembert_formulas::couplings::{Couplings, Inventory, Reason, Value};
+use dalembert_model::number::{Angle, Rational};
+use dalembert_model::read::parse;
+use dalembert_model::robot::Robot;
+
+use crate::values::read;
+
+fn general(kinds: &[&str]) -> Robot {
+    let mut text =
+        String::from("name = \"general\"\nconvention = \"standard\"\ngravity = [1, 2, -9]\n");
+    for (i, kind) in kinds.iter().enumerate() {
+        let length = if *kind == "revolute" { "d" } else { "offset" };
+        text += &format!(
+            "[[joint]]\nkind = \"{kind}\"\nalpha = 0.{}\na = 0.{}\n{length} = 0.{}\nmass = {}\n\
+             com = [0.1{i}, 0.2{i}, 0.3{i}]\ninertia = [0.5, 0.6{i}, 0.7, 0.01{i}, 0.02, 0.03{i}]\n",
+            i + 4,
+            i + 3,
+            i + 2,
+            i + 1,
+        );
+    }
+    parse(&text).unwrap().robot
+}
+
+/// Arms of general geometry with revolute joints have n(n² − 1)/3 independent symbols.
+#[test]
+fn general_arms_have_the_relations_of_every_arm() {
+    for n in 1..=5 {
+        let inventory = Inventory::new(&general(&vec!["revolute"; n])).unwrap();
+        let [_, _, distinct] = inventory.summary(Quantity::Christoffel);
+        assert_eq!(distinct, n * (n * n - 1) / 3, "{n}");
+    }
+}
+
+/// h_iii = 0, h_iim = 0 for m ≤ i, h_ikm = 0 behind a prismatic joint, h_ikm = −h_kim.
+#[test]
+fn the_relations_are_named() {
+    let inventory = Inventory::new(&general(&["revolute", "prismatic", "revolute"])).unwrap();
+    let value = |name: &str| {
+        let mut all = inventory.0.iter();
+        all.find(|(entry, _)| entry.name().text == name)
+            .unwrap()
+            .1
+            .clone()
+    };
+    for name in ["h_333", "h_313", "h_123"] {
+        assert_eq!(value(name), Value::Zero, "{name}");
+    }
+    let Value::OppositeOf(other) = value("h_311") else {
+        panic!("h_311")
+    };
+    assert_eq!(other.name().text, "h_113");
+}
+
+/// Counts zeros by their reasons.
+fn tally(robot: &Robot) -> BTreeMap<&'static str, usize> {
+    let mut tally = BTreeMap::new();
+    for zero in Couplings::new(robot).unwrap().zeros {
+        *tally.entry(zero.reason.word()).or_insert(0) += 1;
+    }
+    tally
+}
+
+#[test]
+fn every_zero_has_a_reason() {
+    let cases: [(&str, &[(&str, usize)]); 8] = [
+        (
+            "generated/robots/puma560",
+            &[("always", 21), ("body", 22), ("geometry", 3)],
+        ),
+        (
+            "generated/robots/stanford",
+            &[
+                ("always", 21),
+                ("body", 21),
+                ("geometry", 7),
+                ("joint kinds", 20),
+            ],
+        ),
+        (
+            "generated/robots/ur10",
+            &[("always", 21), ("body", 7), ("geometry", 7)],
+        ),
+        ("generated/robots/panda", &[("always", 28), ("geometry", 1)]),
+        (
+            "codegen/tests/data/scara",
+            &[("always", 10), ("geometry", 21), ("joint kinds", 3)],
+        ),
+        (
+            "codegen/tests/data/rprpr",
+            &[("always", 15), ("geometry", 2), ("joint kinds", 24)],
+        ),
+        (
+            "gallery/robots/iiwa14",
+            &[("always", 28), ("body", 20), ("geometry", 1)],
+        ),
+        (
+            "gallery/robots/g1_hand",
+            &[("always", 12), ("geometry", 6), ("limbs", 182)],
+        ),
+    ];
+    for (name, wanted) in cases {
+        let (robot, _) = read(&format!("{name}.toml"));
+        assert_eq!(
+            tally(&robot),
+            BTreeMap::from_iter(wanted.iter().copied()),
+            "{name}"
+        );
+    }
+}
+
+fn zeros(robot: &Robot) -> Vec<String> {
+    let inventory = Inventory::new(robot).unwrap().0.into_iter();
+    let zeros = inventory.filter(|(_, value)| *value == Value::Zero);
+    zeros.map(|(entry, _)| entry.name().text).collect()
+}
+
+/// Changes the robot file's numbers, and compares the coefficients that appear with those whose reasons
+/// name what changed.
+#[test]
+fn a_change_of_what_a_reason_names_makes_couplings() {
+    let (puma, _) = read("generated/robots/puma560.toml");
+    let before = zeros(&puma);
+    let appeared = |change: &dyn Fn(&mut Robot)| {
+        let mut robot = puma.clone();
+        change(&mut robot);
+        let after = zeros(&robot);
+        assert!(after.iter().all(|name| before.contains(name)), "{after:?}");
+        let gone = before.iter().filter(|name| !after.contains(name));
+        gone.cloned().collect::<Vec<String>>()
+    };
+    let small = |n: i64| Rational::new(n.into(), 1_000_000.into());
+    // Axis 6 is principal of link 6, in the xz plane.
+    let product = appeared(&|robot| robot.joints[5].inertia.xz = small(3));
+    let body = Couplings::new(&puma).unwrap();
+    let named = body.zeros.iter().filter(|zero| match &zero.reason {
+        Reason::Body { conditions, .. } => conditions
+            .iter()
+            .any(|own| own.contains("axis 6 is a principal axis")),
+        _ => false,
+    });
+    let named: Vec<String> = named.map(|zero| zero.entry.name().text).collect();
+    assert_eq!(product, named);
+    // Its moments across the axis.
+    let moment = appeared(&|robot| robot.joints[5].inertia.xx += small(5));
+    let named = body.zeros.iter().filter(|zero| match &zero.reason {
+        Reason::Body { conditions, .. } => {
+            conditions.iter().any(|own| own.contains("equal moments"))
+        }
+        _ => false,
+    });
+    let named: Vec<String> = named.map(|zero| zero.entry.name().text).collect();
+    assert_eq!(moment, named);
+    // Axes 2 and 3 are parallel; of gravity the first joint feels nothing.
+    let twist = Angle::Radians(Rational::new(1.into(), 10.into()));
+    let turned = appeared(&|robot| robot.joints[1].alpha = twist.clone());
+    for name in ["h_213", "h_312", "h_236", "h_623"] {
+        assert!(turned.iter().any(|own| own == name), "{name}: {turned:?}");
+    }
+    assert!(!turned.iter().any(|own| own == "c_1"));
+    assert_eq!(appeared(&|robot| robot.gravity[0] = small(100)), ["c_1"]);
+}
+
+/// A PUMA whose last link is off its axis, but balanced: I_xz = m x̄ z̄.
+#[test]
+fn rotation_balances_translation() {
+    let (mut puma, _) = read("generated/robots/puma560.toml");
+    let decimal = |n: i64| Rational::new(n.into(), 10_000_000.into());
+    let tip = &mut puma.joints[5];
+    tip.com = [100_000, 0, 320_000].map(decimal);
+    tip.inertia.xx = decimal(1500);
+    tip.inertia.yy = decimal(1500);
+    tip.inertia.zz = decimal(400);
+    tip.inertia.xz = decimal(288);
+    let couplings = Couplings::new(&puma).unwrap();
+    let balanced = couplings
+        .zeros
+        .iter()
+        .filter(|zero| zero.reason.word() == "balance");
+    let names: Vec<String> = balanced
+        .clone()
+        .map(|zero| zero.entry.name().text)
+        .collect();
+    assert_eq!(names, ["D_56", "h_466", "h_566"]);
+    assert!(balanced.clone().all(|zero| zero.rotation.is_some()));
+    assert_eq!(tally(&puma)["geometry"], 3);
+}
+
+#[test]
+fn near_misses_are_found() {
+    let (stanford, _) = read("generated/robots/stanford.toml");
+    let near = Couplings::new(&stanford).unwrap().near;
+    let weak: Vec<String> = near
+        .weak
+        .iter()
+        .map(|(entry, _)| entry.name().text)
+        .collect();
+    assert_eq!(weak, ["D_45", "D_26", "D_16", "D_46"]);
+    let nearest = &near.alive[0];
+    assert_eq!(
+        (nearest.symbol.code.as_str(), nearest.vanishing),
+        ("z5", 0.0)
+    );
+    let entries: Vec<String> = nearest.entries.iter().map(|own| own.name().text).collect();
+    assert_eq!(entries, ["D_45", "h_455"]);
+    // One small number alone does it.
+    assert!(near.small.is_none());
+}
