@@ -35,6 +35,8 @@ pub struct Legend {
     pub groups: Vec<Group>,
     /// True if joints are placed, and have no rows of a DH table.
     pub is_placed: bool,
+    /// True if the file has placements, from which the rows of the DH table follow.
+    pub has_row_frames: bool,
     /// True if centres of mass are numbers, since there were too many symbols.
     pub has_numeric_centres: bool,
 }
@@ -59,6 +61,9 @@ impl Legend {
     /// The meaning of the file's symbols that occur.
     pub(crate) fn title_of_groups(&self) -> String {
         let frame = match self.is_placed {
+            false if self.has_row_frames => {
+                "x̄, ȳ, z̄ centre of mass in the frame of the DH row, which `dalembert show` draws"
+            }
             false => "x̄, ȳ, z̄ centre of mass in the frame of the link",
             true => {
                 "x̄, ȳ, z̄ centre of mass in the frame of the link, turned until its z is the axis of the joint"

@@ -67,7 +67,10 @@ impl Symbol {
         let code = if letters == "τ" { "tau" } else { letters };
         let under = if numbers.is_empty() { "" } else { "_" };
         Symbol {
-            text: format!("{letters}{mark}{under}{joined}"),
+            text: match mark {
+                "" => format!("{letters}{under}{joined}"),
+                mark => format!("{letters}^{mark}{under}{joined}"),
+            },
             latex: match numbers.is_empty() {
                 true => format!("{latex}{superscript}"),
                 false => format!("{latex}{superscript}_{{{joined}}}"),
@@ -83,6 +86,7 @@ impl Symbol {
     pub fn row(letter: &str, axis: &str, indices: &[usize]) -> Symbol {
         let entry = Symbol::entry(letter, axis, indices);
         Symbol {
+            text: entry.text.replace('^', ""),
             latex: entry.latex.replace("\\mathrm", ""),
             ..entry
         }

@@ -53,7 +53,9 @@ impl Builder<'_> {
         {
             legend.entry(self.label(entry.row), entry);
         }
-        legend.is_placed = self.setup.robot().is_tree();
+        let robot = self.setup.robot();
+        legend.is_placed = robot.is_tree();
+        legend.has_row_frames = robot.rows().iter().any(|joint| joint.frame.is_some());
         legend.has_numeric_centres = self.arm.has_numeric_centres;
         legend
     }
