@@ -128,6 +128,7 @@ pub(crate) fn run(
     scene: Option<&Scene>,
     target: Option<Target>,
 ) -> Outcome {
+    let layout = args.layout()?;
     let request = Request {
         quantities: quantities.to_vec(),
         style: args.style,
@@ -138,7 +139,6 @@ pub(crate) fn run(
     } else {
         Digits::Six
     };
-    let layout = args.layout()?;
     let Some(target) = target else {
         return Ok(in_json(&formulas, robot, scene, digits).into());
     };

@@ -134,13 +134,18 @@ impl SymbolicArm {
     }
 
     /// Computes the coefficients of a chain with the frames of a posed one.
+    ///
+    /// # Errors
+    /// One has too many terms.
     pub fn coefficients(
         &self,
         setup: &Setup,
         posed: &PosedChain<Polynomial>,
         chain: &Chain<Polynomial>,
-    ) -> Coefficients<Polynomial> {
-        Coefficients::new(setup, &self.arm.following, posed, chain)
+    ) -> Result<Coefficients<Polynomial>, FormulaError> {
+        let following = &self.arm.following;
+        Coefficients::new(setup, following, posed, chain, Polynomial::is_lost)
+            .ok_or(FormulaError::Large)
     }
 
     /// Returns the value of a polynomial without motion, whose parameters are the file's.

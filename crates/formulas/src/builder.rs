@@ -60,7 +60,7 @@ pub struct Builder<'a> {
 }
 
 /// Coefficients, the table of their symbols, and the moments that rows are multiplied by.
-type InSymbols = (Coefficients<Polynomial>, usize, Option<Rc<Moments>>);
+type InSymbols = Result<(Coefficients<Polynomial>, usize, Option<Rc<Moments>>), FormulaError>;
 
 /// The place of the table of the robot file's own symbols.
 const OF_FILE: usize = 0;
@@ -97,9 +97,21 @@ impl<'a> Builder<'a> {
             shared: SharedConstants::default(),
             arm,
         };
-        let (coefficients, table, moments) = builder.whole(&chain);
-        builder.coefficients = coefficients;
-        builder.collect(table, moments);
+        let is_of_hand = |quantity: &Quantity| {
+            matches!(
+                quantity,
+                Quantity::Pose | Quantity::Jacobian | Quantity::PotentialEnergy
+            )
+        };
+        let (table, moments) = match request.quantities.iter().all(is_of_hand) {
+            true => (OF_FILE, None),
+            false => {
+                let (coefficients, table, moments) = builder.whole(&chain)?;
+                builder.coefficients = coefficients;
+                (table, moments)
+            }
+        };
+        builder.collect(table, moments)?;
         Ok(builder)
     }
 
@@ -107,21 +119,24 @@ impl<'a> Builder<'a> {
     /// base parameters.
     fn whole(&mut self, chain: &PosedChain<Polynomial>) -> InSymbols {
         if self.request.style == Style::File {
-            return (self.in_file(chain), OF_FILE, None);
+            return Ok((self.in_file(chain)?, OF_FILE, None));
         }
         if self.request.style != Style::Numbers && self.arm.variables.len() <= FEW_JOINTS {
-            let coefficients = self.in_file(chain);
+            let coefficients = self.in_file(chain)?;
             let entries = coefficients.inertia.iter().flatten();
             let entries = entries.chain(coefficients.christoffel.iter().flatten().flatten());
             let mut entries = entries.chain(&coefficients.gravity);
             if entries.all(|entry| entry.terms().len() <= SMALL) {
-                return (coefficients, OF_FILE, None);
+                return Ok((coefficients, OF_FILE, None));
             }
         }
         self.in_base_parameters(chain, "")
     }
 
-    fn in_file(&self, chain: &PosedChain<Polynomial>) -> Coefficients<Polynomial> {
+    fn in_file(
+        &self,
+        chain: &PosedChain<Polynomial>,
+    ) -> Result<Coefficients<Polynomial>, FormulaError> {
         self.arm.coefficients(self.setup, chain, &chain.chain)
     }
 
@@ -143,18 +158,18 @@ impl<'a> Builder<'a> {
         };
         let moments = Some(Rc::new(Moments::new(&bodies.chain, factor)));
         if is_numeric {
-            return (self.in_file(chain), OF_FILE, moments);
+            return Ok((self.in_file(chain)?, OF_FILE, moments));
         }
-        let coefficients = self.arm.coefficients(self.setup, chain, &bodies.chain);
+        let coefficients = self.arm.coefficients(self.setup, chain, &bodies.chain)?;
         self.tables.push(Table {
             parameters,
             definitions: bodies.parameters,
         });
-        (coefficients, self.tables.len() - 1, moments)
+        Ok((coefficients, self.tables.len() - 1, moments))
     }
 
     /// Lists the polynomials of all quantities that are asked for.
-    fn collect(&mut self, table: usize, moments: Option<Rc<Moments>>) {
+    fn collect(&mut self, table: usize, moments: Option<Rc<Moments>>) -> Result<(), FormulaError> {
         let n = self.setup.rows().len();
         for &quantity in &self.request.quantities {
             match quantity {
@@ -166,7 +181,7 @@ impl<'a> Builder<'a> {
                 Quantity::InertiaRotation
                 | Quantity::InertiaTranslation
                 | Quantity::ChristoffelRotation
-                | Quantity::ChristoffelTranslation => self.part(quantity),
+                | Quantity::ChristoffelTranslation => self.part(quantity)?,
                 Quantity::PotentialEnergy => {
                     let potential = vec![potential_energy(&self.arm)];
                     self.source(quantity, vec![quantity.entry(&[])], potential, OF_FILE);
@@ -196,6 +211,11 @@ impl<'a> Builder<'a> {
                 }
             }
         }
+        let mut polynomials = self.sources.iter().flat_map(|source| &source.polynomials);
+        match polynomials.any(Polynomial::is_lost) {
+            true => Err(FormulaError::Large),
+            false => Ok(()),
+        }
     }
 
     fn source(
@@ -217,7 +237,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Adds a part of generalized D'Alembert: the coefficients of an arm that has it alone.
-    fn part(&mut self, quantity: Quantity) {
+    fn part(&mut self, quantity: Quantity) -> Result<(), FormulaError> {
         let (part, mark) = match quantity {
             Quantity::InertiaRotation | Quantity::ChristoffelRotation => (Part::Rotation, "r"),
             _ => (Part::Translation, "t"),
@@ -226,12 +246,13 @@ impl<'a> Builder<'a> {
         let chain = self.arm.chain(&arm);
         let is_small = self.request.style != Style::Numbers && self.tables.len() == 1;
         let (coefficients, table, moments) = match is_small {
-            true => (self.in_file(&chain), OF_FILE, None),
-            false => self.in_base_parameters(&chain, mark),
+            true => (self.in_file(&chain)?, OF_FILE, None),
+            false => self.in_base_parameters(&chain, mark)?,
         };
         let (names, polynomials) = coefficients_of(&coefficients, quantity);
         let source = self.source(quantity, names, polynomials, table);
         source.moments = moments;
+        Ok(())
     }
 
     /// Writes them.

@@ -150,7 +150,7 @@ impl Couplings {
     /// The robot has no formulas ([`FormulaError`]).
     pub fn new(robot: &Robot) -> Result<Couplings, FormulaError> {
         let setup = Setup::whole(robot);
-        Ok(Finder::new(&setup)?.couplings())
+        Finder::new(&setup)?.couplings()
     }
 
     /// Lists the reasons, each with the entries that vanish for it.
@@ -243,8 +243,8 @@ impl<'a> Finder<'a> {
         let arm = SymbolicArm::new(setup, Symbolic::Nothing)?;
         let chain = arm.chain(&arm.arm);
         let bodies = BaseBodies::whole(&arm, &chain);
-        let in_numbers = arm.coefficients(setup, &chain, &chain.chain);
-        let in_parameters = arm.coefficients(setup, &chain, &bodies.chain);
+        let in_numbers = arm.coefficients(setup, &chain, &chain.chain)?;
+        let in_parameters = arm.coefficients(setup, &chain, &bodies.chain)?;
         let geometry = Geometry::new(setup, &arm);
         let named = SymbolicArm::new(setup, Symbolic::Everything).ok();
         let definitions = named.map(|named| {
@@ -272,13 +272,13 @@ impl<'a> Finder<'a> {
         })
     }
 
-    fn couplings(mut self) -> Couplings {
+    fn couplings(mut self) -> Result<Couplings, FormulaError> {
         let in_numbers = self.in_numbers.clone();
         let in_parameters = self.in_parameters.clone();
         let rotation = self.arm.chain(&Part::Rotation.of(&self.arm.arm));
         let rotation = self
             .arm
-            .coefficients(self.setup, &rotation, &rotation.chain);
+            .coefficients(self.setup, &rotation, &rotation.chain)?;
         let rotations = entries(&rotation);
         let symbolic = entries(&in_parameters);
         let all = entries(&in_numbers);
@@ -297,11 +297,11 @@ impl<'a> Finder<'a> {
                 entry,
             });
         }
-        Couplings {
+        Ok(Couplings {
             zeros,
             total,
             near: self.near(),
-        }
+        })
     }
 
     /// Writes a polynomial with numbers.
@@ -392,7 +392,7 @@ impl<'a> Finder<'a> {
                     bodies: None,
                     seed,
                 });
-                let all = entries(&coefficients).into_iter();
+                let all = coefficients.iter().flat_map(entries);
                 all.filter(|(_, x)| is_zero(x))
                     .map(|(entry, _)| entry)
                     .collect()
@@ -415,7 +415,7 @@ impl<'a> Finder<'a> {
                 bodies: Some(&bodies),
                 seed: SEEDS[1],
             });
-            let mut all = entries(&coefficients).into_iter();
+            let mut all = coefficients.iter().flat_map(entries);
             all.any(|(other, x)| other == *entry && is_zero(x))
         };
         holds(&self.facts).then(|| fewest(&self.facts, holds))

@@ -23,33 +23,40 @@ pub struct Coefficients<S> {
 }
 
 impl<S: Scalar> Coefficients<S> {
-    /// Computes them from the composite bodies of a chain, whose frames are those of a posed one.
+    /// Computes them from the composite bodies of a chain, whose frames are those of a posed one; `None` as
+    /// soon as a number is lost.
     pub fn new(
         setup: &Setup,
         following: &[Following<S>],
         posed: &PosedChain<S>,
         chain: &Chain<S>,
-    ) -> Coefficients<S> {
+        is_lost: impl Fn(&S) -> bool,
+    ) -> Option<Coefficients<S>> {
         let composite = Composite::new(chain, &posed.at);
         let n = setup.rows().len();
         let sizes = Sizes::of(setup.robot());
         let select = |quantity: Quantity, values: Vec<S>| {
-            setup.select(quantity, sizes, &posed.rows, following, values)
+            let selected = setup.select(quantity, sizes, &posed.rows, following, values);
+            (!selected.iter().any(&is_lost)).then_some(selected)
         };
-        let inertia = composite.inertia(CompositeOrder::Inward).into_iter();
-        let christoffel = composite.christoffel().into_iter().flatten();
         let square = |values: &[S]| values.chunks(n).map(<[S]>::to_vec).collect();
-        Coefficients {
-            inertia: square(&select(Quantity::Inertia, inertia.flatten().collect())),
-            christoffel: select(Quantity::Christoffel, christoffel.flatten().collect())
-                .chunks(n * n)
-                .map(square)
-                .collect(),
-            gravity: select(
-                Quantity::Gravity,
-                composite.gravity(CompositeOrder::Outward),
-            ),
-        }
+        let gravity = select(
+            Quantity::Gravity,
+            composite.gravity(CompositeOrder::Outward),
+        )?;
+        // What is lost is lost here, before the most work.
+        let inertia = composite
+            .inertia(CompositeOrder::Inward)
+            .into_iter()
+            .flatten();
+        let inertia = select(Quantity::Inertia, inertia.collect())?;
+        let christoffel = composite.christoffel().into_iter().flatten().flatten();
+        let christoffel = select(Quantity::Christoffel, christoffel.collect())?;
+        Some(Coefficients {
+            inertia: square(&inertia),
+            christoffel: christoffel.chunks(n * n).map(square).collect(),
+            gravity,
+        })
     }
 }
 

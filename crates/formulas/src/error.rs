@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt;
 
-use crate::ring::{MAX_JOINTS, MAX_LENGTHS};
+use crate::ring::{MAX_JOINTS, MAX_LENGTHS, MAX_TERMS};
 
 /// The reason why formulas of a robot cannot be written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,6 +18,8 @@ pub enum FormulaError {
     FarFollower(usize),
     /// A number's denominator is divisible by 2⁶¹ − 1.
     Unfit,
+    /// A coefficient has too many terms.
+    Large,
     /// No joint moves.
     Nothing,
     /// The scene is not one of the robot.
@@ -50,6 +52,12 @@ impl fmt::Display for FormulaError {
             FormulaError::Unfit => f.write_str(
                 "a number's denominator is divisible by 2^61 - 1, modulo which zeros are found\n  = \
                  help: change its last digit",
+            ),
+            FormulaError::Large => write!(
+                f,
+                "a coefficient has more than {MAX_TERMS} products of sines and cosines: each odd angle between \
+                 two joints multiplies them\n  = help: lock joints in a scene, or import fewer of them; angles that \
+                 are multiples of pi/2 as such"
             ),
             FormulaError::Nothing => f.write_str("no joint moves: there are no formulas"),
             FormulaError::Scene(why) => f.write_str(why),

@@ -16,6 +16,11 @@ pub const MAX_JOINTS: usize = 21;
 pub const MAX_LENGTHS: usize = 59;
 /// The most symbols of inertial parameters.
 const MAX_PARAMETERS: usize = 1023;
+/// The most terms of a polynomial: D_11 of seven general joints has 15 625.
+pub const MAX_TERMS: usize = 50_000;
+/// The most products of terms that are formed before they are added up.
+const MAX_PRODUCTS: usize = 1 << 20;
+
 /// The highest power of a cosine.
 pub const MAX_POWER: usize = 15;
 
@@ -99,9 +104,13 @@ pub fn part(motion: u128, joint: usize) -> u128 {
     motion & (((1 << JOINT_BITS) - 1) << (joint * JOINT_BITS))
 }
 
-/// A sum of monomials with coefficients, sorted, none of them zero.
+/// A sum of monomials with coefficients, sorted, none of them zero. One that would have more than
+/// [`MAX_TERMS`] of them is lost, and so is what is made of it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Polynomial(Vec<(Monomial, Number)>);
+pub struct Polynomial {
+    terms: Vec<(Monomial, Number)>,
+    is_lost: bool,
+}
 
 impl Polynomial {
     /// Makes a constant.
@@ -136,18 +145,44 @@ impl Polynomial {
     fn term(monomial: Monomial, value: Number) -> Polynomial {
         match value.is_zero() {
             true => Polynomial::default(),
-            false => Polynomial(vec![(monomial, value)]),
+            false => Polynomial::of(vec![(monomial, value)]),
         }
     }
 
-    /// Lists the terms.
+    fn of(terms: Vec<(Monomial, Number)>) -> Polynomial {
+        match terms.len() > MAX_TERMS {
+            true => Polynomial::lost(),
+            false => Polynomial {
+                terms,
+                is_lost: false,
+            },
+        }
+    }
+
+    fn lost() -> Polynomial {
+        Polynomial {
+            terms: Vec::new(),
+            is_lost: true,
+        }
+    }
+
+    /// True if it has too many terms.
+    pub fn is_lost(&self) -> bool {
+        self.is_lost
+    }
+
+    /// Lists the terms; none of one that is lost.
     pub fn terms(&self) -> &[(Monomial, Number)] {
-        &self.0
+        &self.terms
     }
 
     /// Counts the products of sines, cosines and slides, whatever symbols they stand with.
     pub fn motions(&self) -> usize {
-        let mut motions: Vec<u128> = self.0.iter().map(|(monomial, _)| monomial.motion).collect();
+        let mut motions: Vec<u128> = self
+            .terms
+            .iter()
+            .map(|(monomial, _)| monomial.motion)
+            .collect();
         motions.sort_unstable();
         motions.dedup();
         motions.len()
@@ -155,7 +190,8 @@ impl Polynomial {
 
     /// Returns the constant that it is, if it is one.
     pub fn to_constant(&self) -> Option<Number> {
-        match self.0.as_slice() {
+        match self.terms.as_slice() {
+            _ if self.is_lost => None,
             [] => Some(Number::zero()),
             [(monomial, value)] => (*monomial == Monomial::default()).then_some(*value),
             _ => None,
@@ -165,17 +201,25 @@ impl Polynomial {
     /// Returns each coefficient times a factor.
     #[must_use]
     pub fn scaled(&self, factor: &Number) -> Polynomial {
-        let terms = self
-            .0
-            .iter()
-            .map(|(monomial, x)| (*monomial, x.mul(factor)));
-        Polynomial(terms.filter(|(_, x)| !x.is_zero()).collect())
+        let scaled = self.each(|x| x.mul(factor));
+        match factor.is_zero() {
+            true => Polynomial::default(),
+            false => scaled,
+        }
+    }
+
+    fn each(&self, change: impl Fn(&Number) -> Number) -> Polynomial {
+        let terms = self.terms.iter();
+        Polynomial {
+            terms: terms.map(|(monomial, x)| (*monomial, change(x))).collect(),
+            is_lost: self.is_lost,
+        }
     }
 
     /// True for the same polynomial, or for its opposite: then the sign is −1.
     pub fn sign_against(&self, other: &Polynomial) -> Option<i8> {
-        let both = || self.0.iter().zip(&other.0);
-        if self.0.len() != other.0.len() || both().any(|((m, _), (n, _))| m != n) {
+        let both = || self.terms.iter().zip(&other.terms);
+        if self.terms.len() != other.terms.len() || both().any(|((m, _), (n, _))| m != n) {
             return None;
         }
         let equal = both().all(|((_, x), (_, y))| x.residue() == y.residue());
@@ -224,7 +268,10 @@ impl Scalar for Polynomial {
         Polynomial::constant(Number::one())
     }
     fn add(&self, other: &Self) -> Self {
-        let (mut a, mut b) = (self.0.as_slice(), other.0.as_slice());
+        if self.is_lost || other.is_lost {
+            return Polynomial::lost();
+        }
+        let (mut a, mut b) = (self.terms.as_slice(), other.terms.as_slice());
         let mut sums = Vec::with_capacity(a.len() + b.len());
         while let ([(m, x), rest @ ..], [(n, y), others @ ..]) = (a, b) {
             match m.cmp(n) {
@@ -247,7 +294,7 @@ impl Scalar for Polynomial {
         }
         sums.extend_from_slice(a);
         sums.extend_from_slice(b);
-        Polynomial(sums)
+        Polynomial::of(sums)
     }
     fn mul(&self, other: &Self) -> Self {
         if let Some(factor) = other.to_constant() {
@@ -256,9 +303,13 @@ impl Scalar for Polynomial {
         if let Some(factor) = self.to_constant() {
             return other.scaled(&factor);
         }
-        let mut terms = Vec::with_capacity(self.0.len() * other.0.len());
-        for (m, x) in &self.0 {
-            for (n, y) in &other.0 {
+        let products = self.terms.len() * other.terms.len();
+        if self.is_lost || other.is_lost || products > MAX_PRODUCTS {
+            return Polynomial::lost();
+        }
+        let mut terms = Vec::with_capacity(products);
+        for (m, x) in &self.terms {
+            for (n, y) in &other.terms {
                 let monomial = Monomial {
                     symbols: m.symbols.times(n.symbols),
                     motion: m.motion + n.motion,
@@ -266,16 +317,16 @@ impl Scalar for Polynomial {
                 enter(&mut terms, monomial, x.mul(y));
             }
         }
-        Polynomial(merged(terms))
+        Polynomial::of(merged(terms))
     }
     fn neg(&self) -> Self {
-        Polynomial(self.0.iter().map(|(m, x)| (*m, x.neg())).collect())
+        self.each(Number::neg)
     }
     fn half(&self) -> Self {
-        Polynomial(self.0.iter().map(|(m, x)| (*m, x.half())).collect())
+        self.each(Number::half)
     }
     fn is_zero(&self) -> bool {
-        self.0.is_empty()
+        self.terms.is_empty() && !self.is_lost
     }
     fn is_one(&self) -> bool {
         self.to_constant().is_some_and(|x| x.is_one())
@@ -295,6 +346,22 @@ mod tests {
         let both = a.sin.mul(&b.sin);
         let [c, d] = [&a, &b].map(|p| Polynomial::one().sub(&p.cos.mul(&p.cos)));
         assert_eq!(both.mul(&both), c.mul(&d));
+    }
+
+    #[test]
+    fn what_grows_too_large_is_lost() {
+        let one = Polynomial::one();
+        let factor = |joint: usize| {
+            let SinCosPair { sin, cos } = Polynomial::turn(joint);
+            one.add(&sin).add(&cos)
+        };
+        let product =
+            |joints: usize| (0..joints).fold(one.clone(), |all, joint| all.mul(&factor(joint)));
+        assert_eq!(product(9).terms().len(), 3usize.pow(9));
+        let lost = product(10);
+        assert!(lost.is_lost() && !lost.is_zero() && lost.to_constant().is_none());
+        assert!(lost.add(&one).is_lost() && lost.neg().mul(&factor(0)).is_lost());
+        assert!(lost.mul(&Polynomial::zero()).is_zero());
     }
 
     #[test]

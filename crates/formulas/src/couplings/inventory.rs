@@ -39,7 +39,7 @@ impl Inventory {
         let setup = Setup::whole(robot);
         let arm = SymbolicArm::new(&setup, Symbolic::Nothing)?;
         let posed = arm.chain(&arm.arm);
-        let coefficients = arm.coefficients(&setup, &posed, &posed.chain);
+        let coefficients = arm.coefficients(&setup, &posed, &posed.chain)?;
         let mut distinct: Vec<(Entry, &Polynomial)> = Vec::new();
         let mut all = Vec::new();
         for (entry, polynomial) in entries(&coefficients) {

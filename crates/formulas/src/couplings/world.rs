@@ -76,7 +76,7 @@ impl<'a> Geometry<'a> {
     }
 
     /// Computes the coefficients of a world at a random position.
-    pub(crate) fn coefficients(&self, world: World<'_>) -> Coefficients<Field> {
+    pub(crate) fn coefficients(&self, world: World<'_>) -> Option<Coefficients<Field>> {
         let mut points = Points::new(world.seed);
         let mut arm = self.arm.clone();
         let mut locks = self.locks.clone();
@@ -149,7 +149,8 @@ impl<'a> Geometry<'a> {
         {
             link.body = body.clone();
         }
-        Coefficients::new(self.setup, &arm.following, &posed, &chain)
+        let none = |_: &Field| false;
+        Coefficients::new(self.setup, &arm.following, &posed, &chain, none)
     }
 
     fn position(
