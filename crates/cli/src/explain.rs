@@ -167,6 +167,10 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
         return formulas::run(&args.formulas, quantities, &source.robot, scene, target);
     }
     let targets = targets(args, context)?;
+    if targets.is_some() && args.options.0.get("scene").is_some() {
+        let why = "a page is about the whole robot: leave --scene out, or add --formulas";
+        return Err(Failure::input(why));
+    }
     source.outputs = vec![Function::InverseDynamics];
     let mut request = source.request(&args.options.0, &ScalarType::ALL)?;
     let session = progress::watch(&mut request);

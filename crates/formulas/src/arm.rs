@@ -12,7 +12,7 @@ use crate::error::FormulaError;
 use crate::naming::Naming;
 use crate::number::{Constants, Number};
 use crate::ring::{MAX_JOINTS, MAX_POWER, Polynomial, Symbols};
-use crate::symbol::Definition;
+use crate::symbol::{Definition, Symbol};
 
 /// The variable of a joint: θ_i of one that turns, d_i of one that slides.
 #[derive(Clone, Debug)]
@@ -23,6 +23,18 @@ pub struct Variable {
     pub kind: JointKind,
     /// The constant that is added to q_i.
     pub offset: Offset,
+}
+
+impl Variable {
+    /// The symbol of a slide: d_i, or q_i where nothing is added to that.
+    pub(crate) fn slide_symbol(&self) -> Symbol {
+        let letter = if self.offset == Offset::None {
+            "q"
+        } else {
+            "d"
+        };
+        Symbol::indexed(letter, self.joint + 1)
+    }
 }
 
 /// The constant part of a joint's variable.
@@ -270,7 +282,8 @@ fn fixed(
 fn take_offset(arm: &mut Arm<Polynomial>, row: usize, joint: &Joint) -> Offset {
     let link = &mut arm.links[row];
     if joint.kind == JointKind::Prismatic {
-        if link.place.is_some() || link.d.is_zero() {
+        // A row's d has the number of its row, a slide that of its coordinate.
+        if link.place.is_some() || link.d.is_zero() || !arm.following.is_empty() {
             return Offset::None;
         }
         link.d = Polynomial::zero();

@@ -76,6 +76,16 @@ impl<'a> Builder<'a> {
         if setup.rows().is_empty() {
             return Err(FormulaError::Nothing);
         }
+        let moving = arm.variables.iter().map(|variable| variable.joint);
+        let has_motion = [Quantity::Torque, Quantity::KineticEnergy];
+        if request
+            .quantities
+            .iter()
+            .any(|quantity| has_motion.contains(quantity))
+            && !moving.eq(setup.rows().iter().copied())
+        {
+            return Err(FormulaError::Rows);
+        }
         let chain = arm.chain(&arm.arm);
         let of_file = arm.parameters.iter();
         let of_file = of_file.map(|definition| (definition.symbol.clone(), definition.value));

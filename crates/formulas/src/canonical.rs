@@ -18,6 +18,7 @@ use dalembert_model::scalar::field::{Field, Points};
 
 use crate::number::Number;
 use crate::ring::{Monomial, Polynomial, Symbols, part, powers};
+use crate::symbol::Symbol;
 
 /// The sine or the cosine of a combination of a run's angles. The first multiple is positive.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -52,6 +53,8 @@ pub struct Runs {
     pub runs: Vec<Vec<usize>>,
     /// The joints that slide.
     pub slides: Vec<usize>,
+    /// Their symbols: d of one with an offset, else q.
+    pub slide_symbols: Vec<Symbol>,
 }
 
 /// A product of waves, one of each run, with its coefficient.

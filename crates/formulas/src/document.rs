@@ -131,16 +131,6 @@ impl Formulas {
         lines.flat_map(|line| &line.sum).any(|term| term.is_small)
     }
 
-    /// Lists the slides that are q_i.
-    fn plain_slides(&self) -> impl Iterator<Item = usize> {
-        let slides = self
-            .variables
-            .iter()
-            .filter(|variable| variable.kind == JointKind::Prismatic);
-        let plain = slides.filter(|variable| variable.offset == Offset::None);
-        plain.map(|variable| variable.joint + 1)
-    }
-
     /// True if a line has the sine or the cosine of a multiple of an angle.
     fn has_multiples(&self) -> bool {
         let lines = self.sections.iter().flat_map(|section| &section.lines);

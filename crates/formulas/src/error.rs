@@ -20,6 +20,8 @@ pub enum FormulaError {
     Unfit,
     /// A coefficient has too many terms.
     Large,
+    /// Torques or an energy are asked for, and the scene's results are not over all joints that move.
+    Rows,
     /// No joint moves.
     Nothing,
     /// The scene is not one of the robot.
@@ -58,6 +60,10 @@ impl fmt::Display for FormulaError {
                 "a coefficient has more than {MAX_TERMS} products of sines and cosines: each odd angle between \
                  two joints multiplies them\n  = help: lock joints in a scene, or import fewer of them; angles that \
                  are multiples of pi/2 as such"
+            ),
+            FormulaError::Rows => f.write_str(
+                "`tau` and `T` have terms of all joints that move, and the scene's `joints` are others\n  = help: \
+                 leave `joints` out of the scene",
             ),
             FormulaError::Nothing => f.write_str("no joint moves: there are no formulas"),
             FormulaError::Scene(why) => f.write_str(why),

@@ -73,9 +73,9 @@ pub fn shaped(shape: &Shape, runs: &Runs) -> Vec<Factor> {
     let mut factors: Vec<Factor> = shape
         .slides
         .iter()
-        .zip(&runs.slides)
+        .zip(&runs.slide_symbols)
         .filter(|(power, _)| **power > 0)
-        .map(|(power, joint)| Factor::Symbol(Symbol::indexed("d", joint + 1), *power as u32))
+        .map(|(power, symbol)| Factor::Symbol(symbol.clone(), *power as u32))
         .collect();
     for (waves, run) in shape.waves.iter().zip(&runs.runs) {
         let mut waves: Vec<_> = waves.iter().collect();

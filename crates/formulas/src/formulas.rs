@@ -74,6 +74,28 @@ impl Formulas {
     ) -> Result<Formulas, FormulaError> {
         let setup =
             Setup::in_scene(robot, scene).map_err(|why| FormulaError::Scene(why.to_string()))?;
-        Builder::new(&setup, request)?.build()
+        let request = Request {
+            quantities: with_needed(&request.quantities),
+            style: request.style,
+        };
+        Builder::new(&setup, &request)?.build()
     }
+}
+
+/// Puts the coefficients that torques and energies name before them, and each quantity once.
+fn with_needed(asked: &[Quantity]) -> Vec<Quantity> {
+    let needed = match () {
+        () if asked.contains(&Quantity::Torque) => {
+            &[Quantity::Inertia, Quantity::Christoffel, Quantity::Gravity][..]
+        }
+        () if asked.contains(&Quantity::KineticEnergy) => &[Quantity::Inertia],
+        () => &[],
+    };
+    let mut quantities: Vec<Quantity> = Vec::new();
+    for quantity in needed.iter().chain(asked) {
+        if !quantities.contains(quantity) {
+            quantities.push(*quantity);
+        }
+    }
+    quantities
 }

@@ -40,6 +40,8 @@ pub fn coefficients_of(
 pub fn list(quantity: Quantity, n: usize) -> Option<List> {
     let [letters, mark] = quantity.letters();
     let name = match quantity {
+        // R is a rational number of SymPy.
+        Quantity::Pose => "Rot".to_owned(),
         Quantity::Torque => "tau".to_owned(),
         _ => format!("{letters}{mark}"),
     };

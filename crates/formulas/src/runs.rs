@@ -4,7 +4,7 @@ use dalembert_codegen::workspace::Setup;
 use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
-use crate::arm::{PosedChain, SymbolicArm};
+use crate::arm::{PosedChain, SymbolicArm, Variable};
 use crate::canonical::Runs;
 use crate::ring::Polynomial;
 
@@ -49,6 +49,7 @@ pub fn runs(setup: &Setup, arm: &SymbolicArm, chain: &PosedChain<Polynomial>) ->
         .filter(|variable| variable.kind == JointKind::Prismatic);
     Runs {
         runs,
+        slide_symbols: slides.clone().map(Variable::slide_symbol).collect(),
         slides: slides.map(|variable| variable.joint).collect(),
     }
 }

@@ -136,7 +136,9 @@ impl<'a> Geometry<'a> {
             link.inertia = Inertia::of([0; 6].map(|_| points.field()));
             link.armature = points.field();
         }
-        if !keeps(Fact::Gravity) && !world.keeps_numbers {
+        // Gravity along one axis is a fact; in another direction its numbers are part of conditions.
+        let is_along_axis = arm.gravity.iter().filter(|g| !is_zero(g)).count() <= 1;
+        if !keeps(Fact::Gravity) && (is_along_axis || !world.keeps_numbers) {
             arm.gravity = [0; 3].map(|_| points.field());
         }
         let position = self.position(&mut points, &arm.following, &locks);

@@ -79,10 +79,7 @@ impl Formulas {
         let offsets = self.offsets("θ", |turn| {
             signed(&turn.to_string().replace("pi", "\\pi ").replace('*', "\\,"))
         });
-        let slides = self
-            .plain_slides()
-            .map(|slide| format!("d{slide} = q{slide}"));
-        for line in offsets.into_iter().chain(slides) {
+        for line in offsets {
             let Some((left, right)) = line.split_once(" = q") else {
                 continue;
             };
@@ -140,7 +137,10 @@ fn plain(text: &str) -> String {
     let mut latex = String::new();
     for c in text.chars() {
         match c {
-            '_' => latex += "\\_",
+            '_' | '&' | '%' | '#' | '$' | '{' | '}' => latex.extend(['\\', c]),
+            '\\' => latex += "\\textbackslash{}",
+            '^' => latex += "\\^{}",
+            '~' => latex += "\\~{}",
             '≤' => latex += "$\\le$",
             '−' => latex += "$-$",
             '²' => latex += "$^2$",
@@ -151,6 +151,7 @@ fn plain(text: &str) -> String {
                 let letter = latex.pop().unwrap_or(' ');
                 latex += &format!("$\\bar {letter}$");
             }
+            c if c > '\u{24f}' => latex.push('?'),
             c => latex.push(c),
         }
     }

@@ -29,6 +29,9 @@ impl Formulas {
         text += "# θ and d of the table: positions with their offsets.\n";
         for variable in &self.variables {
             let number = variable.joint + 1;
+            if variable.kind == JointKind::Prismatic && variable.offset == Offset::None {
+                continue;
+            }
             let letter = if variable.kind == JointKind::Revolute {
                 "t"
             } else {

@@ -136,17 +136,10 @@ impl Formulas {
             notes.push(format!(
                 "S and C are sine and cosine of sums of angles: {sum}{double}"
             ));
-            let offsets = self.offsets("θ", |turn| signed(&turn.to_string().replace("pi", "π")));
-            if !offsets.is_empty() {
-                notes.push(offsets.join(", "));
-            }
         }
-        let slides: Vec<String> = self
-            .plain_slides()
-            .map(|slide| format!("d{slide} = q{slide}"))
-            .collect();
-        if !slides.is_empty() {
-            notes.push(slides.join(", "));
+        let offsets = self.offsets("θ", |turn| signed(&turn.to_string().replace("pi", "π")));
+        if !offsets.is_empty() {
+            notes.push(offsets.join(", "));
         }
         if self.has_small_terms() {
             notes.push(SMALL.to_owned());

@@ -144,6 +144,21 @@ fn trees_and_joints_that_follow_others() {
     }
 }
 
+/// Slides and lengths of rows had one name, d2.
+#[test]
+fn slides_and_lengths_have_different_names() {
+    for name in [
+        "follower_before_slide",
+        "slide_with_follower",
+        "slides_on_limbs",
+    ] {
+        let (robot, _) = read(&format!("crates/formulas/tests/data/{name}.toml"));
+        for style in STYLES {
+            agrees(&robot, None, style);
+        }
+    }
+}
+
 #[test]
 fn robots_that_nobody_chose() {
     for (_, robot, _) in robots(10, 0xf0_4a) {
@@ -224,7 +239,7 @@ fn everything_else() {
             }
             let rows = (0..3).flat_map(|r| (0..3).map(move |c| (r, c)));
             let rotation: Vec<f64> = rows.map(|(r, c)| hand.axes[c][r]).collect();
-            close(&found, "R", &rotation, &robot);
+            close(&found, "Rot", &rotation, &robot);
             for place in 0..n * n * n {
                 let [whole, rot, tran] =
                     ["h", "hrot", "htran"].map(|list| found.of(&format!("{list}[{place}]")));
