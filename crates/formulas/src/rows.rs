@@ -354,56 +354,46 @@ fn cross_products(a: &Vector, b: &Vector) -> [Sum; 3] {
 /// Lists the sums that moments are multiplied by, of a tensor between two vectors.
 fn moments(
     mass: Sum,
-    [x, y, z]: [Sum; 3],
+    firsts: [Sum; 3],
     term: impl Fn(usize, usize, &Number) -> Option<Term>,
 ) -> Vec<(&'static str, Sum)> {
     let one = Number::one();
-    let both = |a: usize, b: usize| -> Sum {
-        [term(a, b, &one), term(b, a, &one)]
-            .into_iter()
-            .flatten()
-            .collect()
-    };
-    vec![
-        ("M", mass),
-        ("MX", x),
-        ("MY", y),
-        ("MZ", z),
-        ("XX", term(0, 0, &one).into_iter().collect()),
-        ("ZZ", term(2, 2, &one).into_iter().collect()),
-        ("XY", both(0, 1)),
-        ("XZ", both(0, 2)),
-        ("YZ", both(1, 2)),
-    ]
+    let squares = [0, 2].map(|axis| term(axis, axis, &one).into_iter().collect());
+    by_name(mass, firsts, squares, |a, b| term(a, b, &one))
 }
 
 /// Lists them of the tensor ½ tr(I) 1 − I.
 fn seconds(
     mass: Sum,
-    [x, y, z]: [Sum; 3],
+    firsts: [Sum; 3],
     term: impl Fn(usize, usize, &Number) -> Option<Term>,
 ) -> Vec<(&'static str, Sum)> {
     let half = Number::one().half();
     let minus = Number::one().neg();
-    let signed = |signs: [bool; 3]| -> Sum {
-        let factor = |is_negative: bool| if is_negative { half.neg() } else { half };
-        let all = signs.into_iter().enumerate();
-        all.filter_map(|(axis, sign)| term(axis, axis, &factor(sign)))
+    let squares = [0, 2].map(|negative| {
+        let factor = |axis: usize| if axis == negative { half.neg() } else { half };
+        (0..3)
+            .filter_map(|axis| term(axis, axis, &factor(axis)))
             .collect()
-    };
-    let both = |a: usize, b: usize| -> Sum {
-        [term(a, b, &minus), term(b, a, &minus)]
-            .into_iter()
-            .flatten()
-            .collect()
-    };
+    });
+    by_name(mass, firsts, squares, |a, b| term(a, b, &minus))
+}
+
+/// Names the sums that moments are multiplied by; `squares` are those of XX and ZZ.
+fn by_name(
+    mass: Sum,
+    [x, y, z]: [Sum; 3],
+    [xx, zz]: [Sum; 2],
+    term: impl Fn(usize, usize) -> Option<Term>,
+) -> Vec<(&'static str, Sum)> {
+    let both = |a: usize, b: usize| [term(a, b), term(b, a)].into_iter().flatten().collect();
     vec![
         ("M", mass),
         ("MX", x),
         ("MY", y),
         ("MZ", z),
-        ("XX", signed([true, false, false])),
-        ("ZZ", signed([false, false, true])),
+        ("XX", xx),
+        ("ZZ", zz),
         ("XY", both(0, 1)),
         ("XZ", both(0, 2)),
         ("YZ", both(1, 2)),

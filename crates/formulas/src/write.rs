@@ -35,8 +35,8 @@ pub(crate) trait Format {
     fn symbol(&self, symbol: &Symbol) -> String;
     /// Writes a power of something that stands by itself.
     fn power(&self, base: String, power: u32) -> String;
-    /// Writes a power of a sine or a cosine.
-    fn wave(&self, trig: &Trig, power: u32) -> String;
+    /// Writes a sine or a cosine.
+    fn wave(&self, trig: &Trig) -> String;
 
     /// Writes a number of the formula itself.
     fn exact(&self, number: &Number) -> String {
@@ -57,7 +57,8 @@ pub(crate) trait Format {
             Factor::Exact(number) => self.exact(number),
             Factor::Symbol(symbol, 1) => self.symbol(symbol),
             Factor::Symbol(symbol, power) => self.power(self.symbol(symbol), *power),
-            Factor::Wave(trig, power) => self.wave(trig, *power),
+            Factor::Wave(trig, 1) => self.wave(trig),
+            Factor::Wave(trig, power) => self.power(self.wave(trig), *power),
             Factor::Sum(sum) => {
                 let [open, close] = Self::PARENTHESES;
                 format!("{open}{}{close}", self.plain_sum(sum))

@@ -49,13 +49,9 @@ impl Format for Latex {
         }
     }
 
-    fn wave(&self, trig: &Trig, power: u32) -> String {
+    fn wave(&self, trig: &Trig) -> String {
         let letter = if trig.is_sine { 'S' } else { 'C' };
         let (angle, _) = angle(trig, "\\cdot ", "-", self.joins);
-        let base = format!("\\mathrm{{{letter}}}_{{{angle}}}");
-        match power {
-            1 => base,
-            _ => self.power(base, power),
-        }
+        format!("\\mathrm{{{letter}}}_{{{angle}}}")
     }
 }

@@ -45,7 +45,7 @@ impl Format for Python {
         format!("{base}**{power}")
     }
 
-    fn wave(&self, trig: &Trig, power: u32) -> String {
+    fn wave(&self, trig: &Trig) -> String {
         let function = if trig.is_sine { "sin" } else { "cos" };
         let mut angle = String::new();
         for (multiple, joint) in &trig.angle {
@@ -60,10 +60,6 @@ impl Format for Python {
             }
             angle += &format!("t{joint}");
         }
-        let base = format!("{function}({angle})");
-        match power {
-            1 => base,
-            _ => self.power(base, power),
-        }
+        format!("{function}({angle})")
     }
 }

@@ -43,15 +43,11 @@ impl Format for Text {
         base + &raised.collect::<String>()
     }
 
-    fn wave(&self, trig: &Trig, power: u32) -> String {
+    fn wave(&self, trig: &Trig) -> String {
         let letter = if trig.is_sine { 'S' } else { 'C' };
-        let base = match angle(trig, "·", "−", self.joins) {
+        match angle(trig, "·", "−", self.joins) {
             (angle, true) => format!("{letter}{angle}"),
             (angle, false) => format!("{letter}({angle})"),
-        };
-        match power {
-            1 => base,
-            _ => self.power(base, power),
         }
     }
 }
