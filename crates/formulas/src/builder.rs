@@ -47,7 +47,7 @@ struct Table {
     definitions: Vec<Definition<Polynomial>>,
 }
 
-/// What the formulas of a robot are made of.
+/// The builder of the formulas of one robot.
 pub struct Builder<'a> {
     setup: &'a Setup,
     request: &'a Request,

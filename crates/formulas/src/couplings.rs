@@ -215,7 +215,7 @@ impl fmt::Display for Reason {
     }
 }
 
-/// What the search for reasons works on.
+/// The search for the reasons of zeros.
 pub(crate) struct Finder<'a> {
     pub(crate) setup: &'a Setup,
     pub(crate) arm: SymbolicArm,

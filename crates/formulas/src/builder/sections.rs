@@ -14,7 +14,7 @@ use crate::symbol::Symbol;
 
 /// Entries of more terms are written by rows of the axes.
 const LARGE: usize = 100;
-/// The same, where rows are defined anyway.
+/// Entries of more terms are written by rows where rows are defined anyway.
 const LARGE_BESIDE_ROWS: usize = 40;
 /// Entries that have so many terms before splits are chosen are large whatever the choice.
 const SURELY_LARGE: usize = 200;

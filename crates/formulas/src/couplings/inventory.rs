@@ -15,7 +15,7 @@ use crate::ring::Polynomial;
 pub enum Value {
     /// Zero in every state.
     Zero,
-    /// The same in every state, and not zero.
+    /// A constant that is not zero.
     Constant,
     /// A function of the state, neither equal nor opposite to an earlier coefficient.
     Distinct,

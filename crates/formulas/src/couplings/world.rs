@@ -26,7 +26,7 @@ pub(crate) struct Geometry<'a> {
     is_moving: Vec<bool>,
 }
 
-/// What a world keeps of a robot.
+/// The parts of a robot that a world keeps.
 #[derive(Clone, Copy)]
 pub(crate) struct World<'a> {
     /// The facts.
