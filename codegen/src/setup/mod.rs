@@ -269,7 +269,8 @@ impl Setup {
         own
     }
 
-    fn has_zero(&self, argument: Argument) -> bool {
+    /// True if the scene holds an argument at zero.
+    pub fn has_zero(&self, argument: Argument) -> bool {
         self.scene.as_ref().is_some_and(|scene| match argument {
             Argument::Velocity => scene.velocity_zero,
             Argument::Acceleration => scene.acceleration_zero,

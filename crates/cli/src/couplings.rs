@@ -1,7 +1,7 @@
 //! `dalembert explain --couplings`: which coefficients vanish, and why; and which nearly do.
 
 use dalembert_formulas::couplings::{Alive, Couplings, Entry, Inventory, Near, Reason};
-use dalembert_formulas::{Quantity, written};
+use dalembert_formulas::{Frames, Quantity, significant, written};
 use dalembert_model::robot::Robot;
 use serde_json::json;
 
@@ -78,6 +78,10 @@ pub(crate) fn lines(couplings: &Couplings) -> Vec<String> {
         }
     }
     lines.extend(near(&couplings.near));
+    if couplings.frames != Frames::File {
+        lines.push(String::new());
+        lines.push(format!("numbers of a link: {}", couplings.frames.words()));
+    }
     lines
 }
 
@@ -150,10 +154,8 @@ fn percent(part: f64) -> String {
 }
 
 fn rounded(value: f64) -> String {
-    format!("{value:.6}")
-        .trim_end_matches('0')
-        .trim_end_matches('.')
-        .replace('-', "−")
+    let sign = if value < 0.0 { "−" } else { "" };
+    format!("{sign}{}", significant(value.abs(), 6))
 }
 
 /// Adds how many coefficients vanish and repeat; nothing of a robot that has no formulas.

@@ -164,7 +164,14 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
         let is_written = output.is_some() || !context.json;
         let target = is_written.then(|| files.output(output)).transpose()?;
         let scene = request.scene.as_ref();
-        return formulas::run(&args.formulas, quantities, &source.robot, scene, target);
+        return formulas::run(
+            &args.formulas,
+            quantities,
+            &source.robot,
+            scene,
+            target,
+            context.json,
+        );
     }
     let targets = targets(args, context)?;
     if targets.is_some() && args.options.0.get("scene").is_some() {

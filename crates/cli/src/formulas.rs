@@ -41,6 +41,7 @@ pub struct FormulaArgs {
         default_value = "numbers",
         value_parser = word_parser::<Style>(),
         requires = "formulas",
+        conflicts_with = "couplings",
         help_heading = HEADING
     )]
     pub style: Style,
@@ -50,11 +51,12 @@ pub struct FormulaArgs {
         value_name = "WORD",
         value_parser = word_parser::<Layout>(),
         requires = "formulas",
+        conflicts_with = "couplings",
         help_heading = HEADING
     )]
     pub format: Option<Layout>,
     /// All digits of numbers; otherwise six
-    #[arg(long, requires = "formulas", help_heading = HEADING)]
+    #[arg(long, requires = "formulas", conflicts_with = "couplings", help_heading = HEADING)]
     pub all_digits: bool,
     /// Write here: .txt, .md, .tex or .py [default: standard output]. Without --formulas, a page (.md)
     /// about all of the robot's equations, and its drawing beside it
@@ -74,11 +76,7 @@ const ENDINGS: [(&str, Layout); 5] = [
 impl FormulaArgs {
     /// Returns the format; refuses an ending of the output that means another, or none.
     fn layout(&self) -> Result<Layout, Failure> {
-        let Some(path) = self
-            .output
-            .as_deref()
-            .filter(|path| *path != Path::new("-"))
-        else {
+        let Some(path) = self.output.as_deref().filter(|path| is_regular(path)) else {
             return Ok(self.format.unwrap_or_default());
         };
         let ending = path
@@ -107,6 +105,16 @@ fn word_of(layout: &Layout) -> &'static str {
         .map_or("", |(word, _)| word)
 }
 
+/// True for a file that is written anew: not for standard output, a device or a pipe, which have no
+/// ending.
+fn is_regular(path: &Path) -> bool {
+    let is_other = || {
+        path.metadata()
+            .is_ok_and(|found| !found.is_file() && !found.is_dir())
+    };
+    path != Path::new("-") && !is_other()
+}
+
 /// Parses a quantity; a robot file in its place is told where it belongs.
 fn quantity_parser() -> impl TypedValueParser<Value = Quantity> {
     StringValueParser::new().try_map(|word| {
@@ -127,6 +135,7 @@ pub(crate) fn run(
     robot: &Robot,
     scene: Option<&Scene>,
     target: Option<Target>,
+    is_json: bool,
 ) -> Outcome {
     let layout = args.layout()?;
     let request = Request {
@@ -143,16 +152,14 @@ pub(crate) fn run(
         return Ok(in_json(&formulas, robot, scene, digits).into());
     };
     let text = formulas.write(layout, digits);
-    let text = match args
-        .output
-        .as_deref()
-        .filter(|path| *path != Path::new("-"))
-    {
+    let text = match args.output.as_deref().filter(|path| is_regular(path)) {
         None => text,
         Some(_) => sealed(comment(layout), "dalembert explain", &text),
     };
+    let report = is_json.then(|| in_json(&formulas, robot, scene, digits));
     Ok(Done {
         files: vec![(target, text)],
+        report: report.unwrap_or_default(),
         ..Done::default()
     })
 }
@@ -167,6 +174,9 @@ fn comment(layout: Layout) -> Comment {
 
 fn in_json(formulas: &Formulas, robot: &Robot, scene: Option<&Scene>, digits: Digits) -> Report {
     let mut report = Report::of(robot, scene);
+    for (name, text) in formulas.shifted_variables() {
+        report.value(&format!("variables/{name}"), text);
+    }
     for (name, text) in formulas.entries(digits) {
         report.value(&format!("formulas/{name}"), text);
     }

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use dalembert_formulas::couplings::Couplings;
-use dalembert_formulas::{Digits, Formulas, Quantity, Request, Style};
+use dalembert_formulas::{Digits, Formulas, Quantity, Request, Style, escaped};
 use dalembert_model::robot::Robot;
 
 use crate::couplings;
@@ -26,7 +26,7 @@ pub(crate) fn page(
     let svg = drawing::svg(robot, &zeros).map_err(Failure::input)?;
     let table = drawing::lines(robot, &zeros).join("\n");
     let name = picture.file_name().unwrap_or_default().to_string_lossy();
-    let title = robot.name.replace('_', "\\_");
+    let title = escaped(&robot.name);
     let mut page = format!(
         "# {title}\n\nThe equations of motion of {title}, τ_i = Σ_k D_ik q̈_k + Σ_k Σ_m h_ikm q̇_k q̇_m + c_i, as \
          `dalembert explain` writes them.\n\n## The robot\n\n![{title}]({name})\n\n```text\n{table}\n```\n"
@@ -36,7 +36,7 @@ pub(crate) fn page(
     page += &section(robot, "With constants", Style::Constants, &coefficients)?;
     let couplings = Couplings::new(robot).map_err(Failure::input)?;
     page += &format!(
-        "\n## Why coefficients vanish\n\n{} of {} vanish. Link 6\\* is link 6 with what the base parameters of later \
+        "\n## Why coefficients vanish\n\n{} of {} vanish. Link i\\* is link i with what the base parameters of later \
          links add to it.\n\n",
         couplings.zeros.len(),
         couplings.total
@@ -45,7 +45,7 @@ pub(crate) fn page(
         .iter()
         .filter(|line| !line.is_empty())
     {
-        page += &format!("- {}\n", line.replace('*', "\\*").replace('_', "\\_"));
+        page += &format!("- {}\n", escaped(line));
     }
     page += &counts(robot, explained);
     Ok([page, svg])

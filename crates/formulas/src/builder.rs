@@ -31,6 +31,7 @@ use crate::symbol::{Definition, Symbol};
 const SMALL: usize = 12;
 /// And it has at most so many joints.
 const FEW_JOINTS: usize = 4;
+
 /// Polynomials of one quantity, in symbols of one table.
 struct Source {
     quantity: Quantity,
@@ -287,6 +288,8 @@ impl<'a> Builder<'a> {
             sections,
             legend,
             joints: self.setup.joints(),
+            rows: self.setup.robot().rows().len(),
+            results: self.setup.rows().to_vec(),
         })
     }
 

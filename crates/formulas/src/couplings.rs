@@ -8,7 +8,7 @@
 //!    world without any fact has the same zeros.
 //! 4. *Geometry*: zero for all bodies, lengths and angles that keep some facts. The facts are as few as
 //!    dropping one after the other leaves.
-//! 5. *Lengths*: zero for all bodies, but only with these lengths.
+//! 5. *Lengths*: zero for all bodies, but only with these lengths and angles.
 //! 6. *Body*, or *balance* where a base parameter is zero although its summands are not: conditions on base
 //!    parameters that are exact for this geometry, with the facts that they need.
 
@@ -32,6 +32,7 @@ use crate::canonical::Splits;
 use crate::entries::Coefficients;
 use crate::error::FormulaError;
 use crate::expression::{Sum, with_numbers};
+use crate::legend::Frames;
 use crate::number::Number;
 use crate::quantity::Quantity;
 use crate::ring::Polynomial;
@@ -80,13 +81,13 @@ pub enum Reason {
         /// True if other facts would do as well.
         has_others: bool,
     },
-    /// For all bodies, but only with these lengths.
+    /// For all bodies, but only with these lengths and angles.
     Lengths,
     /// By the bodies, for this geometry.
     Body {
         /// The conditions on base parameters.
         conditions: Vec<String>,
-        /// The facts that they need; `None` if they hold with these lengths alone.
+        /// The facts that they need; `None` if they hold with these lengths and angles alone.
         facts: Option<Vec<String>>,
         /// True if a base parameter is zero although its summands are not.
         is_balanced: bool,
@@ -114,6 +115,8 @@ pub struct Couplings {
     pub total: usize,
     /// Those that nearly vanish.
     pub near: Near,
+    /// The frames in which numbers of links are taken.
+    pub frames: Frames,
 }
 
 /// Lists the entries with their values.
@@ -200,13 +203,15 @@ impl fmt::Display for Reason {
                 };
                 write!(f, "{}{end}", facts.join(", "))
             }
-            Reason::Lengths => f.write_str("for all bodies, but only with these lengths"),
+            Reason::Lengths => {
+                f.write_str("for all bodies, but only with these lengths and angles")
+            }
             Reason::Body {
                 conditions, facts, ..
             } => {
                 f.write_str(&conditions.join(", "))?;
                 match facts {
-                    None => f.write_str("; only with these lengths"),
+                    None => f.write_str("; only with these lengths and angles"),
                     Some(facts) if facts.is_empty() => Ok(()),
                     Some(facts) => write!(f, "; {}", facts.join(", ")),
                 }
@@ -301,6 +306,7 @@ impl<'a> Finder<'a> {
             zeros,
             total,
             near: self.near(),
+            frames: Frames::of(self.setup.robot()),
         })
     }
 
@@ -404,7 +410,7 @@ impl<'a> Finder<'a> {
         &self.zeros[facts]
     }
 
-    /// Finds the facts that conditions need; `None` if they hold with these lengths alone.
+    /// Finds the facts that conditions need; `None` if they hold with these lengths and angles alone.
     fn facts_of(&self, entry: &Entry, conditions: &[Condition]) -> Option<Vec<Fact>> {
         let bodies = bodies_that_meet(conditions, &self.moments, &self.kinds, SEEDS[0]);
         let keeps_numbers = conditions.iter().any(|condition| condition.len() > 1);

@@ -16,6 +16,8 @@ use crate::legend::Entry;
 use crate::line::Section;
 use crate::write::{Digits, Format, Latex, Text};
 
+pub use text::escaped;
+
 /// The format of a document.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Layout {
@@ -44,8 +46,9 @@ impl Word for Layout {
 }
 
 const BASE_PARAMETERS: &str = "Base parameters: the combinations of masses and inertias that the torques depend on. \
-                               Those of link i are taken in a frame on the axis of joint i: z is the axis, x is that \
-                               of the link. Parts that the torques cannot tell from the link before count there \
+                               Those of link i are taken in a frame on the axis of joint i: of a joint that turns, z is \
+                               the axis and x that of the link; of a slide, the axes are those of the last link before \
+                               it that turns, or of the base. Parts that the torques cannot tell from the link before count there \
                                (mass, MZ, YY), so that XX stands for Ixx − Iyy";
 const CONSTANTS: &str = "Constants";
 const SMALL: &str = "in parentheses at the end of a line: terms below 1/1000 of its largest";
@@ -100,7 +103,16 @@ impl Formulas {
         .collect()
     }
 
-    /// Lists the variables that are not q_i, as `θ3 = q3 + pi/2`.
+    /// Lists the variables that are not q_i, each with its definition: `θ3` is `q3 + pi/2`.
+    pub fn shifted_variables(&self) -> Vec<(String, String)> {
+        let lines = self.offsets("θ", |turn| signed(&turn.to_string()));
+        let pairs = lines.iter().filter_map(|line| line.split_once(" = "));
+        pairs
+            .map(|(name, sum)| (name.to_owned(), sum.to_owned()))
+            .collect()
+    }
+
+    /// Lists them as lines: `θ3 = q3 + pi/2`.
     fn offsets(&self, turn: &str, angle: impl Fn(&Angle) -> String) -> Vec<String> {
         let line = |variable: &Variable| {
             let number = variable.joint + 1;
@@ -123,6 +135,34 @@ impl Formulas {
         } else {
             "q"
         }
+    }
+
+    /// Lists what a reader has to know about this robot, in words.
+    fn remarks(&self) -> Vec<String> {
+        let mut remarks = Vec::new();
+        if !self.results.iter().copied().eq(0..self.results.len()) {
+            let counted = self.results.iter().enumerate();
+            let counted: Vec<String> = counted
+                .map(|(place, joint)| format!("{} is joint {}", place + 1, joint + 1))
+                .collect();
+            remarks.push(format!(
+                "the indices of coefficients count the scene's results: {}",
+                counted.join(", ")
+            ));
+        }
+        if self.rows > self.joints {
+            remarks.push(
+                "q has the number of its joint; lengths, masses and inertias have that of their row, and joints that \
+                 follow others have rows too"
+                    .to_owned(),
+            );
+        }
+        if self.legend.has_numeric_centres {
+            remarks.push(
+                "centres of mass are numbers: there are too many of them for symbols".to_owned(),
+            );
+        }
+        remarks
     }
 
     /// True if a line has terms that are set off.

@@ -57,9 +57,9 @@ impl fmt::Display for FormulaError {
             ),
             FormulaError::Large => write!(
                 f,
-                "a coefficient has more than {MAX_TERMS} products of sines and cosines: each odd angle between \
-                 two joints multiplies them\n  = help: lock joints in a scene, or import fewer of them; angles that \
-                 are multiples of pi/2 as such"
+                "a coefficient has more than {MAX_TERMS} products of sines and cosines: each joint of a limb, and each \
+                 odd angle between two, multiplies them\n  = help: lock joints in a scene, or import fewer of them; \
+                 write angles that are multiples of pi/2 as such"
             ),
             FormulaError::Rows => f.write_str(
                 "`tau` and `T` have terms of all joints that move, and the scene's `joints` are others\n  = help: \

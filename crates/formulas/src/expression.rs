@@ -1,5 +1,7 @@
 //! Sums and products as they are printed, whatever the format.
 
+use std::collections::BTreeMap;
+
 use dalembert_model::scalar::Scalar;
 
 use crate::canonical::{Form, Runs, Shape, Terms};
@@ -101,7 +103,7 @@ pub fn with_numbers(terms: &Terms, runs: &Runs) -> Sum {
     let largest = sizes.fold(0.0, f64::max);
     let term = |(shape, form): (&Shape, &Form)| {
         let value = form.values().fold(Number::zero(), |sum, x| sum.add(x));
-        if value.is_negligible(largest) {
+        if value.is_zero() {
             return None;
         }
         let mut factors = shaped(shape, runs);
@@ -120,19 +122,19 @@ pub fn with_numbers(terms: &Terms, runs: &Runs) -> Sum {
     large.into_iter().chain(small).collect()
 }
 
+/// Terms with the same symbols.
+type Group<'a> = Vec<(&'a Shape, Number)>;
+
 /// Writes an entry by the products of symbols in it: each times a sum, a common number outside.
 pub fn by_symbols(terms: &Terms, runs: &Runs, name: impl Fn(Symbols) -> Vec<Factor>) -> Sum {
-    let mut groups: Vec<(Symbols, Vec<(&Shape, Number)>)> = Vec::new();
+    let mut groups: BTreeMap<(Option<usize>, Symbols), Group<'_>> = BTreeMap::new();
     for (shape, form) in terms {
         for (symbols, x) in form {
-            match groups.iter_mut().find(|(known, _)| known == symbols) {
-                Some((_, group)) => group.push((shape, *x)),
-                None => groups.push((*symbols, vec![(shape, *x)])),
-            }
+            let group = groups.entry((symbols.parameter_index(), *symbols));
+            group.or_default().push((shape, *x));
         }
     }
-    groups.sort_by_key(|(symbols, _)| (symbols.parameter_index(), *symbols));
-    let terms = |(symbols, group): (Symbols, Vec<(&Shape, Number)>)| {
+    let terms = |(symbols, group): (Symbols, Group<'_>)| {
         let common = name(symbols);
         match common.is_empty() {
             true => group
@@ -142,7 +144,10 @@ pub fn by_symbols(terms: &Terms, runs: &Runs, name: impl Fn(Symbols) -> Vec<Fact
             false => vec![grouped(common, &group, runs)],
         }
     };
-    groups.into_iter().flat_map(terms).collect()
+    let groups = groups
+        .into_iter()
+        .map(|((_, symbols), group)| (symbols, group));
+    groups.flat_map(terms).collect()
 }
 
 /// Adds up terms of the same symbols.

@@ -60,6 +60,10 @@ pub struct Formulas {
     pub legend: Legend,
     /// The number of joints of the robot.
     pub joints: usize,
+    /// The number of its rows: joints that follow others have rows too.
+    pub rows: usize,
+    /// The joints of the results, counted from zero.
+    pub results: Vec<usize>,
 }
 
 impl Formulas {

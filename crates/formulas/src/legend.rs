@@ -1,5 +1,7 @@
 //! The meaning of symbols: constants, base parameters and entries of the robot file.
 
+use dalembert_model::robot::Robot;
+
 use crate::expression::Sum;
 use crate::number::Number;
 use crate::symbol::{Definition, Symbol};
@@ -24,6 +26,40 @@ pub struct Group {
     pub entries: Vec<Entry>,
 }
 
+/// The frames in which numbers of links are taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Frames {
+    /// Those of the robot file.
+    #[default]
+    File,
+    /// Those of the rows of a DH table, which follow from the file's placements.
+    Rows,
+    /// Those of the file, turned until z is the axis of the joint: joints are placed.
+    Turned,
+}
+
+impl Frames {
+    /// Returns those of a robot.
+    pub(crate) fn of(robot: &Robot) -> Frames {
+        match () {
+            () if robot.is_tree() => Frames::Turned,
+            () if robot.rows().iter().any(|joint| joint.frame.is_some()) => Frames::Rows,
+            () => Frames::File,
+        }
+    }
+
+    /// Describes them.
+    pub fn words(self) -> &'static str {
+        match self {
+            Frames::File => "in the frame of the link",
+            Frames::Rows => "in the frame of the DH row, which `dalembert show` draws",
+            Frames::Turned => {
+                "in the frame of the link, turned until its z is the axis of the joint"
+            }
+        }
+    }
+}
+
 /// The symbols of some formulas.
 #[derive(Clone, Debug, Default)]
 pub struct Legend {
@@ -33,10 +69,8 @@ pub struct Legend {
     pub parameters: Vec<Entry>,
     /// Entries of the robot file, those of a joint together.
     pub groups: Vec<Group>,
-    /// True if joints are placed, and have no rows of a DH table.
-    pub is_placed: bool,
-    /// True if the file has placements, from which the rows of the DH table follow.
-    pub has_row_frames: bool,
+    /// The frames of the links.
+    pub frames: Frames,
     /// True if centres of mass are numbers, since there were too many symbols.
     pub has_numeric_centres: bool,
 }
@@ -60,17 +94,9 @@ impl Legend {
 
     /// The meaning of the file's symbols that occur.
     pub(crate) fn title_of_groups(&self) -> String {
-        let frame = match self.is_placed {
-            false if self.has_row_frames => {
-                "x̄, ȳ, z̄ centre of mass in the frame of the DH row, which `dalembert show` draws"
-            }
-            false => "x̄, ȳ, z̄ centre of mass in the frame of the link",
-            true => {
-                "x̄, ȳ, z̄ centre of mass in the frame of the link, turned until its z is the axis of the joint"
-            }
-        };
-        let meanings = [
-            (&["g", "gx", "gy", "gz"][..], "g gravity"),
+        let centre = format!("x̄, ȳ, z̄ centre of mass {}", self.frames.words());
+        let meanings: [(&[&str], &str); 10] = [
+            (&["g", "gx", "gy", "gz"], "g gravity"),
             (&["a"], "a length of the row"),
             (&["d"], "d offset of the row"),
             (
@@ -78,7 +104,7 @@ impl Legend {
                 "px, py, pz origin of the joint in the frame of the link before, turned in the same way",
             ),
             (&["m"], "m mass"),
-            (&["x", "y", "z"], frame),
+            (&["x", "y", "z"], &centre),
             (&["I"], "I moment of inertia about the centre of mass"),
             (&["Ia"], "Ia armature"),
             (&["tx", "ty", "tz"], "tx, ty, tz place of the tool"),

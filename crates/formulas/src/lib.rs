@@ -55,13 +55,13 @@ mod symbol;
 mod write;
 
 pub use arm::{Offset, Variable};
-pub use document::{Layout, written};
+pub use document::{Layout, escaped, written};
 pub use error::FormulaError;
 pub use expression::{Factor, Sum, Term, Trig, products};
 pub use formulas::{Formulas, Request, Style};
-pub use legend::{Entry, Group, Legend};
+pub use legend::{Entry, Frames, Group, Legend};
 pub use line::{Line, List, Section};
-pub use number::Number;
+pub use number::{Number, rounded as significant};
 pub use quantity::Quantity;
 pub use symbol::Symbol;
 pub use write::Digits;

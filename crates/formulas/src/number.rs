@@ -1,5 +1,5 @@
-//! A coefficient known twice: by a residue, which decides if it is zero, and by a value of 256 bits,
-//! which is printed.
+//! A coefficient known twice: by a residue and by a value of 256 bits. Of rational numbers the residue
+//! decides if one is zero, and where odd angles take part, the value beside its error.
 
 use dalembert_model::number::parse::write_decimal;
 use dalembert_model::number::recover::recovered;
@@ -10,16 +10,28 @@ use num_bigint::BigInt;
 
 const SEED: u64 = 0x666f_726d;
 const PLACES: u32 = 36;
+/// The relative error of a sine or a cosine of 256 bits, with room for the operations that follow.
+const ROUNDING: f64 = 1e-70;
+/// The relative error of a number of 20 digits: a placement's that is neither a fraction nor a simple
+/// part of a turn.
+const TWENTY_DIGITS: f64 = 1e-19;
+/// The most digits of a number that somebody gave: a double has 17.
+const GIVEN_DIGITS: usize = 18;
 
-/// A real number with its residue modulo 2⁶¹ − 1.
+/// The least common multiple of the numbers up to 16.
+const COMMON_MULTIPLE: f64 = 720_720.0;
+
+/// A real number with its residue modulo 2⁶¹ − 1 and the error of its value.
 ///
 /// The sine and the cosine of a constant angle are a random point of the circle in the field, so that
-/// a relation between two odd angles goes unseen: the number then looks different from zero, and its
-/// value tells ([`Number::is_negligible`]).
+/// a relation between two odd angles goes unseen by the residue (0.3 + 0.3 − 0.6, or three times 30°).
+/// Such a number has an error, and is zero where its value is below that. Numbers that are made of
+/// fractions of at most 18 digits have none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Number {
     residue: Field,
     value: Wide,
+    error: f64,
 }
 
 impl Number {
@@ -35,12 +47,16 @@ impl Number {
         Number {
             residue: halved,
             value: Wide::from_f64(value).unwrap_or_else(Wide::zero),
+            error: 0.0,
         }
     }
 
-    /// Returns the residue.
+    /// Returns the residue: zero if the number is.
     pub fn residue(&self) -> Field {
-        self.residue
+        match self.is_zero() {
+            true => Field::ZERO,
+            false => self.residue,
+        }
     }
 
     /// Returns the nearest double.
@@ -69,22 +85,29 @@ impl Number {
         self.value.magnitude()
     }
 
-    /// True below 1e-60 of a size: zero as far as 256 bits tell.
-    pub fn is_negligible(&self, size: f64) -> bool {
-        self.magnitude() <= 1e-60 * size
-    }
-
     /// Returns self / other, `None` if that is zero.
     pub fn over(&self, other: &Number) -> Option<Number> {
+        if other.is_zero() {
+            return None;
+        }
+        let value = self.value.over(&other.value)?;
+        let relative = other.error / other.magnitude();
         Some(Number {
             residue: self.residue.mul(&other.residue.inverse()?),
-            value: self.value.over(&other.value)?,
+            error: self.error / other.magnitude() + value.magnitude() * relative,
+            value,
         })
     }
 
     /// Returns the fraction that it is, if that has a denominator below 2⁹⁰ or is a decimal of at most 36
     /// places. The residue decides.
     pub fn to_fraction(self) -> Option<Rational> {
+        // Mostly sines and cosines of odd angles make a number with an error: few are fractions, and
+        // those have small denominators.
+        let multiple = self.to_f64() * COMMON_MULTIPLE;
+        if self.error > 0.0 && (multiple - multiple.round()).abs() > 1e-9 * multiple.abs() {
+            return None;
+        }
         let is_it = |x: &Rational| Field::from_rational(x) == Some(self.residue);
         let simple = recovered(&self.value, &Rational::from_integer(1.into()));
         if is_it(&simple) {
@@ -106,16 +129,20 @@ impl Number {
 
     /// Writes the size, rounded to so many digits.
     pub fn rounded(self, digits: usize) -> String {
-        let value = self.to_f64().abs();
-        let text = format!("{value:.*e}", digits.saturating_sub(1));
-        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-        let exponent: i32 = exponent.parse().unwrap_or(0);
-        if (-4..digits as i32).contains(&exponent) {
-            let places = (digits as i32 - 1 - exponent).max(0) as usize;
-            return trimmed(&format!("{value:.places$}")).to_owned();
-        }
-        format!("{}e{exponent}", trimmed(mantissa))
+        rounded(self.to_f64().abs(), digits)
     }
+}
+
+/// Writes a positive number, rounded to so many digits.
+pub fn rounded(value: f64, digits: usize) -> String {
+    let text = format!("{value:.*e}", digits.saturating_sub(1));
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    if (-4..digits as i32).contains(&exponent) {
+        let places = (digits as i32 - 1 - exponent).max(0) as usize;
+        return trimmed(&format!("{value:.places$}")).to_owned();
+    }
+    format!("{}e{exponent}", trimmed(mantissa))
 }
 
 /// Drops zeros at the end of a decimal.
@@ -135,43 +162,74 @@ fn plain(text: &str) -> String {
 
 impl Scalar for Number {
     fn zero() -> Self {
-        let (residue, value) = (Field::ZERO, Wide::zero());
-        Number { residue, value }
+        Number {
+            residue: Field::ZERO,
+            value: Wide::zero(),
+            error: 0.0,
+        }
     }
     fn one() -> Self {
-        let (residue, value) = (Field::ONE, Wide::one());
-        Number { residue, value }
+        Number {
+            residue: Field::ONE,
+            value: Wide::one(),
+            error: 0.0,
+        }
     }
     fn add(&self, other: &Self) -> Self {
+        let is_exact = self.error == 0.0 && other.error == 0.0;
+        let rounding = match is_exact {
+            true => 0.0,
+            false => ROUNDING * (self.magnitude() + other.magnitude()),
+        };
         Number {
             residue: self.residue.add(&other.residue),
             value: self.value.add(&other.value),
+            error: self.error + other.error + rounding,
         }
     }
     fn mul(&self, other: &Self) -> Self {
+        let is_exact = self.error == 0.0 && other.error == 0.0;
+        let error = match is_exact {
+            true => 0.0,
+            false => {
+                let both = self.magnitude() * other.error + other.magnitude() * self.error;
+                both + self.error * other.error
+            }
+        };
         Number {
             residue: self.residue.mul(&other.residue),
             value: self.value.mul(&other.value),
+            error,
         }
     }
     fn neg(&self) -> Self {
         Number {
             residue: self.residue.neg(),
             value: self.value.neg(),
+            error: self.error,
         }
     }
     fn half(&self) -> Self {
         Number {
             residue: self.residue.half(),
             value: self.value.half(),
+            error: self.error / 2.0,
         }
     }
     fn is_zero(&self) -> bool {
-        self.residue == Field::ZERO
+        self.residue == Field::ZERO || self.error > 0.0 && self.magnitude() <= self.error
     }
     fn is_one(&self) -> bool {
-        self.residue == Field::ONE
+        self.residue == Field::ONE || self.error > 0.0 && self.sub(&Number::one()).is_zero()
     }
+}
+
+/// True for a fraction of small numbers, and for a decimal of so many digits as people write.
+fn is_given(value: &Rational) -> bool {
+    let is_small = |x: &BigInt| x.bits() <= 60;
+    let digits = |text: String| text.bytes().filter(u8::is_ascii_digit).count();
+    is_small(value.numer()) && is_small(value.denom())
+        || write_decimal(value).is_some_and(|text| digits(text) <= GIVEN_DIGITS)
 }
 
 /// Converts exact constants to numbers, each constant angle always to the same point of the circle.
@@ -195,29 +253,60 @@ impl Constants {
 
     /// Converts one constant.
     pub fn number(&mut self, constant: &Exact) -> Number {
-        let (points, angles) = (&mut self.points, &mut self.angles);
-        let mut point = |angle: &Angle| {
-            if let Some((_, pair)) = angles.iter().find(|(known, _)| known == angle) {
-                return pair.clone();
-            }
-            // Of an eighth of a turn both are √½, which the field has: 2³⁰.
-            let eighth = Angle::PiTimes(Rational::new(1.into(), 4.into()));
-            let root = Field::new(1 << 30);
-            let (sin, cos) = if *angle == eighth {
-                (root, root)
-            } else {
-                points.circle()
+        let Constants { points, angles, .. } = self;
+        let mut pair = |angle: &Angle| {
+            let residues = match angles.iter().find(|(known, _)| known == angle) {
+                Some((_, residues)) => residues.clone(),
+                None => {
+                    let drawn = residues_of(angle, points);
+                    angles.push((angle.clone(), drawn.clone()));
+                    drawn
+                }
             };
-            angles.push((angle.clone(), SinCosPair { sin, cos }));
-            SinCosPair { sin, cos }
+            let SinCosPair { sin, cos } = Wide::sincos(angle);
+            let error = match is_given(angle.number()) {
+                true => ROUNDING,
+                false => TWENTY_DIGITS,
+            };
+            let number = |residue: Field, value: Wide| Number {
+                residue,
+                value,
+                error,
+            };
+            SinCosPair {
+                sin: number(residues.sin, sin),
+                cos: number(residues.cos, cos),
+            }
         };
-        let residue = constant.map(&mut |x: &Rational| Field::from_rational(x), &mut point);
-        self.fits &= residue.is_some();
-        Number {
-            residue: residue.unwrap_or(Field::ZERO),
-            value: Wide::from_exact(constant),
-        }
+        let mut rational = |x: &Rational| {
+            let value = Wide::from_rational(x);
+            let error = match is_given(x) {
+                true => 0.0,
+                false => TWENTY_DIGITS * value.magnitude(),
+            };
+            Some(Number {
+                residue: Field::from_rational(x)?,
+                value,
+                error,
+            })
+        };
+        let number = constant.map(&mut rational, &mut pair);
+        self.fits &= number.is_some();
+        number.unwrap_or_else(Number::zero)
     }
+}
+
+/// Returns a random point of the circle. Sine and cosine of an eighth of a turn are both √½, which
+/// the field has: 2³⁰.
+fn residues_of(angle: &Angle, points: &mut Points) -> SinCosPair<Field> {
+    let eighth = Angle::PiTimes(Rational::new(1.into(), 4.into()));
+    let root = Field::new(1 << 30);
+    let (sin, cos) = if *angle == eighth {
+        (root, root)
+    } else {
+        points.circle()
+    };
+    SinCosPair { sin, cos }
 }
 
 #[cfg(test)]
@@ -267,5 +356,50 @@ mod tests {
         let [sin, cos] = [&eighth.sin, &eighth.cos].map(|x| constants.number(x));
         assert!(sin.sub(&cos).is_zero() && sin.mul(&sin).double().is_one());
         assert_eq!(Number::of_dyadic(-0.375), number(-3, 8));
+    }
+
+    /// Returns sin(a + b + c) of angles whose sum is zero.
+    fn sine_of_sum(angles: [Angle; 3]) -> Number {
+        let mut constants = Constants::new();
+        let pairs = angles.map(|angle| Exact::sincos(&angle).map(|x| constants.number(x)));
+        let [a, b, c] = &pairs;
+        a.compose(b).compose(c).sin
+    }
+
+    #[test]
+    fn relations_of_odd_angles_are_zero_by_value() {
+        let radians = |n: i64, d: i64| Angle::Radians(ratio(n, d));
+        let thirty = || Angle::PiTimes(ratio(1, 6));
+        let twenty_digits = |n: i128| {
+            let whole = Rational::from_integer(n.into());
+            Angle::Radians(whole / Rational::from_integer(10_i128.pow(20).into()))
+        };
+        let third = 33_333_333_333_333_333_333;
+        let zeros = [
+            [radians(3, 10), radians(3, 10), radians(-6, 10)],
+            [thirty(), thirty(), Angle::PiTimes(ratio(-1, 3))],
+            [radians(1, 3), radians(-2, 3), twenty_digits(third)],
+        ];
+        for angles in zeros {
+            let sine = sine_of_sum(angles);
+            assert!(sine.is_zero() && sine.residue() == Field::ZERO);
+        }
+        let others = [
+            [
+                radians(3, 10),
+                radians(3, 10),
+                radians(-600_000_000_001, 1_000_000_000_000),
+            ],
+            [radians(1, 3), radians(-2, 3), twenty_digits(third + 1000)],
+        ];
+        for angles in others {
+            assert!(!sine_of_sum(angles).is_zero());
+        }
+        assert!(
+            number(1, 1_000_000_000)
+                .mul(&number(1, 1_000_000_000))
+                .residue()
+                != Field::ZERO
+        );
     }
 }

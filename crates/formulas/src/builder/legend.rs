@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 
 use super::{Builder, OF_FILE};
 use crate::expression::{Factor, Term};
-use crate::legend::{Entry, Legend};
+use crate::legend::{Entry, Frames, Legend};
 use crate::line::Section;
 use crate::names::{SharedConstants, form_of};
+use crate::symbol::Symbol;
 
 impl Builder<'_> {
     /// Lists the symbols that occur, constants first, then base parameters, then the file's.
@@ -27,9 +28,14 @@ impl Builder<'_> {
             });
         }
         let of_file = self.names(OF_FILE);
+        // An armature is a base parameter as it stands.
+        let is_of_file = |symbol: &Symbol| {
+            let mut file = self.arm.parameters.iter();
+            file.any(|definition| definition.symbol == *symbol)
+        };
         for table in &self.tables[1..] {
             for (definition, (_, value)) in table.definitions.iter().zip(&table.parameters) {
-                if seen.contains(&definition.symbol.code) {
+                if seen.contains(&definition.symbol.code) && !is_of_file(&definition.symbol) {
                     let sum = of_file.form(&form_of(&definition.value));
                     see(&sum, &mut seen);
                     legend.parameters.push(Entry {
@@ -53,20 +59,24 @@ impl Builder<'_> {
         {
             legend.entry(self.label(entry.row), entry);
         }
-        let robot = self.setup.robot();
-        legend.is_placed = robot.is_tree();
-        legend.has_row_frames = robot.rows().iter().any(|joint| joint.frame.is_some());
+        legend.frames = Frames::of(self.setup.robot());
         legend.has_numeric_centres = self.arm.has_numeric_centres;
         legend
     }
 
-    /// The name of a row's joint, or of the robot.
+    /// The name of a row's joint, or of the robot. A robot with joints that follow others has more rows
+    /// than variables.
     fn label(&self, row: Option<usize>) -> String {
-        let rows = self.setup.robot().rows();
+        let robot = self.setup.robot();
+        let rows = robot.rows();
+        let kind = match rows.len() == robot.joints.len() {
+            true => "joint",
+            false => "row",
+        };
         match row.map(|row| (row + 1, rows.get(row).and_then(|joint| joint.name.as_ref()))) {
             None => "robot".to_owned(),
-            Some((number, Some(name))) => format!("joint {number} ({name})"),
-            Some((number, None)) => format!("joint {number}"),
+            Some((number, Some(name))) => format!("{kind} {number} ({name})"),
+            Some((number, None)) => format!("{kind} {number}"),
         }
     }
 }

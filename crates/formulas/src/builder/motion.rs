@@ -1,5 +1,6 @@
 //! Energies and torques: products of coefficients and rates.
 
+use dalembert_model::outputs::Argument;
 use dalembert_model::scalar::Scalar;
 
 use super::{Builder, FEW_JOINTS};
@@ -36,7 +37,8 @@ impl Builder<'_> {
 
     pub(super) fn kinetic_energy(&mut self, table: usize) -> Section {
         let mut sum = Sum::new();
-        for (i, k) in pairs(self.setup.rows().len()) {
+        let is_moving = !self.setup.has_zero(Argument::Velocity);
+        for (i, k) in pairs(self.setup.rows().len()).filter(|_| is_moving) {
             let Some(factor) = self.entry(Quantity::Inertia, &[i, k], table) else {
                 continue;
             };
@@ -56,10 +58,12 @@ impl Builder<'_> {
 
     pub(super) fn torques(&mut self, table: usize) -> Section {
         let n = self.setup.rows().len();
+        let [is_moving, is_accelerating] =
+            [Argument::Velocity, Argument::Acceleration].map(|rate| !self.setup.has_zero(rate));
         let mut lines = Vec::new();
         for i in 0..n {
             let mut sum = Sum::new();
-            for k in 0..n {
+            for k in (0..n).filter(|_| is_accelerating) {
                 let indices = [i.min(k), i.max(k)];
                 if let Some(factor) = self.entry(Quantity::Inertia, &indices, table) {
                     let rate = Symbol::rate(2, self.joint(k));
@@ -67,7 +71,7 @@ impl Builder<'_> {
                     sum.push(flat(Term::new(false, factors)));
                 }
             }
-            for (k, m) in pairs(n) {
+            for (k, m) in pairs(n).filter(|_| is_moving) {
                 let Some(factor) = self.entry(Quantity::Christoffel, &[i, k, m], table) else {
                     continue;
                 };

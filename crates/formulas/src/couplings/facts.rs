@@ -1,6 +1,7 @@
 //! Special values of a robot's geometry, which may be why a coupling vanishes.
 
 use dalembert_model::equations::SinCosPair;
+use dalembert_model::equations::matrix::Columns;
 use dalembert_model::robot::{Convention, JointKind};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::Field;
@@ -11,13 +12,16 @@ use super::world::Geometry;
 /// smallest set drops them in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Fact {
+    /// The armature of a joint is zero.
+    NoArmature(usize),
     /// d of a row is zero.
     NoOffset(usize),
     /// a of a row is zero.
     NoLength(usize),
     /// A component of the origin of a joint that is placed is zero.
     NoOrigin(usize, usize),
-    /// θ of a slide, or of a joint that is locked, is a right angle; a placement turns by right angles.
+    /// θ of a slide, or of a joint that is locked, is a multiple of a right angle; a placement turns by
+    /// right angles. It stays the angle that it is.
     RightTurn(usize),
     /// Gravity is along an axis of the base, or absent.
     Gravity,
@@ -42,6 +46,9 @@ impl Geometry<'_> {
         let mut facts = Vec::new();
         let arm = &self.arm;
         for (row, link) in arm.links.iter().enumerate() {
+            if is_zero(&link.armature) {
+                facts.push(Fact::NoArmature(row));
+            }
             let is_constant = link.kind == JointKind::Prismatic || self.is_locked(row);
             if let Some(place) = &link.place {
                 let origin = place.origin.iter().enumerate();
@@ -98,6 +105,7 @@ impl Geometry<'_> {
         };
         let number = |row: usize| row + 1;
         match fact {
+            Fact::NoArmature(row) => format!("joint {} has no armature", number(row)),
             Fact::NoOffset(row) => format!("d{} = 0", number(row)),
             Fact::NoLength(row) => {
                 let [x, y] = axes(row);
@@ -110,8 +118,15 @@ impl Geometry<'_> {
             }
             Fact::NoOrigin(row, axis) => format!("p{}{} = 0", ["x", "y", "z"][axis], number(row)),
             Fact::RightTurn(row) => match &self.arm.links[row].place {
-                Some(_) => format!("frame {} is turned by right angles", number(row)),
-                None => format!("θ{} is a right angle", number(row)),
+                Some(place) => {
+                    let [carrier, moved] = axes(row);
+                    format!("frame {moved} has {}", along_axes(place, moved, carrier))
+                }
+                None => format!(
+                    "θ{} = {}",
+                    number(row),
+                    right_angle(&self.constant_turn(row))
+                ),
             },
             Fact::Gravity => {
                 let along = self.arm.gravity.iter().position(|g| !is_zero(g));
@@ -130,4 +145,29 @@ impl Geometry<'_> {
             }
         }
     }
+}
+
+/// Writes a turn by right angles.
+fn right_angle(pair: &SinCosPair<Field>) -> &'static str {
+    match () {
+        () if is_zero(&pair.sin) && pair.cos == Field::ONE => "0",
+        () if is_zero(&pair.sin) => "180°",
+        () if pair.sin == Field::ONE => "90°",
+        () => "−90°",
+    }
+}
+
+/// Writes the directions of the axes of a frame that is turned by right angles: `x3 along z2`.
+fn along_axes(place: &Columns<Field>, moved: usize, carrier: usize) -> String {
+    const AXES: [&str; 3] = ["x", "y", "z"];
+    let axes = AXES.iter().zip(&place.axes).map(|(axis, components)| {
+        let along = components.iter().position(|x| !is_zero(x)).unwrap_or(0);
+        let sign = if components[along] == Field::ONE {
+            ""
+        } else {
+            "−"
+        };
+        format!("{axis}{moved} along {sign}{}{carrier}", AXES[along])
+    });
+    axes.collect::<Vec<_>>().join(", ")
 }

@@ -84,7 +84,7 @@ impl<'a> Geometry<'a> {
         let rows = arm.links.iter_mut().zip(&mut locks).enumerate();
         for (row, (link, lock)) in rows {
             let turns: [SinCosPair<Field>; 4] = [0; 4].map(|_| circle(&mut points));
-            let lengths: [Field; 3] = [0; 3].map(|_| points.field());
+            let lengths: [Field; 4] = [0; 4].map(|_| points.field());
             let angle = |pair: &mut SinCosPair<Field>, drawn: usize, is_kept: bool| {
                 if !(is_kept || world.keeps_numbers && !is_right(pair)) {
                     *pair = turns[drawn].clone();
@@ -125,7 +125,12 @@ impl<'a> Geometry<'a> {
                     length(&mut link.d, 1, slides || keeps(Fact::NoOffset(row)));
                 }
             }
-            let is_kept = keeps(Fact::RightTurn(row));
+            // A placement has been turned at random already, if it is not kept.
+            let is_turned = |pair: &SinCosPair<Field>| link.place.is_some() && is_right(pair);
+            if link.place.is_some() && !is_zero(&link.d) {
+                link.d = lengths[3];
+            }
+            let is_kept = keeps(Fact::RightTurn(row)) || is_turned(&self.constant_turn(row));
             if let Some(JointPosition::Revolute(pair)) = lock {
                 angle(pair, 2, is_kept);
             } else if link.kind == JointKind::Prismatic {
@@ -134,7 +139,10 @@ impl<'a> Geometry<'a> {
             link.mass = points.field();
             link.com = [0; 3].map(|_| points.field());
             link.inertia = Inertia::of([0; 6].map(|_| points.field()));
-            link.armature = points.field();
+            let armature = points.field();
+            if !keeps(Fact::NoArmature(row)) {
+                link.armature = armature;
+            }
         }
         // Gravity along one axis is a fact; in another direction its numbers are part of conditions.
         let is_along_axis = arm.gravity.iter().filter(|g| !is_zero(g)).count() <= 1;

@@ -1,5 +1,6 @@
 //! A LaTeX document.
 
+use super::text::capital;
 use super::{BASE_PARAMETERS, CONSTANTS, signed, value, zeros};
 use crate::formulas::Formulas;
 use crate::legend::Entry;
@@ -21,8 +22,8 @@ impl Formulas {
         if self.has_small_terms() {
             text += "\nTerms below 1/1000 of the largest of a line are in braces at its end.\n";
         }
-        if self.legend.has_numeric_centres {
-            text += "Centres of mass are numbers: there are too many of them for symbols.\n";
+        for remark in self.remarks() {
+            text += &format!("\n{}.\n", plain(&capital(&remark)));
         }
         for section in &self.sections {
             text += &format!("\n\\subsection*{{{}}}\n", prose(&section.title));
@@ -139,6 +140,9 @@ fn plain(text: &str) -> String {
         match c {
             '_' | '&' | '%' | '#' | '$' | '{' | '}' => latex.extend(['\\', c]),
             '\\' => latex += "\\textbackslash{}",
+            '<' => latex += "\\textless{}",
+            '>' => latex += "\\textgreater{}",
+            '|' => latex += "\\textbar{}",
             '^' => latex += "\\^{}",
             '~' => latex += "\\~{}",
             '≤' => latex += "$\\le$",

@@ -2,7 +2,7 @@
 
 use super::{BASE_PARAMETERS, CONSTANTS, SMALL, signed, value, zeros};
 use crate::formulas::Formulas;
-use crate::legend::Entry;
+use crate::legend::{Entry, Group};
 use crate::write::{Digits, Format, Text};
 
 impl Formulas {
@@ -29,19 +29,14 @@ impl Formulas {
         if !self.legend.groups.is_empty() {
             text += &format!("\n{}\n", &self.legend.title_of_groups());
             for group in &self.legend.groups {
-                let entries: Vec<String> = group
-                    .entries
-                    .iter()
-                    .map(|entry| defined(entry, format))
-                    .collect();
-                text += &format!("{}: {}\n", group.label, entries.join(", "));
+                text += &format!("{}: {}\n", group.label, all_defined(group, format));
             }
         }
         text
     }
 
     pub(super) fn markdown(&self, format: &Text) -> String {
-        let title = self.robot.replace('_', "\\_");
+        let title = escaped(&self.robot);
         format!("# {title}\n\n{}", self.notes_and_tables(format, 2))
     }
 
@@ -71,35 +66,29 @@ impl Formulas {
             let [left, right] = columns;
             text += &format!("\n{head} {title}\n\n{below}| {left} | {right} |\n|---|---|\n");
             for [left, right] in rows {
-                text += &format!("| {} | {right} |\n", left.replace('_', "\\_"));
+                text += &format!("| {left} | {right} |\n");
             }
         };
         for section in &self.sections {
             let lines = section.lines.iter();
             let mut rows: Vec<[String; 2]> = lines
-                .map(|line| [format.names(line), format.sum(&line.sum)])
+                .map(|line| [escaped(&format.names(line)), format.sum(&line.sum)])
                 .collect();
             if let Some(zeros) = zeros(section, format) {
-                rows.push([zeros, "0".to_owned()]);
+                rows.push([escaped(&zeros), "0".to_owned()]);
             }
             table(&section.title, ["coefficient", "value"], rows);
         }
         for (title, entries) in self.sums() {
             let rows = entries.iter().map(|entry| {
                 let right = format!("{} = {}", format.sum(&entry.sum), value(entry, format));
-                [format.symbol(&entry.symbol), right]
+                [escaped(&format.symbol(&entry.symbol)), right]
             });
             table(title, ["symbol", "value"], rows.collect());
         }
         if !self.legend.groups.is_empty() {
-            let rows = self.legend.groups.iter().map(|group| {
-                let entries: Vec<String> = group
-                    .entries
-                    .iter()
-                    .map(|entry| defined(entry, format))
-                    .collect();
-                [group.label.clone(), entries.join(", ")]
-            });
+            let groups = self.legend.groups.iter();
+            let rows = groups.map(|group| [escaped(&group.label), all_defined(group, format)]);
             table(
                 &self.legend.title_of_groups(),
                 ["joint", "values"],
@@ -144,11 +133,7 @@ impl Formulas {
         if self.has_small_terms() {
             notes.push(SMALL.to_owned());
         }
-        if self.legend.has_numeric_centres {
-            notes.push(
-                "centres of mass are numbers: there are too many of them for symbols".to_owned(),
-            );
-        }
+        notes.extend(self.remarks());
         notes
     }
 
@@ -165,7 +150,7 @@ impl Formulas {
 }
 
 /// Begins a sentence; symbols stay as they are.
-fn capital(words: &str) -> String {
+pub(super) fn capital(words: &str) -> String {
     let mut letters = words.chars();
     let first = letters.next();
     let is_word = letters.clone().next().is_some_and(char::is_alphabetic);
@@ -173,6 +158,24 @@ fn capital(words: &str) -> String {
         Some(first) => first.to_uppercase().chain(letters).collect(),
         None => words.to_owned(),
     }
+}
+
+/// Writes the symbols of a group with their values.
+fn all_defined(group: &Group, format: &Text) -> String {
+    let entries = group.entries.iter().map(|entry| defined(entry, format));
+    entries.collect::<Vec<_>>().join(", ")
+}
+
+/// Escapes the letters of a name that Markdown reads as marks.
+pub fn escaped(name: &str) -> String {
+    let mut text = String::new();
+    for letter in name.chars() {
+        if "\\`*_{}[]<>#|~".contains(letter) {
+            text.push('\\');
+        }
+        text.push(letter);
+    }
+    text
 }
 
 /// Writes a symbol, its sum and its value.

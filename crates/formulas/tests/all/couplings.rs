@@ -114,6 +114,67 @@ fn every_zero_has_a_reason() {
     }
 }
 
+/// Returns the reason of an entry that vanishes.
+fn reason(robot: &Robot, name: &str) -> Option<String> {
+    let zeros = Couplings::new(robot).unwrap().zeros;
+    let zero = zeros.iter().find(|zero| zero.entry.name().text == name)?;
+    Some(zero.reason.to_string())
+}
+
+fn arm(convention: &str, joints: &[&str]) -> Robot {
+    let mut text =
+        format!("name = \"arm\"\nconvention = \"{convention}\"\ngravity = [0, 0, -9.81]\n");
+    for joint in joints {
+        let body = "mass = 1\ncom = [0.1, 0.03, 0.2]\ninertia = [0.01, 0.011, 0.012, 0, 0, 0]";
+        let is_massless = joint.contains("mass = 0");
+        text += &format!(
+            "[[joint]]\n{joint}\n{}\n",
+            if is_massless { "" } else { body }
+        );
+    }
+    parse(&text).unwrap().robot
+}
+
+/// 0.3 + 0.3 − 0.6 is zero, and 30° + 30° + 30° a right angle, although each angle is an odd one.
+#[test]
+fn sums_of_odd_angles_are_seen() {
+    let slide = "kind = \"prismatic\"\nalpha = ";
+    let turn = "kind = \"revolute\"\nalpha = ";
+    let radians = [
+        "kind = \"revolute\"".to_owned(),
+        format!("{slide}0.3"),
+        format!("{slide}0.3"),
+        format!("{turn}-0.6"),
+    ];
+    let degrees = [
+        "kind = \"revolute\"".to_owned(),
+        format!("{slide}\"30deg\""),
+        format!("{slide}\"30deg\""),
+        format!("{turn}\"-60deg\""),
+    ];
+    for joints in [radians, degrees] {
+        let joints: Vec<&str> = joints.iter().map(String::as_str).collect();
+        let robot = arm("modified", &joints);
+        let why = "for all bodies, but only with these lengths and angles";
+        assert_eq!(reason(&robot, "c_4").as_deref(), Some(why));
+        let mut bent = joints.clone();
+        bent[3] = "kind = \"revolute\"\nalpha = -0.6000001";
+        assert_eq!(reason(&arm("modified", &bent), "c_4"), None);
+    }
+}
+
+/// A link without mass has no inertia; an armature would give D_33 one.
+#[test]
+fn an_armature_that_is_missing_is_a_reason() {
+    let turn = "kind = \"revolute\"\nalpha = \"pi/2\"\na = 0.1\nd = 0.2";
+    let last = "kind = \"revolute\"\na = 0.123\nd = 0.456\nmass = 0";
+    let why = reason(&arm("standard", &[turn, turn, last]), "D_33");
+    assert_eq!(why.as_deref(), Some("ZZ3 = 0; joint 3 has no armature"));
+    let driven = format!("{last}\narmature = 0.1");
+    let robot = arm("standard", &[turn, turn, &driven]);
+    assert_eq!(reason(&robot, "D_33"), None);
+}
+
 fn zeros(robot: &Robot) -> Vec<String> {
     let inventory = Inventory::new(robot).unwrap().0.into_iter();
     let zeros = inventory.filter(|(_, value)| *value == Value::Zero);

@@ -179,6 +179,61 @@ fn joints_that_are_locked() {
     }
 }
 
+fn scene_of(robot: &Robot, lines: &str) -> (Robot, Vec<Scene>) {
+    let reading = parse(&format!("{}\n[scene.held]\n{lines}\n", write(robot))).unwrap();
+    (reading.robot, reading.scenes)
+}
+
+/// A scene that holds velocities at zero leaves no Coriolis terms, one that holds accelerations no
+/// inertia.
+#[test]
+fn rates_that_a_scene_holds_at_zero_are_absent() {
+    let (robot, _) = read("generated/robots/puma560.toml");
+    let request = Request {
+        quantities: vec![Quantity::Torque],
+        style: Style::Numbers,
+    };
+    for (rate, absent) in [("velocity", "q\u{307}"), ("acceleration", "q\u{308}")] {
+        let (robot, scenes) = scene_of(&robot, &format!("{rate} = \"zero\""));
+        for (scene, is_absent) in [(None, false), (scenes.first(), true)] {
+            let formulas = Formulas::new(&robot, scene, &request).unwrap();
+            let entries = formulas.entries(Digits::Six);
+            let (_, torque) = entries.iter().find(|(name, _)| name == "tau_3").unwrap();
+            assert_eq!(torque.contains(absent), !is_absent, "{rate}: {torque}");
+        }
+    }
+}
+
+#[test]
+fn indices_of_a_scenes_results_are_explained() {
+    let (robot, _) = read("generated/robots/puma560.toml");
+    let (robot, scenes) = scene_of(&robot, "joints = [2, 4]");
+    let request = Request {
+        quantities: vec![Quantity::Inertia],
+        style: Style::Numbers,
+    };
+    let formulas = Formulas::new(&robot, scenes.first(), &request).unwrap();
+    let note = "count the scene's results: 1 is joint 2, 2 is joint 4";
+    for layout in [Layout::Text, Layout::Markdown, Layout::Latex] {
+        assert!(formulas.write(layout, Digits::Six).contains(note));
+    }
+}
+
+/// Names of joints may have letters that Markdown or LaTeX read as marks.
+#[test]
+fn names_are_escaped() {
+    let (mut robot, _) = read("generated/robots/planar2r.toml");
+    robot.joints[0].name = Some("a|b_<c>*d*#1".to_owned());
+    let request = Request {
+        quantities: vec![Quantity::Inertia],
+        style: Style::Names,
+    };
+    let formulas = Formulas::new(&robot, None, &request).unwrap();
+    let written = |layout: Layout| formulas.write(layout, Digits::Six);
+    assert!(written(Layout::Markdown).contains("a\\|b\\_\\<c\\>\\*d\\*\\#1"));
+    assert!(written(Layout::Latex).contains("a\\textbar{}b\\_\\textless{}c\\textgreater{}*d*\\#1"));
+}
+
 /// Energies, torques, pose and Jacobian, and the parts of generalized D'Alembert, which add up.
 #[test]
 fn everything_else() {
