@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::{Entry, RuntimeParameter};
+use dalembert_codegen::workspace::{Argument, Entry, RuntimeParameter};
 use dalembert_codegen::{Function, GeneratedFunction, Request, RobotFile, generate};
 use dalembert_model::robot::Robot;
 
@@ -63,7 +63,10 @@ fn others(robot: &Robot, request: &Request) -> Vec<GeneratedFunction> {
     let entries = || plan.entries.iter().filter(|entry| entry.scene.is_none());
     let generated = |parameters: &[RuntimeParameter]| {
         let taken = |entry: &&Entry| match &entry.parameters {
-            Some(own) => own.taken == parameters,
+            Some(own) => parameters
+                .iter()
+                .map(|own| own.argument())
+                .eq(own.taken.iter().copied()),
             None => parameters.is_empty(),
         };
         let mut functions: Vec<Function> = Vec::new();
@@ -88,7 +91,7 @@ fn others(robot: &Robot, request: &Request) -> Vec<GeneratedFunction> {
     let own = generated(&[]);
     // Proved, and not in the guide's table, which has one row a function.
     let mut parameters = entries().filter_map(|entry| entry.parameters.as_ref());
-    assert!(parameters.all(|own| own.taken == [RuntimeParameter::Payload]));
+    assert!(parameters.all(|own| own.taken == [Argument::Load]));
     generated(&[RuntimeParameter::Payload]);
     own
 }

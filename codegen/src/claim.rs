@@ -6,7 +6,7 @@ use dalembert_checker::claim::{Claim, Claimed, VERSION};
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 
-use crate::function::{Function, Quantity};
+use crate::function::{Argument, Function, Quantity};
 use crate::program::{Operand, Program, Steps};
 use crate::setup::Setup;
 
@@ -79,6 +79,11 @@ pub(crate) fn of_setup(own: &Program, setup: &Setup, constants: &mut Written) ->
     Claimed {
         values: values.collect::<Vec<String>>().join(" "),
         base: terms,
+        bodies: match own.arguments.contains(&Argument::Bodies) {
+            true => setup.body_links(),
+            false => Vec::new(),
+        },
+        keeps_zeros: own.arguments.contains(&Argument::Bodies) && !setup.zeros().is_empty(),
         ..claimed
     }
 }

@@ -6,7 +6,7 @@ use dalembert_model::robot::{Joint, JointKind, Limit, Position, Robot};
 
 use crate::random::Random;
 
-/// One value a joint, but for wrench, damping, gravity, load and payload.
+/// One value a joint, but for wrench, damping, gravity, load and what makes a load.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct JointState {
     /// Positions, rad or m.
@@ -29,8 +29,14 @@ pub struct JointState {
     pub multiplier: Vec<f64>,
     /// The acceleration of gravity in base axes, where it is an argument.
     pub g: Vec<f64>,
-    /// The load that the payload is, where it is an argument.
+    /// The load that the arguments of `load` are, where it is an argument.
     pub load: Vec<f64>,
+    /// Mass, centre of mass and inertia of each link whose body is an argument.
+    pub bodies: Vec<f64>,
+    /// Rotors' inertias, one a row, where they are arguments.
+    pub armature: Vec<f64>,
+    /// Viscous friction, one a row, where it is an argument.
+    pub viscous: Vec<f64>,
     /// Mass, centre of mass and inertia of a payload, where it is one.
     pub payload: Vec<f64>,
 }
@@ -69,6 +75,9 @@ impl JointState {
             Argument::Multiplier => &self.multiplier,
             Argument::Gravity => &self.g,
             Argument::Load => &self.load,
+            Argument::Bodies => &self.bodies,
+            Argument::Armature => &self.armature,
+            Argument::Viscous => &self.viscous,
             Argument::Payload => &self.payload,
         }
     }
@@ -101,6 +110,9 @@ impl JointState {
             Argument::Multiplier => &mut self.multiplier,
             Argument::Gravity => &mut self.g,
             Argument::Load => &mut self.load,
+            Argument::Bodies => &mut self.bodies,
+            Argument::Armature => &mut self.armature,
+            Argument::Viscous => &mut self.viscous,
             Argument::Payload => &mut self.payload,
         }
     }

@@ -3,6 +3,7 @@
 mod accuracy_limit;
 mod arguments;
 mod blocks;
+mod bodies;
 mod c99;
 mod certified;
 mod certified_hidden;

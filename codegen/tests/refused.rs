@@ -11,7 +11,7 @@ ROUGH := tolerance = { value = 1e-3, relative_to = "range" }; box = { position =
 NEAR := tolerance = { value = 1e-2, relative_to = "range" }
 RUBBED := NEAR; box = { position = [[-1, 1], [-1, 1], [-1, 1]], velocity = [1, 1, 1], acceleration = [1, 1, 1] }
 COARSE := NEAR; box = { acceleration = [1, 1, 1, 1] }
-planar2r | | reaction_wrenches; parameters: payload | `reaction_wrenches` depends on parameters of the payload that have no effect on joint torques
+planar2r | | reaction_wrenches; parameters: payload | `reaction_wrenches` depends on numbers of bodies that have no effect on joint torques
 planar2r | | inverse_dynamics; parameters: payload; formulation: lagrange_euler | the formulation `lagrange_euler` has no regrouped parameters
 planar2r | | inverse_dynamics; parameters: payload; batch: on | batches in Rust take arguments with an entry a joint, and payload is none
 planar2r | gravity = [0, -2, 0] | gravity; parameters: gravity | the scene `test` says what gravity is

@@ -10,7 +10,7 @@ use super::say;
 use crate::figures::{decimal, placed};
 use crate::function::{Argument, Function, Quantity};
 use crate::language::c99::Names;
-use crate::language::function::{GRAVITY, LOAD, PAYLOAD};
+use crate::language::function::{BODIES, BODY, GRAVITY, LOAD, PAYLOAD};
 use crate::language::{comment, list};
 use crate::program::ScalarType;
 use crate::setup::Setup;
@@ -149,25 +149,111 @@ pub(super) fn types(setup: &Setup, scalar: ScalarType) -> String {
         text += "/// The acceleration of gravity in base axes, in m/s²: x, y and z.\n";
         newtype(&mut text, GRAVITY, "pub ", scalar, 3);
     }
-    if !setup.has(RuntimeParameter::Payload) {
-        return text;
+    if setup.has(RuntimeParameter::Payload) {
+        text += "/// A body that is fixed to the last link, beside what the robot file has there: see\n\
+                 /// [`Payload::new`], whose arguments these are, in their order.\n";
+        newtype(&mut text, PAYLOAD, "", scalar, 10);
+        text += &methods(
+            PAYLOAD,
+            "Nothing is carried.",
+            &payload(setup, scalar),
+            scalar,
+        );
     }
-    text += "/// A body that is fixed to the last link, beside what the robot file has there: see\n\
-             /// [`Payload::new`], whose arguments these are, in their order.\n";
-    newtype(&mut text, PAYLOAD, "", scalar, 10);
-    let doc = comment("///", &payload(setup, scalar));
-    let methods = checked::rust(scalar == ScalarType::F32);
-    let methods = methods.replacen("pub", "/// Nothing is carried.\npub", 1);
-    let new = "pub const fn";
+    if setup.has(RuntimeParameter::Bodies) {
+        bodies(&mut text, setup, scalar);
+    }
+    for (parameter, doc) in DRIVES {
+        if setup.has(parameter) {
+            let values = setup.defaults(parameter, scalar);
+            let values = list(values.iter().map(|own| own.text(scalar)));
+            let (name, rows) = (parameter.name().to_uppercase(), setup.robot().rows().len());
+            text += &format!(
+                "/// {doc} of this robot.\npub const {name}: [{scalar}; {rows}] = [{values}];\n"
+            );
+        }
+    }
+    if setup.has_load() {
+        text += load_doc(setup);
+        let length = Argument::Load.length(setup.sizes(Function::Load));
+        newtype(&mut text, LOAD, "", scalar, length);
+    }
+    text
+}
+
+const DRIVES: [(RuntimeParameter, &str); 2] = [
+    (
+        RuntimeParameter::Armature,
+        "The rotors' inertias, kg·m² or kg, one a row of the table,",
+    ),
+    (
+        RuntimeParameter::Viscous,
+        "The viscous friction, N·m·s/rad or N·s/m, one a row of the table,",
+    ),
+];
+
+fn load_doc(setup: &Setup) -> &'static str {
+    match RuntimeParameter::LOADING.map(|own| setup.has(own)) {
+        [false, false, false, true] => {
+            "/// The regrouped parameters that a payload changes: what [`load`] returns, and what the other\n\
+             /// functions take. Compute it once for each tool; its numbers are this module's own.\n"
+        }
+        _ => {
+            "/// The regrouped parameters of the arguments of [`load`]: what that returns, and what the other\n\
+             /// functions take. Compute it once for each set of them; its numbers are this module's own.\n"
+        }
+    }
+}
+
+fn methods(kind: &str, none: &str, doc: &[String], scalar: ScalarType) -> String {
+    let methods = checked::rust(scalar == ScalarType::F32, kind);
+    let methods = methods.replacen("pub", &format!("/// {none}\npub"), 1);
+    let (new, doc) = ("pub const fn", comment("///", doc));
     let documented = format!(
         "/// A body of these numbers; `None` if no body has them.\n///\n{doc}#[must_use]\n{new}"
     );
-    text.push_str(&indented(&methods.replace(new, &documented)));
-    text += "/// The regrouped parameters that a payload changes: what [`load`] returns, and what the other\n\
-             /// functions take. Compute it once for each tool; its numbers are this module's own.\n";
-    let length = Argument::Load.length(setup.sizes(Function::Load));
-    newtype(&mut text, LOAD, "", scalar, length);
-    text
+    indented(&methods.replace(new, &documented))
+}
+
+/// Writes the types of a body and of all bodies, and those of this robot.
+fn bodies(text: &mut String, setup: &Setup, scalar: ScalarType) {
+    let count = setup.body_links().len();
+    *text +=
+        "/// The body of a link: see [`Body::new`], whose arguments these are, in their order.\n";
+    newtype(text, BODY, "", scalar, 10);
+    *text += &methods(
+        BODY,
+        "A link that weighs nothing.",
+        &body(setup, scalar),
+        scalar,
+    );
+    *text += &format!("/// {}\n", of_links(setup));
+    newtype(text, BODIES, "", scalar, 10 * count);
+    let kept = match setup.zeros() {
+        [] => "",
+        _ => ", or a number that is zero in the robot file is another in the body",
+    };
+    let with = format!(
+        "/// These with another body in a place, from zero.\n///\n/// # Panics\n\
+         /// There is no such place{kept}.\n#[must_use]\npub const fn"
+    );
+    let methods = checked::rust_bodies(count, setup.zeros());
+    *text += &indented(&methods.replacen("pub const fn", &with, 1));
+    *text += "/// The bodies of this robot.\npub const BODIES: Bodies = Bodies([\n";
+    for numbers in setup.defaults(RuntimeParameter::Bodies, scalar).chunks(10) {
+        let numbers = list(numbers.iter().map(|own| own.text(scalar)));
+        *text += &format!("    {numbers},\n");
+    }
+    *text += "]);\n";
+}
+
+fn of_links(setup: &Setup) -> String {
+    let links = setup.body_links().into_iter().map(|link| match link {
+        0 => "the base".to_owned(),
+        link => link.to_string(),
+    });
+    let links: Vec<String> = links.collect();
+    format!("The bodies of links: {}, in this order.", links.join(", "))
 }
 
 pub(super) fn payload_c(setup: &Setup, names: &Names) -> (Vec<String>, String) {
@@ -183,8 +269,96 @@ pub(super) fn payload_c(setup: &Setup, names: &Names) -> (Vec<String>, String) {
     doc.extend(payload(setup, dialect.scalar));
     let own = names.symbols(Function::Load);
     let is_single = dialect.scalar == ScalarType::F32;
-    let text = checked::c(is_single, dialect.function, &own.prefix, &own.macros);
+    let names = [own.prefix.as_str(), &own.macros];
+    let text = checked::c(is_single, dialect.function, names, "payload");
     (doc, indented(&text))
+}
+
+/// Returns, for a header, each type of bodies and drives with its comment.
+pub(super) fn bodies_c(setup: &Setup, names: &Names) -> Vec<(Vec<String>, String)> {
+    let (dialect, own) = (names.dialect(), names.symbols(Function::Load));
+    let (scalar, is_single) = (dialect.scalar, dialect.scalar == ScalarType::F32);
+    let mut items = Vec::new();
+    let both = [own.prefix.as_str(), &own.macros];
+    let real = scalar.of("double", "float");
+    if setup.has(RuntimeParameter::Bodies) {
+        let mut doc = Vec::new();
+        let head = [
+            "The body of a link. `numbers` has [0] its `mass`, [1] to [3] its `com` and [4] to [9] its",
+            "`inertia`. Returns 1, or 0 if no body has these numbers; then `body` stays as it was.",
+            "",
+        ];
+        say(&mut doc, head);
+        doc.extend(body(setup, scalar));
+        let text = checked::c(is_single, dialect.function, both, "body");
+        items.push((doc, indented(&text)));
+        let doc = vec![
+            of_links(setup),
+            "The function puts a body in a place, from zero: returns 1, or 0 if there is no such place."
+                .to_owned(),
+        ];
+        let count = setup.body_links().len();
+        let text = checked::c_bodies(is_single, dialect.function, both, (count, setup.zeros()));
+        items.push((doc, indented(&text)));
+        let kind = format!("{}_bodies_t into[{}_RESTRICT 1]", own.prefix, own.macros);
+        items.push((
+            vec!["Fills in the bodies of this robot.".to_owned()],
+            filling(
+                setup,
+                RuntimeParameter::Bodies,
+                names,
+                [&kind, "into->bodies"],
+            ),
+        ));
+    }
+    for (parameter, doc) in DRIVES {
+        if setup.has(parameter) {
+            let rows = setup.robot().rows().len();
+            let kind = format!("{real} into[{}_RESTRICT {rows}]", own.macros);
+            let doc = doc.replacen("The", "Fills in the", 1);
+            items.push((
+                vec![format!("{doc} of this robot.")],
+                filling(setup, parameter, names, [&kind, "into"]),
+            ));
+        }
+    }
+    items
+}
+
+/// Writes the function that fills in what the robot has in the place of an argument.
+fn filling(
+    setup: &Setup,
+    parameter: RuntimeParameter,
+    names: &Names,
+    [kind, array]: [&str; 2],
+) -> String {
+    let (dialect, own) = (names.dialect(), names.symbols(Function::Load));
+    let name = format!("{}_{}", own.prefix, parameter.name());
+    let mut text = format!("{} void {name}({kind})\n{{\n", dialect.function);
+    for (place, value) in setup.defaults(parameter, dialect.scalar).iter().enumerate() {
+        text += &format!("    {array}[{place}] = {};\n", dialect.literal(*value));
+    }
+    text + "}\n"
+}
+
+fn body(setup: &Setup, scalar: ScalarType) -> Vec<String> {
+    let has_placements = setup
+        .robot()
+        .rows()
+        .iter()
+        .any(|row| row.frame.is_some() || row.place.is_some());
+    let link = match has_placements {
+        true => "link in the robot file, that of its placement",
+        false => "link, that of its row in the table",
+    };
+    let digits = scalar.of("six", "three");
+    let text = format!(
+        "`mass` is in kg, zero or more; `com` is the centre of mass in m, in the frame of the\n\
+         {link}. `inertia` is its tensor about the centre of mass in kg·m²,\n\
+         in the axes of that frame: Ixx, Iyy, Izz, Ixy, Iyz, Ixz as they stand in the matrix. No\n\
+         principal moment exceeds the sum of the other two, to {digits} digits."
+    );
+    text.lines().map(str::to_owned).collect()
 }
 
 fn indented(text: &str) -> String {
@@ -240,6 +414,14 @@ pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
             "the base's axes; where it moves without turning, subtract its acceleration.",
         ];
         say(&mut lines, gravity);
+    }
+    if setup.takes_load(function) && !setup.has(RuntimeParameter::Payload) {
+        let load = [
+            "",
+            "`load` is what [`load`] returns of bodies and drives. Proved with all of their numbers as",
+            "variables.",
+        ];
+        say(&mut lines, load);
     }
     if setup.takes(function, RuntimeParameter::Payload) {
         let load = [

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use dalembert_model::outputs::RuntimeParameter;
 
-use super::arguments::{meaning, payload_c, places_c};
+use super::arguments::{bodies_c, meaning, payload_c, places_c};
 use super::module::{function_doc, header};
 use super::state_box::StateBox;
 use super::{GeneratedFunction, c_sines, parameters, said};
@@ -42,10 +42,15 @@ pub(crate) fn misnamed(base: &str, functions: &[Function], request: &Request) ->
         return Some(base.to_owned());
     }
     let mut words: Vec<String> = ["sincos_t", "in_box"].map(String::from).into();
-    let takes_payload = request.parameters.contains(&RuntimeParameter::Payload);
-    let load = takes_payload.then_some(Function::Load);
-    if takes_payload {
+    let takes = |parameter: &RuntimeParameter| request.parameters.contains(parameter);
+    let is_loaded = RuntimeParameter::LOADING.iter().any(takes);
+    let load = is_loaded.then_some(Function::Load);
+    if takes(&RuntimeParameter::Payload) {
         words.extend(["payload", "payload_t"].map(String::from));
+    }
+    if takes(&RuntimeParameter::Bodies) {
+        let of_bodies = ["body", "body_t", "bodies", "bodies_t", "with_body"];
+        words.extend(of_bodies.map(String::from));
     }
     for function in functions.iter().chain(&load) {
         words.push(function.name().to_owned());
@@ -176,9 +181,12 @@ pub(crate) fn write(
             state_box.write_c(&mut text, scalar, &names);
         }
         if functions.iter().any(|own| own.function == Function::Load) {
-            let (doc, own) = payload_c(setup, &names);
-            comment(&mut text, &doc);
-            text += &own;
+            let payload = setup.has(RuntimeParameter::Payload);
+            let payload = payload.then(|| payload_c(setup, &names));
+            for (doc, own) in payload.into_iter().chain(bodies_c(setup, &names)) {
+                comment(&mut text, &doc);
+                text += &own;
+            }
         }
         for (index, (generated, code)) in functions.iter().zip(codes).enumerate() {
             // One π for all that are over the same columns.

@@ -15,7 +15,6 @@ mod sines;
 pub(crate) mod tolerate;
 
 use dalembert_checker::read::Text;
-use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::read::closest;
 use dalembert_model::robot::{Frame, HAND, Robot};
 use dalembert_stamp::{Comment, Stamp};
@@ -350,7 +349,7 @@ fn functions(job: &Job<'_>) -> Outcome<Found> {
 
 fn attempt(job: &Job<'_>) -> Outcome<Found> {
     let mut functions = Function::in_order(&job.request.functions);
-    if job.setup.has(RuntimeParameter::Payload) {
+    if job.setup.has_load() {
         functions.insert(0, Function::Load);
     }
     let proved = |function: &Function| proved(job, *function);

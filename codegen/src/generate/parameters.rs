@@ -21,6 +21,17 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
     let scene = request.scene.as_ref();
     let floats = job.setup.robot().floating.is_some();
     if job.tolerance().is_some() {
+        let mut others = request.parameters.iter();
+        let is_other =
+            |own: &&RuntimeParameter| own.given().is_some() && **own != RuntimeParameter::Payload;
+        if let Some(other) = others.find(is_other) {
+            let message = format!(
+                "a tolerance bounds functions over a box, and `{}` has none",
+                other.name()
+            );
+            let help = "leave it out of the parameters, or the tolerance out of the scene";
+            return Err(refused(None, message, help));
+        }
         let mut functions = request.functions.iter();
         let taking = functions.find_map(|&function| {
             let taken = request.parameters.iter();
@@ -52,33 +63,47 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
         let help = "leave it out of the scene or of the parameters";
         return Err(refused(None, message, help));
     }
-    if !setup.has(RuntimeParameter::Payload) {
+    if !setup.has_load() {
         return Ok(());
     }
     if request.start != Start::Auto {
         let message = format!(
-            "the formulation `{}` has no regrouped parameters, and a payload is an argument by these",
+            "the formulation `{}` has no regrouped parameters, and bodies and drives are arguments by these",
             request.start.name()
         );
-        let help = "leave `formulation` out, or give the payload in a scene";
+        let help = "leave `formulation` out";
         return Err(refused(None, message, help));
     }
+    let of_bodies = [RuntimeParameter::Payload, RuntimeParameter::Bodies];
+    let mut of_bodies = of_bodies.into_iter().filter(|own| setup.has(*own));
     let mut functions = request.functions.iter();
-    if let Some(&function) =
-        functions.find(|function| function.payload_dependence() == PayloadDependence::Full)
-    {
+    if let (Some(&function), Some(parameter)) = (
+        functions.find(|function| function.payload_dependence() == PayloadDependence::Full),
+        of_bodies.next(),
+    ) {
+        let name = parameter.name();
         let message = format!(
-            "`{function}` depends on parameters of the payload that have no effect on joint torques, \
-             and `load` does not have these"
+            "`{function}` depends on numbers of bodies that have no effect on joint torques, and `load` \
+             does not have these"
         );
-        let help =
-            format!("generate `{function}` without `payload`, or give the payload in a scene");
+        let help = format!("generate `{function}` without `{name}`");
         return Err(refused(Some(function), message, &help));
     }
-    if setup.load().is_none_or(|load| load.rows.is_empty()) {
-        let message = "the payload has no effect on any moving joint".to_owned();
-        let help = "leave `payload` out of the parameters";
+    if let Some(scene) = scene.filter(|scene| scene.payload.is_some())
+        && setup.has(RuntimeParameter::Bodies)
+    {
+        let message = format!(
+            "the scene `{}` has a payload, which is part of a link, and bodies of links are arguments",
+            scene.name
+        );
+        let help = "leave it out of the scene, and add `payload` to the parameters";
         return Err(refused(None, message, help));
+    }
+    if setup.load().is_none_or(|load| load.rows.is_empty()) {
+        let name = first.name();
+        let message = format!("`{name}` has no effect on any moving joint");
+        let help = format!("leave `{name}` out of the parameters");
+        return Err(refused(None, message, &help));
     }
     Ok(())
 }

@@ -30,8 +30,9 @@ pub(crate) fn is_bundle(function: Function) -> bool {
 }
 
 pub(crate) fn argument_structure(argument: Argument, names: &Names) -> Option<String> {
-    let has_type = matches!(argument, Argument::Load | Argument::Payload);
-    has_type.then(|| names.of(&format!("{}_t", argument.name())))
+    argument
+        .has_type()
+        .then(|| names.of(&format!("{}_t", argument.name())))
 }
 
 pub(crate) fn is_number(function: Function) -> bool {

@@ -5,7 +5,6 @@ use std::collections::HashMap;
 use super::Language;
 use crate::dag::fusion::Fusion;
 use crate::dag::{Dag, Edge, Id, Node};
-use crate::function::Argument;
 use crate::program::kernel::{Angle, Kernel};
 use crate::program::{Code, Input, Literal, Operation, ScalarType};
 
@@ -133,7 +132,7 @@ impl<'c> Lines<'c, Input> {
             numbers: code.dag.numbers(),
             prefix: "t".to_owned(),
             input: Box::new(move |input: &Input| match input {
-                Input::Entry(argument @ (Argument::Load | Argument::Payload), index) => {
+                Input::Entry(argument, index) if argument.has_type() => {
                     let array = filled(dialect.array, &[argument.name(); 2]);
                     format!("{array}[{index}]")
                 }

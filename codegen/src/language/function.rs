@@ -19,6 +19,8 @@ pub(crate) const BLOCK: usize = 500;
 
 pub(crate) const LOAD: &str = "Load";
 pub(crate) const PAYLOAD: &str = "Payload";
+pub(crate) const BODIES: &str = "Bodies";
+pub(crate) const BODY: &str = "Body";
 pub(crate) const GRAVITY: &str = "Gravity";
 
 /// Prints the function, whose roots are this library's; `doc` stands above it, one line an item.
@@ -195,6 +197,7 @@ fn argument_type(argument: Argument, sizes: Sizes, scalar: ScalarType) -> String
         Argument::Gravity => GRAVITY.to_owned(),
         Argument::Load => LOAD.to_owned(),
         Argument::Payload => PAYLOAD.to_owned(),
+        Argument::Bodies => BODIES.to_owned(),
         _ => format!("[{scalar}; {}]", argument.length(sizes)),
     }
 }

@@ -18,7 +18,6 @@ mod sums;
 use dalembert_model::equations::chain::{Chain, Form, Regrouping};
 use dalembert_model::equations::matrix::zero_vector;
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::RuntimeParameter;
 
 use crate::dag::{Dag, Folding};
 use crate::program::{Counts, Loop, Program};
@@ -66,7 +65,7 @@ pub(crate) fn price(program: &Program) -> u64 {
 pub(crate) fn is_traced(task: Task<'_>) -> bool {
     let mut quantities = task.function.quantities().iter();
     let is_chain = quantities.all(|quantity| quantity.is_regrouped() && !quantity.is_of_frame());
-    is_chain && !task.setup.takes(task.function, RuntimeParameter::Payload)
+    is_chain && !task.setup.takes_load(task.function)
 }
 
 struct Candidate<'a> {

@@ -5,7 +5,7 @@ use dalembert_checker::claim::{Claim, Claimed, Planned, Tolerated};
 use dalembert_checker::program::Program as Straight;
 use dalembert_model::equations::BASE_COORDINATES;
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::{Axis, RuntimeParameter, Sizes};
+use dalembert_model::outputs::{Axis, Sizes};
 use dalembert_model::robot::Robot;
 
 use super::{Entry, Plan};
@@ -205,9 +205,9 @@ fn entry(own: &Claimed, constants: &[Exact]) -> Result<Entry, Complaint> {
     })
 }
 
-fn taken(own: &Claimed, empty: &mut Program) -> Result<Vec<RuntimeParameter>, Complaint> {
-    let all = RuntimeParameter::ALL.map(RuntimeParameter::argument);
-    empty.arguments.extend(all);
+fn taken(own: &Claimed, empty: &mut Program) -> Result<Vec<Argument>, Complaint> {
+    const TAKEN: [Argument; 2] = [Argument::Gravity, Argument::Load];
+    empty.arguments.extend(TAKEN);
     empty.arguments.sort();
     let is_taken = |argument: Argument| own.arguments.iter().any(|word| word == argument.name());
     empty.arguments.retain(|argument| is_taken(*argument));
@@ -215,8 +215,8 @@ fn taken(own: &Claimed, empty: &mut Program) -> Result<Vec<RuntimeParameter>, Co
         let why = "expected arguments of the function, each once, `load` or `g`";
         return Err(complaint(why));
     }
-    let taken = RuntimeParameter::ALL.into_iter();
-    Ok(taken.filter(|own| is_taken(own.argument())).collect())
+    let taken = TAKEN.into_iter();
+    Ok(taken.filter(|argument| is_taken(*argument)).collect())
 }
 
 fn program(empty: &Program, read: &Straight<Exact>) -> Result<Program, Complaint> {

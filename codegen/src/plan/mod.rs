@@ -12,7 +12,7 @@ use crate::program::{Program, ScalarType};
 use crate::search::Pass;
 use crate::seeds::{Source, Start};
 use crate::setup::{ParametersKey, SceneKey};
-use dalembert_model::outputs::RuntimeParameter;
+use dalembert_model::outputs::Argument;
 use dalembert_model::scene::Scene;
 
 /// The programs kept for a robot.
@@ -51,10 +51,10 @@ type Key<'e> = (
     Function,
     &'static str,
     ScalarType,
-    &'e [RuntimeParameter],
+    &'e [Argument],
 );
 
-fn taken(parameters: Option<&ParametersKey>) -> &[RuntimeParameter] {
+fn taken(parameters: Option<&ParametersKey>) -> &[Argument] {
     parameters.map_or(&[], |parameters| &parameters.taken)
 }
 

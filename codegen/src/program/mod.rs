@@ -39,6 +39,10 @@ pub struct Program {
     pub arguments: Vec<Argument>,
     /// The number of entries of the load; zero where the load is neither argument nor result.
     pub load: usize,
+    /// The links whose bodies are an argument.
+    pub bodies: usize,
+    /// The rows of the table.
+    pub table: usize,
     /// The coordinates of which r = 1/√(q̇² + w²) is read, ascending.
     pub speeds: Vec<Speed>,
     /// The arithmetic in the order of the code, each leaf before the first operation that reads it,
@@ -84,6 +88,8 @@ impl Program {
             rows: (0..robot.coordinates()).collect(),
             arguments: function.arguments(),
             load: 0,
+            bodies: robot.bodies,
+            table: robot.table,
             speeds: Vec::new(),
             dag: Dag::default(),
             loops: Vec::new(),
@@ -263,6 +269,8 @@ impl Program {
         let rows = self.rows.len();
         let whole = Sizes {
             load: self.load,
+            bodies: self.bodies,
+            table: self.table,
             ..Sizes::floating(self.floating, self.joints, self.limbs)
         };
         let mut sizes = whole.over(&self.rows);

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use dalembert_model::equations::chain::composite::Composite;
 use dalembert_model::equations::chain::{Chain, Skeleton};
 use dalembert_model::equations::matrix::{Vector, scaled};
-use dalembert_model::equations::regressor::{Column, LinkParameter, Probed};
+use dalembert_model::equations::regressor::Column;
 use dalembert_model::equations::{Arm, DhVariables, Formulation};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Motion, Regrouped, RuntimeParameter, Written};
@@ -129,22 +129,23 @@ pub fn skeleton(setup: &Setup) -> Skeleton<Exact> {
 }
 
 /// Returns the same for a function: if it is a regressor, with its columns; if it takes a
-/// load, with a payload whose parameters are unknown.
+/// load, with parameters that are unknown.
 pub fn skeleton_for(task: Task<'_>) -> Skeleton<Exact> {
     let Task { setup, function } = task;
-    if !setup.takes(function, RuntimeParameter::Payload) {
+    if !setup.takes_load(function) {
         return with_columns(setup, &setup.columns(function, Exact::clone));
     }
-    let last = setup.robot().base_coordinates() + setup.robot().rows().len() - 1;
-    let columns = LinkParameter::ALL.map(|parameter| Column {
-        joint: last,
-        of: Probed::Body(parameter.unit()),
-    });
-    with_columns(setup, &columns).with_values(&setup.unknowns().values())
+    let unknowns = setup.unknowns();
+    let arm = setup.without_given(setup.arm(Exact::clone));
+    of_arm(setup, &arm, &unknowns.columns).with_values(&unknowns.values())
 }
 
 fn with_columns(setup: &Setup, columns: &[Column<Exact>]) -> Skeleton<Exact> {
-    let arm = setup.arm(Exact::clone).fold_base();
+    of_arm(setup, &setup.arm(Exact::clone), columns)
+}
+
+fn of_arm(setup: &Setup, arm: &Arm<Exact>, columns: &[Column<Exact>]) -> Skeleton<Exact> {
+    let arm = arm.clone().fold_base();
     let mut skeleton = Skeleton::with_columns(&arm, &setup.merged(), columns);
     let fitted = setup.fitted_links().unwrap_or_default();
     for (segment, fitted) in skeleton.links.iter_mut().zip(fitted) {

@@ -5,7 +5,6 @@ use std::cell::Cell;
 use dalembert_model::equations::chain::{Chain, Regrouping};
 use dalembert_model::equations::matrix::zero_vector;
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::RuntimeParameter;
 
 use super::chain::{merged, skeleton_for};
 use super::start::Problem;
@@ -70,7 +69,7 @@ pub(crate) fn tunings(problem: &Problem<'_>, forms: &[Form]) -> (Tuned, Option<T
         true => u64::MAX,
         false => price(&glance(&merged(task, chain, form)), limit, below),
     };
-    if setup.takes(function, RuntimeParameter::Payload)
+    if setup.takes_load(function)
         && let Some(load) = setup.load()
     {
         // The numbers of the load are those of one regrouping, for all functions.

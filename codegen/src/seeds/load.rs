@@ -5,7 +5,6 @@ use std::rc::Rc;
 
 use dalembert_model::equations::chain::Chain;
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::scalar::Scalar;
 
 use super::chain::{skeleton_for, trace_chain};
@@ -23,7 +22,7 @@ use crate::setup::{Setup, Task};
 /// these, so that whoever has the parameters has the load.
 #[must_use]
 pub(crate) fn chosen(setup: Setup) -> Setup {
-    if !setup.has(RuntimeParameter::Payload) {
+    if !setup.has_load() {
         return setup;
     }
     let full = setup.in_full_motion();
@@ -66,7 +65,7 @@ pub(super) fn symbols(
     builder: &Rc<RefCell<Builder>>,
 ) -> Chain<Symbol> {
     let Task { setup, function } = task;
-    if !setup.takes(function, RuntimeParameter::Payload) {
+    if !setup.takes_load(function) {
         return chain.map(Symbol::constant);
     }
     let unknowns = setup.unknowns();

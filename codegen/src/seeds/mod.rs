@@ -11,6 +11,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use dalembert_model::equations::Formulation;
+use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::scalar::Scalar;
 
 use crate::dag::symbol::Symbol;
@@ -92,9 +93,10 @@ pub(crate) fn depends_on_coulomb(task: Task<'_>) -> bool {
 pub fn trace(task: Task<'_>, formulation: Formulation) -> Seed {
     let Task { setup, function } = task;
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
-    // As the textbook has it, a payload is a body and no load.
+    // As the textbook has it, bodies are bodies and no load.
     let mut arguments = setup.arguments(function);
-    arguments.push(Argument::Payload);
+    let given = RuntimeParameter::LOADING.into_iter();
+    arguments.extend(given.filter_map(RuntimeParameter::given));
     let leaves = (Symbol::constant, reader(&arguments, &builder));
     let outputs: Vec<Symbol> = restored(task.textbook(formulation, &Erased(&leaves)));
     let mut builder = builder.replace(Builder::new(Folding::Syntactic));

@@ -3,7 +3,6 @@
 use dalembert_model::equations::Formulation;
 use dalembert_model::equations::chain::{Chain, Regrouping};
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::RuntimeParameter;
 
 use super::{Form, Limit, Seed, Source, Tuned, regrouped, skeleton_for, trace, tunings};
 use crate::dag::Dag;
@@ -42,7 +41,7 @@ impl Start {
 
     /// Returns the recursion in link axes alone: what rounding is held against. It has no load.
     pub(crate) fn textbook(task: Task<'_>) -> Option<Approach> {
-        let is_loaded = task.setup.takes(task.function, RuntimeParameter::Payload);
+        let is_loaded = task.setup.takes_load(task.function);
         (!is_loaded).then(|| Approach::of(vec![trace(task, Formulation::NewtonEulerLink)]))
     }
 
@@ -151,7 +150,7 @@ fn by_chain(problem: &Problem<'_>) -> Vec<Approach> {
         // The textbook recursion gives D column by column and h_ikm by polarisation, with
         // n² of work a link or more: no match. It has no load, but a body in the hand.
         let mut quantities = function.quantities().iter();
-        let is_loaded = setup.takes(function, RuntimeParameter::Payload);
+        let is_loaded = setup.takes_load(function);
         if !is_loaded && quantities.all(|quantity| quantity.facts().starts_from_recursion) {
             seeds.push(trace(task, Formulation::NewtonEulerLink));
         }

@@ -6,6 +6,7 @@ use dalembert_model::robot::values::short_hash;
 use dalembert_model::scene::Scene;
 
 use super::Task;
+use crate::function::Argument;
 
 /// The scene that a plan's entry or a claim is about. The hash of a plan is the robot's alone,
 /// so that a scene can be added; an edited scene shows in its own.
@@ -31,8 +32,8 @@ impl SceneKey {
 /// a program of others means nothing in its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ParametersKey {
-    /// In the order of [`RuntimeParameter::ALL`].
-    pub taken: Vec<RuntimeParameter>,
+    /// The arguments, in the order of [`Argument::ALL`].
+    pub taken: Vec<Argument>,
     /// The number of entries of the load; zero where the load is no argument.
     pub load: usize,
     /// The hash of these numbers.
@@ -45,13 +46,13 @@ impl ParametersKey {
         let Task { setup, function } = task;
         let all = RuntimeParameter::ALL.into_iter();
         let taken = all.filter(|&parameter| setup.takes(function, parameter));
-        let taken: Vec<RuntimeParameter> = taken.collect();
+        let mut taken: Vec<Argument> = taken.map(RuntimeParameter::argument).collect();
+        taken.sort();
+        taken.dedup();
         if taken.is_empty() {
             return None;
         }
-        let load = setup
-            .load()
-            .filter(|_| taken.contains(&RuntimeParameter::Payload));
+        let load = setup.load().filter(|_| taken.contains(&Argument::Load));
         let numbers = load.map_or(&[][..], |load| &load.numbers);
         let lines = numbers.iter().map(|number| format!("{number}\n"));
         Some(ParametersKey {

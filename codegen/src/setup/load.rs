@@ -1,37 +1,41 @@
-//! The load that a payload is: the numbers of a regrouped chain that a body changes
-//! which is fixed to the last link.
+//! The load that bodies, drives and a payload are: the numbers of a regrouped chain that depend on
+//! them.
 //!
-//! Masses and moments that regrouping leaves are linear in the body's mass, first moments and
+//! Masses and moments that regrouping leaves are linear in each body's mass, first moments and
 //! tensor. While these are unknown, an indeterminate of exact numbers stands for each: the sine of
 //! an angle that the robot has nowhere, of which, as of every constant angle, no relation to others
-//! is known. So a payload goes through regrouping like any other body, and what comes out says what
+//! is known. So unknown bodies go through regrouping like any others, and what comes out says what
 //! the load's numbers are.
 
-use dalembert_model::equations::chain::Regrouping;
+use dalembert_model::equations::chain::{Body, Regrouping};
 use dalembert_model::equations::load::LoadRow;
-use dalembert_model::equations::regressor::LinkParameter;
-use dalembert_model::number::{Angle, Exact, Rational};
+use dalembert_model::equations::regressor::{Column, LinkParameter, Probed};
+use dalembert_model::number::{Angle, Exact, Rational, Wide};
+use dalembert_model::outputs::{Argument, RuntimeParameter};
 use dalembert_model::robot::{Placement, Position};
 use dalembert_model::scalar::{Scalar, SinCosPair};
 
 use super::Setup;
+use crate::program::Input;
 
-/// The numbers of a regrouped chain that a payload changes.
+/// The numbers of a regrouped chain that depend on arguments.
 #[derive(Clone, Debug)]
 pub struct LoadParameters {
-    /// Each with the payload's parameters unknown, its leading sign positive.
+    /// Each with the parameters unknown, its leading sign positive.
     pub numbers: Vec<Exact>,
-    /// Each by what the arm has of it and what the payload adds.
+    /// Each by what the arm has of it and what the parameters add.
     pub rows: Vec<LoadRow<Exact>>,
     /// The chain's regrouping.
     pub regrouping: Regrouping<Exact>,
 }
 
-/// The parameters of a payload that is not known yet, about the origin and in the
-/// axes of the last link's frame.
+/// The parameters that are arguments, not known yet: of bodies about the origin and in the axes of
+/// their rows' frames.
 #[derive(Clone, Debug)]
 pub struct Unknowns {
-    /// An angle that the robot has nowhere, for each of [`LinkParameter::ALL`].
+    /// The column of a regressor of each.
+    pub columns: Vec<Column<Exact>>,
+    /// An angle that the robot has nowhere for each.
     angles: Vec<Angle>,
 }
 
@@ -52,14 +56,46 @@ impl Setup {
         }
     }
 
-    /// Returns the parameters of a payload.
+    /// Returns the parameters that are arguments.
     pub fn unknowns(&self) -> Unknowns {
+        let base = self.robot().base_coordinates();
+        let last = base + self.robot().rows().len() - 1;
+        let payload = self.has(RuntimeParameter::Payload).then_some(last);
+        let bodies = self.bodies.iter().copied().chain(payload);
+        // Of a body with numbers that stay zero, other parameters are zero too.
+        let drawn = |input: Input| match input {
+            Input::Entry(_, place) => Exact::sincos(&unknown(2_000_003 + place as i64)).sin,
+            Input::Sin(_) | Input::Cos(_) | Input::PerSpeed(_) => Exact::zero(),
+        };
+        let general = self.given_bodies(drawn, Exact::clone);
+        let unit = |place: usize, parameter: LinkParameter| {
+            let body = general.get(place).map(Body::of);
+            match body.is_some_and(|body| parameter.of_body(&body).is_zero()) {
+                true => Body::zero(),
+                false => parameter.unit(),
+            }
+        };
+        let of_body = |(place, joint): (usize, usize)| {
+            LinkParameter::ALL.map(|parameter| Column {
+                joint,
+                of: Probed::Body(unit(place, parameter)),
+            })
+        };
+        let drives = self.drives().map(|(argument, row)| Column {
+            joint: base + row,
+            of: match argument {
+                Argument::Armature => Probed::Armature,
+                _ => Probed::Viscous,
+            },
+        });
+        let columns: Vec<Column<Exact>> =
+            bodies.enumerate().flat_map(of_body).chain(drives).collect();
         let taken = self.constant_angles();
-        let candidates =
-            (1_000_003..).map(|n: i64| Angle::Radians(Rational::from_integer(n.into())));
+        let candidates = (1_000_003..).map(unknown);
         let free = candidates.filter(|angle| !taken.contains(angle));
         Unknowns {
-            angles: free.take(LinkParameter::COUNT).collect(),
+            angles: free.take(columns.len()).collect(),
+            columns,
         }
     }
 
@@ -90,6 +126,10 @@ impl Setup {
     }
 }
 
+fn unknown(number: i64) -> Angle {
+    Angle::Radians(Rational::from_integer(number.into()))
+}
+
 impl Unknowns {
     /// Returns each as an exact number.
     pub fn values(&self) -> Vec<Exact> {
@@ -97,7 +137,7 @@ impl Unknowns {
         self.angles.iter().map(value).collect()
     }
 
-    /// Returns whether a number depends on one of the load's.
+    /// Returns whether a number depends on one of them.
     pub fn occur_in(&self, number: &Exact) -> bool {
         let mut found = false;
         number.map(&mut |x| Some(Exact::from(x.clone())), &mut |angle| {
@@ -109,10 +149,24 @@ impl Unknowns {
 
     fn row(&self, number: &Exact) -> LoadRow<Exact> {
         let own = self.where_one_is(number, None);
-        let parameters = LinkParameter::ALL.into_iter().zip(&self.angles);
-        let coefficients = parameters.map(|(parameter, angle)| {
-            let with = self.where_one_is(number, Some(angle));
-            (parameter, with.sub(&own))
+        let mut occurring: Vec<usize> = Vec::new();
+        number.map(&mut |x| Some(Exact::from(x.clone())), &mut |angle| {
+            let place = self.angles.iter().position(|own| own == angle);
+            occurring.extend(place.filter(|place| !occurring.contains(place)));
+            Exact::sincos(angle)
+        });
+        occurring.sort_unstable();
+        let coefficients = occurring.into_iter().flat_map(|place| {
+            let with = self.where_one_is(number, Some(&self.angles[place]));
+            let factor = with.sub(&own);
+            // cos² π/4 − ½ is zero, but not to exact numbers: its parts are not.
+            let is_nothing = Wide::from_exact(&factor).magnitude() < 1e-60;
+            let parts = if is_nothing {
+                factor.monomials()
+            } else {
+                vec![factor]
+            };
+            parts.into_iter().map(move |factor| (place, factor))
         });
         LoadRow {
             of: coefficients.filter(|(_, x)| !x.is_zero()).collect(),

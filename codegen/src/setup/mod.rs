@@ -11,8 +11,8 @@
 //! - joints that nobody asks for are results that are left out
 //!   ([`Setup::select`]), and what only they needed is dead.
 //!
-//! Gravity and a payload may also be arguments ([`Setup::taking`]): then [`Task::posed`] has the
-//! arm with them, and [`load`] the parameters that a payload changes.
+//! Gravity, a payload, bodies and drives may also be arguments ([`Setup::taking`]): then
+//! [`Task::posed`] has the arm with them, and [`load`] the parameters that depend on them.
 //!
 //! Arguments keep an entry for every joint, so that callers need not repack their state; entries of
 //! locked joints are not read. Results are over the [`rows`](Setup::rows), in the order of the
@@ -59,6 +59,10 @@ pub struct Setup {
     chained: Vec<usize>,
     locks: Vec<Option<JointPosition<Exact>>>,
     parameters: Vec<RuntimeParameter>,
+    /// The rows of the arm whose bodies are arguments, where bodies are.
+    bodies: Vec<usize>,
+    /// The numbers of these that stay zero; empty if any may be another.
+    zeros: Vec<bool>,
     base: Bases,
     load: Option<LoadParameters>,
     fitted: Option<Vec<FittedLink>>,
@@ -86,6 +90,8 @@ impl Setup {
             chained: (0..n).collect(),
             locks: vec![None; n],
             parameters: always_taken(robot).collect(),
+            bodies: Vec::new(),
+            zeros: Vec::new(),
             base: no_bases(),
             load: None,
             fitted: None,
@@ -130,12 +136,78 @@ impl Setup {
         let taken = taken.filter(|own| {
             parameters.contains(own) || always_taken(&self.robot).any(|always| always == *own)
         });
+        let bodies = match parameters.contains(&RuntimeParameter::Bodies) {
+            true if self.bodies.is_empty() => self.rows_with_bodies().collect(),
+            true => self.bodies.clone(),
+            false => Vec::new(),
+        };
         Setup {
             parameters: taken.collect(),
+            zeros: if bodies == self.bodies {
+                self.zeros
+            } else {
+                Vec::new()
+            },
+            bodies,
             base: no_bases(),
             load: None,
             ..self
         }
+    }
+
+    /// Returns the robot with the bodies of these links alone as arguments, where bodies are: links are
+    /// counted from one, a base that floats is zero; all if there are none. Numbers of these that are zero
+    /// may stay zero.
+    ///
+    /// # Errors
+    /// There is no such link.
+    pub fn taking_bodies(self, links: &[usize], keeps_zeros: bool) -> Result<Setup, Complaint> {
+        if !self.has(RuntimeParameter::Bodies) {
+            return Ok(self);
+        }
+        let mut setup = self.of_links(links)?;
+        if keeps_zeros {
+            let defaults = setup.exact_defaults(RuntimeParameter::Bodies);
+            setup.zeros = defaults.iter().map(task::is_nothing).collect();
+        }
+        Ok(setup)
+    }
+
+    fn of_links(self, links: &[usize]) -> Result<Setup, Complaint> {
+        if links.is_empty() {
+            return Ok(self);
+        }
+        let known: Vec<usize> = self.rows_with_bodies().collect();
+        let bodies = links.iter().map(|&link| {
+            let row = (link + self.robot.base_coordinates()).checked_sub(1);
+            row.filter(|row| known.contains(row)).ok_or_else(|| {
+                let first = usize::from(self.robot.floating.is_none());
+                let message = format!("bodies: there is no link {link}");
+                let last = self.robot.rows().len();
+                Complaint::new(message, format!("links are {first} to {last}"))
+            })
+        });
+        let mut bodies = bodies.collect::<Result<Vec<usize>, Complaint>>()?;
+        bodies.sort_unstable();
+        bodies.dedup();
+        Ok(Setup { bodies, ..self })
+    }
+
+    /// The rows of the arm that have a body: those of joints, and the last of a base that floats.
+    fn rows_with_bodies(&self) -> impl Iterator<Item = usize> {
+        let base = self.robot.base_coordinates();
+        base.saturating_sub(1)..base + self.robot.rows().len()
+    }
+
+    /// Returns which numbers of these bodies stay zero; none if any may be another.
+    pub fn zeros(&self) -> &[bool] {
+        &self.zeros
+    }
+
+    /// Returns the links whose bodies are arguments, counted from one; a base that floats is zero.
+    pub fn body_links(&self) -> Vec<usize> {
+        let base = self.robot.base_coordinates();
+        self.bodies.iter().map(|row| row + 1 - base).collect()
     }
 
     /// The textbook formulations do not know of these links.
@@ -175,6 +247,19 @@ impl Setup {
     /// Returns whether a function takes a parameter as an argument.
     pub fn takes(&self, function: Function, parameter: RuntimeParameter) -> bool {
         self.has(parameter) && function.depends_on(parameter)
+    }
+
+    /// Returns whether a parameter is an argument that functions take as their load.
+    pub fn has_load(&self) -> bool {
+        self.parameters
+            .iter()
+            .any(|own| RuntimeParameter::LOADING.contains(own))
+    }
+
+    /// Returns whether a function takes a load.
+    pub fn takes_load(&self, function: Function) -> bool {
+        let mut all = RuntimeParameter::LOADING.into_iter();
+        all.any(|parameter| self.takes(function, parameter))
     }
 
     /// Returns whether a function takes any parameter as an argument.
@@ -261,11 +346,17 @@ impl Setup {
     /// Returns the arguments that a function keeps: rates that are zero need none.
     pub fn arguments(&self, function: Function) -> Vec<Argument> {
         let all = function.arguments().into_iter();
-        let mut own: Vec<Argument> = all.filter(|&argument| !self.has_zero(argument)).collect();
+        let is_there = |argument: Argument| {
+            let mut loading = RuntimeParameter::LOADING.into_iter();
+            let parameter = loading.find(|own| own.given() == Some(argument));
+            parameter.is_none_or(|own| self.has(own)) && !self.has_zero(argument)
+        };
+        let mut own: Vec<Argument> = all.filter(|&argument| is_there(argument)).collect();
         let taken = RuntimeParameter::ALL.into_iter();
         let taken = taken.filter(|&parameter| self.takes(function, parameter));
         own.extend(taken.map(RuntimeParameter::argument));
         own.sort();
+        own.dedup();
         own
     }
 
@@ -337,7 +428,7 @@ impl Setup {
         }
     }
 
-    /// Returns the numbers of the regrouped chain that a payload changes, once they are chosen.
+    /// Returns the numbers of the regrouped chain that depend on arguments, once they are chosen.
     pub fn load(&self) -> Option<&LoadParameters> {
         self.load.as_ref()
     }
@@ -361,12 +452,12 @@ impl Setup {
     /// Returns the numbers that the lengths of a function's results follow from.
     pub fn sizes(&self, function: Function) -> Sizes {
         let base = self.base_of(function).ok().flatten();
-        let is_loaded =
-            function == Function::Load || self.takes(function, RuntimeParameter::Payload);
+        let is_loaded = function == Function::Load || self.takes_load(function);
         let load = self.load().filter(|_| is_loaded);
         Sizes {
             base: base.map_or(0, |base| base.columns.len()),
             load: load.map_or(0, |load| load.rows.len()),
+            bodies: self.bodies.len(),
             ..Sizes::of(&self.robot).over(&self.rows)
         }
     }

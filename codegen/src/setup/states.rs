@@ -16,7 +16,7 @@ const PARAMETERS: u64 = 0x7061_7261;
 
 impl Setup {
     /// States inside the limits of the scene's robot, the same on every machine; with gravity in
-    /// any direction and a body in the hand where these are arguments.
+    /// any direction, and other bodies and drives, where these are arguments.
     pub fn states(&self, count: usize, seed: u64) -> Vec<JointState> {
         let mut states = seeded(self.robot(), count, seed);
         let mut random = Random::new(seed ^ PARAMETERS);
@@ -29,7 +29,21 @@ impl Setup {
             }
             if self.has(RuntimeParameter::Payload) {
                 state.payload = body(&mut draw, mass, length);
-                state.load = self.load_at(&state.payload);
+            }
+            let bodies = 0..self.body_links().len();
+            state.bodies = bodies.flat_map(|_| body(&mut draw, mass, length)).collect();
+            for (argument, _) in self.drives() {
+                // As a large drive has it: no more than the links.
+                let most = if argument == Argument::Armature {
+                    mass * length * length / 16.0
+                } else {
+                    2.0
+                };
+                let drawn = draw(most).abs();
+                state.entries_mut(argument).push(drawn);
+            }
+            if self.has_load() {
+                state.load = self.load_at(state);
             }
         }
         states
@@ -47,11 +61,11 @@ impl Setup {
         }
     }
 
-    /// Returns the load that a payload is, each number rounded once.
-    pub fn load_at(&self, payload: &[f64]) -> Vec<f64> {
+    /// Returns the load of a state's bodies and drives, each number rounded once.
+    pub fn load_at(&self, state: &JointState) -> Vec<f64> {
         let entry = |input| {
             let number = match input {
-                Input::Entry(_, index) => payload.get(index),
+                Input::Entry(argument, index) => state.entries(argument).get(index),
                 Input::Sin(_) | Input::Cos(_) | Input::PerSpeed(_) => None,
             };
             let number = number.and_then(|x| Rational::from_float(*x));

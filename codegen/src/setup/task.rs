@@ -1,18 +1,18 @@
 //! A function of a robot in its scene: its formula in any scalar, with the arm and the motion that
 //! it takes, and its program.
 
-use dalembert_model::equations::load::{Loading, PAYLOAD, carried};
-use dalembert_model::equations::matrix::Columns;
+use dalembert_model::equations::load::{BODY, Loading, carried};
+use dalembert_model::equations::matrix::{Columns, opposite, transposed};
 use dalembert_model::equations::regressor::Column;
-use dalembert_model::equations::{Arm, DhVariables, Formulation, exact_pose};
-use dalembert_model::number::Exact;
+use dalembert_model::equations::{Arm, DhVariables, Formulation, Link, exact_pose};
+use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::outputs::{Motion, RuntimeParameter, Sizes, Written};
 use dalembert_model::scalar::{Divide, Scalar};
 
 use super::Setup;
 use crate::dag::{Dag, Leaves};
 use crate::function::{Argument, Function, Quantity};
-use crate::program::{Input, Program};
+use crate::program::{Input, Literal, Program, ScalarType};
 
 /// A function of a robot in its scene.
 #[derive(Clone, Copy, Debug)]
@@ -27,8 +27,8 @@ pub struct Task<'a> {
 #[derive(Clone, Debug)]
 pub struct Posed<'a, S> {
     task: Task<'a>,
-    /// The arm, gravity as the argument says and the payload on the last link,
-    /// where the function takes them.
+    /// The arm: gravity, bodies and drives as the arguments say, and the payload on the last link, where
+    /// the function takes them.
     pub arm: Arm<S>,
     /// Its motion.
     pub motion: Motion<S>,
@@ -47,6 +47,7 @@ impl<'a> Task<'a> {
             rows: setup.rows().to_vec(),
             arguments: setup.arguments(function),
             load: setup.sizes(function).load,
+            bodies: setup.sizes(function).bodies,
             speeds: setup.speeds(),
             ..Program::empty(function, Sizes::of(setup.robot()))
         };
@@ -84,6 +85,9 @@ impl<'a> Task<'a> {
             |constant: &Exact| leaves.constant(constant),
         );
         let mut motion = setup.motion(input, constant);
+        if setup.takes_load(function) {
+            setup.drive(&mut arm, input);
+        }
         arm = arm.at_speeds(&motion.per_speed);
         let mut rows: Vec<usize> = (0..arm.links.len()).collect();
         if setup.takes(function, RuntimeParameter::Gravity) {
@@ -92,11 +96,16 @@ impl<'a> Task<'a> {
         }
         if function == Function::Load {
             motion.loading = Some(setup.loading(input, constant));
-        } else if setup.takes(function, RuntimeParameter::Payload) {
-            let frame = setup.payload_frame(constant);
-            arm.links.push(carried(&payload(input), frame.as_ref()));
-            motion = motion.with_still_link();
-            rows.push(rows.len());
+        } else if setup.takes_load(function) {
+            for (row, body) in setup.bodies.iter().zip(setup.given_bodies(input, constant)) {
+                let link = &mut arm.links[*row];
+                (link.mass, link.com, link.inertia) = (body.mass, body.com, body.inertia);
+            }
+            if let Some(body) = setup.given_payload(input, constant) {
+                arm.links.push(body);
+                motion = motion.with_still_link();
+                rows.push(rows.len());
+            }
         }
         Posed {
             task: *self,
@@ -124,26 +133,145 @@ impl Setup {
 
     pub(crate) fn loading<S: Scalar>(
         &self,
-        input: impl FnMut(Input) -> S,
+        mut input: impl FnMut(Input) -> S,
         mut constant: impl FnMut(&Exact) -> S,
     ) -> Loading<S> {
         let rows = self.load().map_or(&[][..], |load| &load.rows);
-        Loading {
-            payload: payload(input),
-            rows: rows.iter().map(|row| row.map(&mut constant)).collect(),
-            frame: self.payload_frame(constant),
+        let rows = rows.iter().map(|row| row.map(&mut constant)).collect();
+        let mut bodies = self.given_bodies(&mut input, &mut constant);
+        bodies.extend(self.given_payload(&mut input, &mut constant));
+        let drives = self
+            .drives()
+            .map(|(argument, place)| input(Input::Entry(argument, place)));
+        let drives = drives.collect();
+        Loading::new(&bodies, drives, rows)
+    }
+
+    /// Returns the bodies that are arguments, each in the frame of its row.
+    pub(super) fn given_bodies<S: Scalar>(
+        &self,
+        mut input: impl FnMut(Input) -> S,
+        mut constant: impl FnMut(&Exact) -> S,
+    ) -> Vec<Link<S>> {
+        if self.bodies.is_empty() {
+            return Vec::new();
+        }
+        let frames = self.arm(Exact::clone).frames;
+        let body = |(place, row): (usize, &usize)| {
+            let frame = frames.of_link(*row).map(|own| own.map(&mut constant));
+            let mut numbers = numbers(Argument::Bodies, BODY * place, &mut input);
+            for (number, is_zero) in numbers.iter_mut().zip(self.zeros.iter().skip(BODY * place)) {
+                if *is_zero {
+                    *number = S::zero();
+                }
+            }
+            carried(&numbers, frame.as_ref())
+        };
+        self.bodies.iter().enumerate().map(body).collect()
+    }
+
+    /// Returns the payload in the frame of the last row, if it is an argument.
+    fn given_payload<S: Scalar>(
+        &self,
+        input: impl FnMut(Input) -> S,
+        constant: impl FnMut(&Exact) -> S,
+    ) -> Option<Link<S>> {
+        if !self.has(RuntimeParameter::Payload) {
+            return None;
+        }
+        let frame = self.robot().payload_frame.as_ref();
+        let frame = frame.map(|own| exact_pose(own).map(constant));
+        Some(carried(
+            &numbers(Argument::Payload, 0, input),
+            frame.as_ref(),
+        ))
+    }
+
+    /// Lists the entries of drives that are arguments: armatures, then viscous friction, row by row.
+    pub(super) fn drives(&self) -> impl Iterator<Item = (Argument, usize)> {
+        let rows = self.robot().rows().len();
+        let drives = [RuntimeParameter::Armature, RuntimeParameter::Viscous].into_iter();
+        let drives = drives.filter(|parameter| self.has(*parameter));
+        let arguments = drives.filter_map(RuntimeParameter::given);
+        arguments.flat_map(move |argument| (0..rows).map(move |row| (argument, row)))
+    }
+
+    /// Returns what the robot file has in the place of an argument of `load`: bodies in the frames of
+    /// its links.
+    pub(crate) fn defaults(&self, parameter: RuntimeParameter, scalar: ScalarType) -> Vec<Literal> {
+        let values = self.exact_defaults(parameter);
+        let literal = |value: &Exact| match is_nothing(value) {
+            true => Literal(0.0),
+            false => Literal(scalar.round(value)),
+        };
+        values.iter().map(literal).collect()
+    }
+
+    /// Returns what the robot file has in the place of an argument of `load`, in doubles.
+    pub fn file_values(&self, parameter: RuntimeParameter) -> Vec<f64> {
+        let values = self.defaults(parameter, ScalarType::F64);
+        values.into_iter().map(|Literal(value)| value).collect()
+    }
+
+    pub(super) fn exact_defaults(&self, parameter: RuntimeParameter) -> Vec<Exact> {
+        let arm = self.arm(Exact::clone);
+        let rows = arm.links.iter().skip(self.robot().base_coordinates());
+        match parameter {
+            RuntimeParameter::Bodies => {
+                let of_row = |&row: &usize| numbers_of(&arm.links[row], arm.frames.of_link(row));
+                self.bodies.iter().flat_map(of_row).collect()
+            }
+            RuntimeParameter::Armature => rows.map(|link| link.armature.clone()).collect(),
+            RuntimeParameter::Viscous => rows.map(|link| link.friction.viscous.clone()).collect(),
+            RuntimeParameter::Payload | RuntimeParameter::Gravity => Vec::new(),
         }
     }
 
-    fn payload_frame<S>(&self, constant: impl FnMut(&Exact) -> S) -> Option<Columns<S>> {
-        let frame = self.robot().payload_frame.as_ref()?;
-        Some(exact_pose(frame).map(constant))
+    /// Returns the arm with nothing in the place of arguments.
+    pub(crate) fn without_given<S: Scalar>(&self, mut arm: Arm<S>) -> Arm<S> {
+        for &row in &self.bodies {
+            let (link, body) = (&mut arm.links[row], Link::still());
+            (link.mass, link.com, link.inertia) = (body.mass, body.com, body.inertia);
+        }
+        self.drive(&mut arm, |_| S::zero());
+        arm
+    }
+
+    fn drive<S>(&self, arm: &mut Arm<S>, mut input: impl FnMut(Input) -> S) {
+        let base = self.robot().base_coordinates();
+        for (argument, row) in self.drives() {
+            let link = &mut arm.links[base + row];
+            let place = match argument {
+                Argument::Armature => &mut link.armature,
+                _ => &mut link.friction.viscous,
+            };
+            *place = input(Input::Entry(argument, row));
+        }
     }
 }
 
-fn payload<S>(mut input: impl FnMut(Input) -> S) -> Vec<S> {
-    let entry = |index| input(Input::Entry(Argument::Payload, index));
-    (0..PAYLOAD).map(entry).collect()
+/// A placement makes 1e-20 of a zero, there and back.
+pub(super) fn is_nothing(value: &Exact) -> bool {
+    f64::nearest(value).abs() < 1e-18
+}
+
+/// Returns the numbers of a link's body in a frame: the inverse of [`carried`].
+fn numbers_of(link: &Link<Exact>, frame: Option<&Columns<Exact>>) -> Vec<Exact> {
+    let back = frame.map(|frame| Columns {
+        axes: transposed(&frame.axes),
+        origin: opposite(&frame.rotate_back(&frame.origin)),
+    });
+    let listed = |link: &Link<Exact>| -> Vec<Exact> {
+        let inertia = link.inertia.entries().into_iter();
+        let all = [&link.mass].into_iter().chain(&link.com).chain(inertia);
+        all.cloned().collect()
+    };
+    listed(&carried(&listed(link), back.as_ref()))
+}
+
+fn numbers<S>(argument: Argument, from: usize, mut input: impl FnMut(Input) -> S) -> Vec<S> {
+    let entry = |index| input(Input::Entry(argument, index));
+    (from..from + BODY).map(entry).collect()
 }
 
 impl<S: Divide> Posed<'_, S> {

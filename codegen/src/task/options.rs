@@ -123,7 +123,7 @@ fn name(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
 }
 
 /// The options, in the order in which they are written.
-pub static OPTIONS: [OptionRow; 14] = [
+pub static OPTIONS: [OptionRow; 16] = [
     OptionRow {
         name: "outputs",
         purpose: Purpose::What,
@@ -226,9 +226,10 @@ pub static OPTIONS: [OptionRow; 14] = [
     OptionRow {
         name: "parameters",
         purpose: Purpose::Code,
-        doc: "Parameters that become arguments of the functions instead of constants: `gravity`, \
-              and `payload`, which a function `load` turns once into the argument `load` of \
-              the others",
+        doc: "Parameters that become arguments of the functions instead of constants: `gravity`; \
+              `payload`, a body on the last link; `bodies` of all links, `armature` and `viscous` \
+              friction. A function `load` turns all but gravity once into the argument `load` of the \
+              others",
         words: RuntimeParameter::known,
         is_list: true,
         set: |draft, item| {
@@ -239,6 +240,29 @@ pub static OPTIONS: [OptionRow; 14] = [
                 item,
             )
         },
+    },
+    OptionRow {
+        name: "bodies",
+        purpose: Purpose::Code,
+        doc: "The links whose bodies are arguments, by their numbers; of a base that floats 0 \
+              [default: all]. With `parameters: bodies`",
+        words: Vec::new,
+        is_list: true,
+        set: |draft, item| {
+            let link = item
+                .parse::<usize>()
+                .map_err(|_| Complaint::new("expected the number of a link", "bodies: 2, 5"))?;
+            add(&mut draft.request.bodies, link, PartialEq::eq, item)
+        },
+    },
+    OptionRow {
+        name: "keep_zeros",
+        purpose: Purpose::Code,
+        doc: "Whether numbers of bodies that are zero in the robot file stay zero: fewer operations, and \
+              `with` refuses bodies that have others there. With `parameters: bodies`",
+        words: bool::known,
+        is_list: false,
+        set: |draft, item| parse(item).map(|value| draft.request.keeps_zeros = value),
     },
     OptionRow {
         name: "scene",
@@ -317,6 +341,16 @@ impl Request {
                 }
             }
         }
+        let takes_bodies = draft.request.parameters.contains(&RuntimeParameter::Bodies);
+        let of_bodies = [
+            ("bodies", !draft.request.bodies.is_empty()),
+            ("keep_zeros", draft.request.keeps_zeros),
+        ];
+        for (option, _) in of_bodies.into_iter().filter(|own| own.1 && !takes_bodies) {
+            let help = "add `parameters: bodies`, or leave this out";
+            let message = "it is about bodies that are arguments, and none are";
+            report(option, "", Complaint::new(message, help));
+        }
         let scene = draft.scene.as_deref().map(|name| find(scenes, name));
         let scene = scene.transpose().unwrap_or_else(|error| {
             report("scene", draft.scene.as_deref().unwrap_or_default(), error);
@@ -341,6 +375,7 @@ impl Request {
         let outputs: Vec<String> = self.functions.iter().map(|own| own.text()).collect();
         let scalars: Vec<&str> = self.scalars.iter().map(|own| own.name()).collect();
         let parameters: Vec<&str> = self.parameters.iter().map(|own| own.name()).collect();
+        let bodies: Vec<String> = self.bodies.iter().map(usize::to_string).collect();
         let error = self.sincos_error.map(|error| format!("{error:?}"));
         let scene = self.scene.as_ref().map_or("", |scene| &scene.name);
         let word = |is_on: bool| if is_on { "on" } else { "off" };
@@ -356,6 +391,8 @@ impl Request {
             ("sincos_error", &error.unwrap_or_default()),
             ("batch", word(self.batch)),
             ("parameters", &parameters.join(",")),
+            ("bodies", &bodies.join(",")),
+            ("keep_zeros", word(self.keeps_zeros)),
             ("scene", scene),
             ("plan", word(!self.has_no_plan)),
             ("name", self.module.as_deref().unwrap_or("")),
@@ -391,7 +428,11 @@ mod tests {
             }
             let mut requests = Vec::new();
             for word in &words {
-                let request = read(&format!("{}: {word}", row.name)).unwrap();
+                let needed = match row.name {
+                    "keep_zeros" => "parameters: bodies; ",
+                    _ => "",
+                };
+                let request = read(&format!("{needed}{}: {word}", row.name)).unwrap();
                 let mut again = parse(&request.asked(), &[]).unwrap();
                 again.is_scalar_open = request.is_scalar_open;
                 assert_eq!(format!("{again:?}"), format!("{request:?}"), "{word}");

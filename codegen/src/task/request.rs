@@ -75,6 +75,11 @@ pub struct Request {
     pub module: Option<String>,
     /// The robot's parameters that functions take as arguments.
     pub parameters: Vec<RuntimeParameter>,
+    /// The links whose bodies are arguments, where bodies are, counted from one, the base zero; all if
+    /// there are none.
+    pub bodies: Vec<usize>,
+    /// `true` if numbers of bodies that are zero in the robot file stay zero.
+    pub keeps_zeros: bool,
     /// The robot's use; everything if `None`. Its outputs and
     /// scalar are defaults that the ways in apply ([`Request::choose`]).
     pub scene: Option<Scene>,
@@ -110,6 +115,8 @@ impl Default for Request {
             watch: Watch::default(),
             module: None,
             parameters: Vec::new(),
+            bodies: Vec::new(),
+            keeps_zeros: false,
             scene: None,
             is_scalar_open: false,
             chain: Vec::new(),
@@ -147,7 +154,9 @@ impl Request {
     /// The scene is none of this robot, or a function needs mass and no link has any.
     pub fn setup(&self, robot: &Robot) -> Result<Setup, Complaint> {
         let setup = Setup::in_scene(robot, self.scene.as_ref())?;
-        let setup = setup.taking(&self.parameters);
+        let setup = setup
+            .taking(&self.parameters)
+            .taking_bodies(&self.bodies, self.keeps_zeros)?;
         if setup.has(RuntimeParameter::Payload) && robot.is_tree() {
             let message = "a payload that is an argument is on the last link, and the links of this robot \
                            branch";
@@ -155,7 +164,7 @@ impl Request {
                 "give it to a link in a scene: payload = { link = \"left_hand\", mass = 2.5, … }";
             return Err(Complaint::new(message, help));
         }
-        if !setup.robot().has_mass() && !setup.has(RuntimeParameter::Payload) {
+        if !setup.robot().has_mass() && !setup.has_load() {
             // A function that no payload changes is kinematics, or over any parameters.
             let weighs = |own: &&Function| own.payload_dependence() != PayloadDependence::None;
             if let Some(function) = self.functions.iter().find(weighs) {

@@ -63,12 +63,24 @@ pub(super) fn points(statement: &[&str], count: usize) -> impl Iterator<Item = P
 }
 
 pub(super) fn written(setup: &Setup) -> String {
+    let drives = [RuntimeParameter::Armature, RuntimeParameter::Viscous];
+    let of_links = (setup.has(RuntimeParameter::Bodies)
+        || drives.iter().any(|own| setup.has(*own)))
+    .then(|| {
+        format!(
+            "\n{:?}\n{:?}\n{:?}",
+            setup.body_links(),
+            setup.zeros(),
+            drives.map(|own| setup.has(own))
+        )
+    });
     format!(
-        "{}\n{}\n{:?}\n{:?}",
+        "{}\n{}\n{:?}\n{:?}{}",
         write_robot(setup.robot()),
         setup.scene().map(write_scene).unwrap_or_default(),
         setup.rows(),
-        RuntimeParameter::ALL.map(|parameter| setup.has(parameter)),
+        [RuntimeParameter::Payload, RuntimeParameter::Gravity].map(|own| setup.has(own)),
+        of_links.unwrap_or_default(),
     )
 }
 

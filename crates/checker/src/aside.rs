@@ -74,6 +74,8 @@ impl<'k> Known<'k> {
         for (name, public, count) in [
             ("Gravity", "pub ", 3),
             ("Payload", "", 10),
+            ("Body", "", 10),
+            ("Bodies", "", 10 * setting.bodies.len()),
             ("Load", "", load),
         ] {
             for own in SCALARS {
@@ -84,7 +86,14 @@ impl<'k> Known<'k> {
                 }));
             }
         }
-        items.extend([false, true].map(payload::rust));
+        let kinds = [
+            (false, "Payload"),
+            (true, "Payload"),
+            (false, "Body"),
+            (true, "Body"),
+        ];
+        items.extend(kinds.map(|(is_single, kind)| payload::rust(is_single, kind)));
+        items.insert(payload::rust_bodies(setting.bodies.len(), &setting.zeros));
         Known {
             setting,
             ranges,
@@ -235,11 +244,15 @@ impl<'k> Known<'k> {
     }
 }
 
-pub(crate) fn is_payload(item: &Found) -> bool {
+pub(crate) fn is_body(item: &Found, setting: &Setting) -> bool {
     let (own, macros) = (&item.symbols.prefix, &item.symbols.macros);
-    let is_single = item.text.contains("const float ");
-    let text = payload::c(is_single, "static inline", own, macros);
-    text == trimmed(item).join("\n")
+    let is_single = item.text.contains("float ");
+    let text = |kind| payload::c(is_single, "static inline", [own, macros], kind);
+    let item = trimmed(item).join("\n");
+    let bodies = (setting.bodies.len(), setting.zeros.as_slice());
+    let of_all = || payload::c_bodies(is_single, "static inline", [own, macros], bodies);
+    let mut kinds = ["payload", "body"].into_iter();
+    kinds.any(|kind| text(kind) == item) || bodies.0 > 0 && of_all() == item
 }
 
 fn trimmed<'t>(item: &'t Found) -> Vec<&'t str> {

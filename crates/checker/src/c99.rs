@@ -144,7 +144,13 @@ pub(crate) fn functions<'t>(
                 return false;
             }
             heads.push(head);
-            let ends = ["(const size_t n, ", "_in_box(", " pi[", " numbers["];
+            let ends = [
+                "(const size_t n, ",
+                "_in_box(",
+                " pi[",
+                " numbers[",
+                " into[",
+            ];
             !has_loops || ends.iter().any(|end| head.contains(end))
         });
         let is_plain = |found: &Found| {

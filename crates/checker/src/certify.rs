@@ -3,14 +3,16 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::aside::{Known, is_payload};
+use crate::aside::{Known, is_body};
 use crate::c99;
 use crate::claim::{Claim, Claimed, Tolerated};
 use crate::compare::{Literals, compare};
 use crate::cost::{self, ranges};
+use crate::defaults::{Default, is_default};
 use crate::fault::Fault;
 use crate::file::{self, Found};
 use crate::identity::exact::Exact;
+use crate::identity::given::DEFAULTS;
 use crate::identity::number::Draws;
 use crate::identity::setting::Setting;
 use crate::identity::table::{Field, Function, functions, length};
@@ -93,13 +95,23 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     }
     let of_robot = |why: String| Fault::Robot("file".into(), why);
     let mut file = robot::read(robot).map_err(of_robot)?;
+    let in_scene = |own: &Claimed| own.scene.as_deref() == scene;
+    document.functions.retain(in_scene);
+    let load = document.functions.iter().find(|own| own.function == LOAD);
+    let links = load.map_or(&[][..], |own| &own.bodies);
+    let defaults = DEFAULTS.map(|name| Ok((name, file.defaults(name, links)?)));
+    let defaults = defaults.into_iter().collect::<Result<Vec<_>, String>>();
+    let defaults = defaults.map_err(of_robot)?;
     if let Some(rows) = document.aligned.as_ref().filter(|_| file.is_placed()) {
         let of_rows = |why: String| Fault::Claim(format!("`aligned`: {why}"));
         let rows = robot::read(rows).map_err(of_rows)?;
         aligned::check(&file, &rows, scene).map_err(of_rows)?;
         file = rows.in_scenes_of(file, scene);
     }
-    let setting = file.setting(scene).map_err(of_robot)?;
+    let mut setting = file.setting(scene).map_err(of_robot)?;
+    setting
+        .take(&document.functions, &defaults)
+        .map_err(Fault::Claim)?;
     let is_c = source.starts_with(c99::HEAD);
     let items = match is_c {
         true => c99::functions(source, setting.places().as_ref())?,
@@ -108,21 +120,21 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     if items.len() > MOST_ITEMS {
         return Err(Fault::Text(1, format!("more than {MOST_ITEMS} items")));
     }
-    let in_scene = |own: &Claimed| own.scene.as_deref() == scene;
-    document.functions.retain(in_scene);
     let work = Work::default();
     let constants = document.constants(&work)?;
     let load = document.functions.iter().find(|own| own.function == LOAD);
     let singles = items.iter().filter(|item| item.text.contains("[f32; "));
     let given = setting.body().map_err(of_robot)?;
-    let body = given.unwrap_or_default();
+    let bodies = setting.bodies_given().map_err(of_robot)?;
+    let takes_payload = bodies.iter().any(|own| argument("payload") == Some(own.0));
     let whole = Whole {
         seed: Draws::new(&[robot, claim, source]).text(),
         load: load.map(|own| own.program(&constants)).transpose(),
         constants,
         claim: &document,
-        ranges: ranges(&setting, body).map_err(of_robot)?,
-        body,
+        ranges: ranges(&setting, &bodies).map_err(of_robot)?,
+        bodies,
+        defaults,
         worst: demand.worst.unwrap_or(0.0),
         work,
         literals: Literals::default(),
@@ -190,7 +202,7 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     Ok(Report {
         lines,
         is_unlimited: setting.is_unlimited(),
-        payloads: (load > 0).then_some((body, given.is_none())),
+        payloads: takes_payload.then(|| (given.unwrap_or_default(), given.is_none())),
     })
 }
 
@@ -198,7 +210,7 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
 fn is_beside(found: &Found) -> bool {
     let name = found.name.strip_prefix(found.module);
     let is_box = found.name == "in_box" || name == Some("_in_box");
-    let mut written = [" pi[", " numbers["].iter();
+    let mut written = [" pi[", " numbers[", " into["].iter();
     is_box || found.name.is_empty() || written.any(|own| found.text.contains(own))
 }
 
@@ -220,7 +232,9 @@ struct Whole<'w> {
     load: Result<Option<Program<Exact>>, Fault>,
     setting: &'w Setting<'w>,
     ranges: Ranges,
-    body: Body,
+    bodies: Vec<(usize, Vec<Body>)>,
+    /// What the robot has in the place of arguments of `load`.
+    defaults: Vec<Default>,
     worst: f64,
     work: Work,
     literals: Literals,
@@ -369,7 +383,7 @@ impl<'w> Whole<'w> {
             read: &read,
             head: &head,
             ranges: &self.ranges,
-            body: self.body,
+            bodies: &self.bodies,
             texts: &[self.seed.as_str(), head.name],
             worst: self.worst,
             work: &self.work,
@@ -488,6 +502,9 @@ impl<'w> Whole<'w> {
     }
 
     fn follows(&self, item: &Found, known: &Known) -> Result<(), Fault> {
+        if is_default(item, self.is_c, &self.defaults) {
+            return Ok(());
+        }
         if !self.is_c {
             return known.follows(item);
         }
@@ -495,10 +512,11 @@ impl<'w> Whole<'w> {
         let are = values.any(|(name, own)| c99::are_values(item, &name.to_ascii_lowercase(), own));
         let why = match item.text.contains(" pi[") {
             true => "its numbers are not the base parameters that are claimed",
-            false if item.text.contains(" numbers[") => "it does not make a payload",
+            false if item.text.contains(" numbers[") => "it does not make a body",
+            false if item.text.contains(" into[") => "its numbers are not those of the robot file",
             false => "it does not say where the functions hold",
         };
-        let is_known = are || known.is_box(item) || is_payload(item);
+        let is_known = are || known.is_box(item) || is_body(item, self.setting);
         let fault = || Fault::Text(item.line, why.into());
         is_known.then_some(()).ok_or_else(fault)
     }
@@ -515,9 +533,8 @@ fn function(claimed: &Claimed) -> Result<Function, String> {
     }
     let results = if is_load { &[][..] } else { &claimed.results };
     let function = Function::named(&claimed.function, &claimed.arguments, results)?;
-    let payload = argument("payload").unwrap_or_default();
-    match is_load && function.arguments != [payload] {
-        true => Err("a load is of a payload alone".into()),
+    match is_load && function.arguments.is_empty() {
+        true => Err("a load is of bodies or drives".into()),
         false => Ok(function),
     }
 }

@@ -77,6 +77,12 @@ pub struct Claimed {
     pub scene: Option<String>,
     /// The arguments there are, in order.
     pub arguments: Vec<String>,
+    /// The links whose bodies are an argument, from one; a base that floats is zero.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bodies: Vec<usize>,
+    /// True if numbers of these bodies that are zero in the robot file stay zero.
+    #[serde(skip_serializing_if = "is_false")]
+    pub keeps_zeros: bool,
     /// The results in order, each by a function that has it: `gravity.c`, `jacobian.jacobian@camera`.
     pub results: Vec<String>,
     /// The operations of the text, one a word: `s1*#0`. A product that is not rounded has `×`, and its

@@ -26,6 +26,8 @@ pub const RATE: f64 = 10.0;
 /// The ranges of arguments that no robot file has limits of.
 const WRENCH: f64 = 100.0;
 const EARTH: f64 = 9.81;
+/// The largest armature and viscous friction, in SI units, where they are arguments.
+const DRIVE: f64 = 1.0;
 const DAMPING: [f64; 2] = [1e-3, 1e-1];
 /// The states at which a function that divides is measured, and at which the size of the results of
 /// others is.
@@ -97,7 +99,8 @@ pub(crate) struct Subject<'s> {
     pub read: &'s read::Function,
     pub head: &'s Head<'s>,
     pub ranges: &'s Ranges,
-    pub body: Body,
+    /// The bodies that arguments of its load are.
+    pub bodies: &'s [(usize, Vec<Body>)],
     /// The texts that states are drawn from.
     pub texts: &'s [&'s str],
     /// The largest cost that the user accepts, if it is larger than what is shown otherwise.
@@ -141,8 +144,8 @@ impl Subject<'_> {
         self.work.spend(steps * (bounded + 4), 20)?;
         let over_box = rounding.bounds(&ranges, None);
         let mut arguments = self.function.arguments.clone();
-        // A load is computed from its payload.
-        arguments.extend(self.load.and_then(|_| argument("payload")));
+        // A load is computed from what it is of.
+        arguments.extend(self.load.iter().flat_map(|_| &self.setting.loading));
         let joints = self.setting.joints();
         let lengths = head.fields.iter().map(|own| own.1.iter().product());
         let mut seen = Seen {
@@ -160,7 +163,7 @@ impl Subject<'_> {
         let mut states = States {
             ranges: self.ranges,
             places: &arguments,
-            body: self.body,
+            bodies: self.bodies,
             widths: &read.speeds,
             draws: Draws::new(self.texts),
             is_single: head.is_single,
@@ -351,7 +354,7 @@ fn worse(before: f64, own: f64) -> f64 {
     if is_worse { own } else { before }
 }
 
-pub(crate) fn ranges(setting: &Setting, body: Body) -> Result<Ranges, String> {
+pub(crate) fn ranges(setting: &Setting, bodies: &[(usize, Vec<Body>)]) -> Result<Ranges, String> {
     let (sizes, gravity) = (setting.sizes(), setting.gravity().unwrap_or(EARTH));
     let of = |&(name, axis): &(&str, char)| {
         let rate = if name == "tau" { WRENCH } else { RATE };
@@ -360,7 +363,12 @@ pub(crate) fn ranges(setting: &Setting, body: Body) -> Result<Ranges, String> {
             GRAVITY => [-gravity, gravity],
             "wrench" => [-WRENCH, WRENCH],
             "damping" => DAMPING,
-            "payload" => return Ok(body.ranges()),
+            "payload" | "bodies" => {
+                let of = bodies.iter().find(|own| argument(name) == Some(own.0));
+                let all = of.into_iter().flat_map(|own| &own.1);
+                return Ok(all.flat_map(|own| own.ranges()).collect());
+            }
+            "armature" | "viscous" => [0.0, DRIVE],
             _ => [-1.0, 1.0],
         };
         Ok(own.unwrap_or_else(|| vec![[low, high]; length(axis, sizes)]))

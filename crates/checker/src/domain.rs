@@ -25,7 +25,8 @@ pub struct Domain {
 }
 
 impl Domain {
-    /// Reads a robot file; the function has these arguments, of which another makes the load.
+    /// Reads a robot file; the function has these arguments; another makes the load, of a
+    /// payload alone.
     ///
     /// # Errors
     /// A robot file, a scene or an argument that is not known; a joint without limits.
@@ -37,7 +38,8 @@ impl Domain {
     ) -> Result<Domain, Fault> {
         let of_robot = |why: String| Fault::Robot("file".into(), why);
         let file = robot::read(source).map_err(of_robot)?;
-        let setting = file.setting(scene).map_err(of_robot)?;
+        let mut setting = file.setting(scene).map_err(of_robot)?;
+        setting.loading = load.iter().filter_map(|_| argument("payload")).collect();
         let places: Option<Vec<usize>> = arguments.iter().map(|own| argument(own)).collect();
         let places = places.ok_or_else(|| Fault::Claim("an argument that is not known".into()))?;
         let (mut ranges, _) = setting.loaded_box(&places, false, load)?;

@@ -31,6 +31,8 @@ mod compare;
 #[cfg(feature = "certify")]
 mod cost;
 #[cfg(feature = "certify")]
+mod defaults;
+#[cfg(feature = "certify")]
 mod derivatives;
 #[cfg(feature = "certify")]
 pub mod domain;
@@ -44,7 +46,6 @@ mod hidden;
 pub mod identity;
 #[cfg(feature = "certify")]
 pub mod interval;
-#[cfg(feature = "certify")]
 mod load;
 mod maximum;
 pub mod payload;

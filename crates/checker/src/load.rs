@@ -4,6 +4,7 @@ use crate::fault::Fault;
 use crate::identity::exact::Exact;
 use crate::identity::setting::Setting;
 use crate::interval::Interval;
+use crate::payload::Body;
 use crate::program::{ARGUMENTS, LOAD, Operand, Program, Step, argument};
 use crate::read;
 use crate::rounding::{Ranges, Rounding, Value};
@@ -20,12 +21,13 @@ impl Setting<'_> {
     ) -> Result<(Ranges, Vec<Value>), Fault> {
         let of_robot = |why| Fault::Robot("limits".into(), why);
         let mut ranges = self.state_box(places, is_single)?;
-        let (Some(load), Some(place), Some(payload)) = (load, argument(LOAD), argument("payload"))
-        else {
+        let (Some(load), Some(place)) = (load, argument(LOAD)) else {
             return Ok((ranges, Vec::new()));
         };
-        let body = self.body().map_err(of_robot)?.unwrap_or_default();
-        ranges[payload] = body.outward(is_single).ranges();
+        for (place, bodies) in self.bodies_given().map_err(of_robot)? {
+            let outward = bodies.into_iter().map(|own| own.outward(is_single));
+            ranges[place] = outward.flat_map(Body::ranges).collect();
+        }
         let text = literals(load);
         let values = Rounding::new(&text, is_single, &ranges).bounds(&ranges, None);
         let values = values.results;

@@ -1,5 +1,5 @@
-//! The bodies that a payload may be, and the items of generated code that make a payload of numbers
-//! that a body has, line by line.
+//! The bodies that a payload may be, and the items of generated code that make bodies of numbers that a
+//! body has, line by line.
 //!
 //! Of a body ½ tr(I) 1 − I is ∫ r rᵀ dm, about the centre of mass: none of its principal minors is
 //! negative. ½ is a little more here, since moments that are rounded, as those of a thin plate, are
@@ -115,8 +115,8 @@ const TEST: &str = "(mass >= 0.0~) && (a >= 0.0~) && (b >= 0.0~) && (c >= 0.0~) 
     (bc >= 0.0~) && (ac >= 0.0~) && (abc >= 0.0~) && ((sum - sum) == 0.0~) && \
     !((mass <= 0.0~) && (most > 0.0~))";
 
-/// Returns the methods of the type in Rust.
-pub fn rust(is_single: bool) -> String {
+/// Returns the methods of a type in Rust, `Payload` or `Body`.
+pub fn rust(is_single: bool, kind: &str) -> String {
     let (real, half) = match is_single {
         true => ("f32", "0.5005"),
         false => ("f64", "0.5000005"),
@@ -124,16 +124,41 @@ pub fn rust(is_single: bool) -> String {
     let tested = TESTED.replace("TEST", TEST).replace("HALF", half);
     let (tested, numbers) = (tested.replace('~', ""), NUMBERS.join(", "));
     format!(
-        "impl Payload {{\npub const NONE: Payload = Payload([0.0; 10]);\n\
-         pub const fn new(mass: {real}, com: [{real}; 3], inertia: [{real}; 6]) -> Option<Payload> {{\n\
+        "impl {kind} {{\npub const NONE: {kind} = {kind}([0.0; 10]);\n\
+         pub const fn new(mass: {real}, com: [{real}; 3], inertia: [{real}; 6]) -> Option<{kind}> {{\n\
          let ([x, y, z], [xx, yy, zz, xy, yz, xz]) = (com, inertia);\n\
-         {tested}\nSome(Payload([{numbers}]))\n}} else {{\nNone\n}}\n}}\n}}"
+         {tested}\nSome({kind}([{numbers}]))\n}} else {{\nNone\n}}\n}}\n}}"
     )
 }
 
-/// Returns the type and the function in C, which begins with `function`: their names begin with
-/// `own`, and macros with `macros`.
-pub fn c(is_single: bool, function: &str, own: &str, macros: &str) -> String {
+/// Returns the methods of so many bodies in Rust; where some numbers stay zero, they are tested.
+pub fn rust_bodies(count: usize, zeros: &[bool]) -> String {
+    let (list, test) = match zeros {
+        [] => (String::new(), ""),
+        zeros => (
+            format!(
+                "const ZEROS: [u8; {}] = [{}];\n",
+                zeros.len(),
+                digits(zeros)
+            ),
+            "assert!(!((ZEROS[10 * place + number] == 1) && !(body.0[number] == 0.0)));\n",
+        ),
+    };
+    format!(
+        "impl Bodies {{\npub const fn with(mut self, place: usize, body: Body) -> Bodies {{\n\
+         {list}assert!(place < {count});\nlet mut number = 0;\nwhile number < 10 {{\n{test}\
+         self.0[10 * place + number] = body.0[number];\nnumber += 1;\n}}\nself\n}}\n}}"
+    )
+}
+
+fn digits(zeros: &[bool]) -> String {
+    let numbers = zeros.iter().map(|own| if *own { "1" } else { "0" });
+    numbers.collect::<Vec<_>>().join(", ")
+}
+
+/// Returns a type and its function in C, `payload` or `body`; the text begins with `function`, names
+/// with `own`, and macros with `macros`.
+pub fn c(is_single: bool, function: &str, [own, macros]: [&str; 2], kind: &str) -> String {
     let (real, half, suffix) = match is_single {
         true => ("float", "0.5005", "F"),
         false => ("double", "0.5000005", ""),
@@ -145,11 +170,42 @@ pub fn c(is_single: bool, function: &str, own: &str, macros: &str) -> String {
     let lines = each(|(place, own)| format!("let {own} = numbers[{place}];\n")) + &tested;
     let lines = lines.replace("let", &format!("const {real}"));
     let lines = lines.replace("HALF", half).replace('~', suffix);
-    let kept = each(|(place, own)| format!("payload->payload[{place}] = {own};\n"));
+    let kept = each(|(place, own)| format!("KIND->KIND[{place}] = {own};\n"));
+    let kept = kept.replace("KIND", kind);
     format!(
-        "typedef struct {{\n{real} payload[10];\n}} {own}_payload_t;\n\
-         {function} int {own}_payload(const {real} numbers[{macros}_RESTRICT 10], \
-         {own}_payload_t payload[{macros}_RESTRICT 1])\n{{\n{macros}_UNFUSED\nint is_body = 0;\n\
+        "typedef struct {{\n{real} {kind}[10];\n}} {own}_{kind}_t;\n\
+         {function} int {own}_{kind}(const {real} numbers[{macros}_RESTRICT 10], \
+         {own}_{kind}_t {kind}[{macros}_RESTRICT 1])\n{{\n{macros}_UNFUSED\nint is_body = 0;\n\
          {lines}\n{kept}is_body = 1;\n}}\nreturn is_body;\n}}"
+    )
+}
+
+/// Returns the type of so many bodies in C, and the function that puts one in its place; where some
+/// numbers stay zero, they are tested.
+pub fn c_bodies(
+    is_single: bool,
+    function: &str,
+    [own, macros]: [&str; 2],
+    (count, zeros): (usize, &[bool]),
+) -> String {
+    let (real, numbers) = (if is_single { "float" } else { "double" }, 10 * count);
+    let (list, test) = match zeros {
+        [] => (String::new(), ""),
+        zeros => (
+            format!(
+                "static const unsigned char zeros[{numbers}] = {{{}}};\n",
+                digits(zeros)
+            ),
+            "while (number < 10) {\n\
+             if ((zeros[10 * place + number] == 1) && !(body->body[number] == 0)) {\nreturn 0;\n}\n\
+             number += 1;\n}\nnumber = 0;\n",
+        ),
+    };
+    format!(
+        "typedef struct {{\n{real} bodies[{numbers}];\n}} {own}_bodies_t;\n\
+         {function} int {own}_with_body({own}_bodies_t into[{macros}_RESTRICT 1], int place, \
+         const {own}_body_t body[{macros}_RESTRICT 1])\n{{\n{list}int number = 0;\n\
+         if (!((place >= 0) && (place < {count}))) {{\nreturn 0;\n}}\n{test}while (number < 10) {{\n\
+         into->bodies[10 * place + number] = body->body[number];\nnumber += 1;\n}}\nreturn 1;\n}}"
     )
 }

@@ -1,8 +1,8 @@
 //! Straight-line code, over exact constants or over literals.
 
 /// The arguments, in the order in which heads have them, and their lengths: `j` for an entry a joint,
-/// `n` for one a coordinate of the velocity.
-pub const ARGUMENTS: [(&str, char); 12] = [
+/// `n` for one a coordinate of the velocity, `k` for ten a body, `t` for one a row of the table.
+pub const ARGUMENTS: [(&str, char); 15] = [
     ("q", 'j'),
     ("qd", 'n'),
     ("qdd", 'n'),
@@ -15,6 +15,9 @@ pub const ARGUMENTS: [(&str, char); 12] = [
     ("wrench", '6'),
     ("damping", '1'),
     ("multiplier", 'n'),
+    ("bodies", 'k'),
+    ("armature", 't'),
+    ("viscous", 't'),
 ];
 
 /// The argument that has the acceleration of gravity.

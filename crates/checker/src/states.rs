@@ -16,7 +16,8 @@ pub(crate) struct States<'s> {
     pub ranges: &'s Ranges,
     /// The places of the arguments that are read.
     pub places: &'s [usize],
-    pub body: Body,
+    /// The bodies that each argument is of: a payload, and those of links.
+    pub bodies: &'s [(usize, Vec<Body>)],
     /// The squares of the speeds over which friction of joints is smoothed: near to these it bends.
     pub widths: &'s [(usize, f64)],
     pub draws: Draws,
@@ -29,7 +30,6 @@ impl States<'_> {
     /// Draws the next state: at zero, in the middle, at the lower and the upper ends of all ranges,
     /// then special ones among random ones.
     pub(crate) fn next(&mut self) -> State {
-        let payload = argument("payload");
         let mut state = vec![Vec::new(); ARGUMENTS.len()];
         let count = self.count;
         self.count += 1;
@@ -37,9 +37,15 @@ impl States<'_> {
             let Some(list) = self.ranges.get(place) else {
                 continue;
             };
-            state[place] = match Some(place) == payload {
-                true => self.body.draw(&mut || self.draws.share()),
-                false => (list.iter().enumerate().map(|(index, range)| match count {
+            let of_bodies = self.bodies.iter().find(|(own, _)| *own == place);
+            state[place] = match of_bodies {
+                Some((_, bodies)) => {
+                    let all = bodies
+                        .iter()
+                        .map(|own| own.draw(&mut || self.draws.share()));
+                    all.collect::<Vec<_>>().concat()
+                }
+                None => (list.iter().enumerate().map(|(index, range)| match count {
                     0 => 0f64.clamp(range[0], range[1]),
                     1 => 0.5 * (range[0] + range[1]),
                     2 => range[0],
@@ -97,12 +103,12 @@ impl States<'_> {
         mut tries: usize,
         mut heights: impl FnMut([&State; LANES]) -> Result<[f64; LANES], Fault>,
     ) -> Result<(), Fault> {
-        let payload = argument("payload");
+        let is_body = |place: &usize| self.bodies.iter().any(|(own, _)| own == place);
         for ways in STRIDES {
             let mut has_moved = true;
             while has_moved {
                 has_moved = false;
-                for &place in self.places.iter().filter(|own| Some(**own) != payload) {
+                for &place in self.places.iter().filter(|own| !is_body(own)) {
                     for index in 0..state[place].len() {
                         let Some([low, high]) = self.ranges[place].get(index).copied() else {
                             continue;

@@ -114,6 +114,12 @@ impl Subject<'_> {
         unless(are_alike, "two programs of other results")?;
         let fields = self.results();
         unless(fields.len() == count, "results that are not the function's")?;
+        let mut loading = self.setting.loading.iter();
+        let is_of_payload = loading.all(|own| argument("payload") == Some(*own));
+        unless(
+            is_of_payload,
+            "a tolerance where bodies or drives are arguments",
+        )?;
         let places = &self.function.arguments;
         let (ranges, load) = (self.setting).loaded_box(places, self.is_single, self.load)?;
         let ranges = &ranges;

@@ -10,6 +10,7 @@ use dalembert_codegen::{
 };
 use dalembert_import::{OpenError, Text, is_model, open_text};
 use dalembert_model::number::{Exact, Rounded};
+use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 use dalembert_stamp::{Comment, Stamp};
 
@@ -268,6 +269,28 @@ impl Arm {
         Ok(names.zip(values.iter().map(f64::nearest)).collect())
     }
 
+    /// Returns what the robot file has in the place of the arguments of `load`, by their names: of
+    /// `bodies` ten numbers a link of [`body_links`](Arm::body_links).
+    ///
+    /// # Errors
+    /// [`LoadError`]: what is kept is damaged.
+    pub fn loading(&self) -> Result<Vec<(&'static str, Vec<f64>)>, LoadError> {
+        let setup = self.setup()?;
+        let taken = RuntimeParameter::LOADING.into_iter();
+        let taken = taken.filter(|own| setup.has(*own));
+        Ok(taken
+            .map(|own| (own.name(), setup.file_values(own)))
+            .collect())
+    }
+
+    /// Returns the links whose bodies are arguments, from one; a base that floats is zero.
+    ///
+    /// # Errors
+    /// As of [`Arm::loading`].
+    pub fn body_links(&self) -> Result<Vec<usize>, LoadError> {
+        Ok(self.setup()?.body_links())
+    }
+
     /// Returns the base parameters by their combinations, a column of `regressor` each.
     ///
     /// # Errors
@@ -295,7 +318,9 @@ impl Arm {
         let request = self.load.request(&reading)?;
         let setup = Setup::in_scene(&reading.robot, request.scene.as_ref());
         let setup = setup.map_err(|why| LoadError::Generate(why.into()))?;
-        Ok(setup.taking(&request.parameters))
+        let setup = setup.taking(&request.parameters);
+        let setup = setup.taking_bodies(&request.bodies, request.keeps_zeros);
+        setup.map_err(|why| LoadError::Generate(why.into()))
     }
 
     /// Returns what a user should know of the robot and its functions.

@@ -49,9 +49,9 @@ pub(crate) struct Proved {
     /// The index in `rust`.
     pub(crate) file: usize,
     pub(crate) arguments: Vec<String>,
-    /// Rows, links, joints, coordinates of a base that floats, entries of limbs, base parameters and load:
-    /// [`Sizes`], but for the beginnings of limbs.
-    pub(crate) sizes: [usize; 7],
+    /// Rows, links, joints, coordinates of a base that floats, entries of limbs, base parameters, load,
+    /// bodies that are arguments and rows of the table: [`Sizes`], but for the beginnings of limbs.
+    pub(crate) sizes: [usize; 9],
     pub(crate) limbs: u64,
     pub(crate) proof: String,
 }
@@ -78,13 +78,25 @@ impl Proved {
                 sizes.blocks,
                 sizes.base,
                 sizes.load,
+                sizes.bodies,
+                sizes.table,
             ],
             proof: format!("{}{tolerance}", function.proof),
         }
     }
 
     pub(crate) fn sizes(&self) -> Sizes {
-        let [rows, links, joints, floating, blocks, base, load] = self.sizes;
+        let [
+            rows,
+            links,
+            joints,
+            floating,
+            blocks,
+            base,
+            load,
+            bodies,
+            table,
+        ] = self.sizes;
         Sizes {
             limbs: self.limbs,
             blocks,
@@ -94,6 +106,8 @@ impl Proved {
             floating,
             base,
             load,
+            bodies,
+            table,
         }
     }
 }
@@ -119,7 +133,16 @@ pub(crate) fn key(source: &str, name: &str, plan: Option<&str>, load: &Load) -> 
 /// One plan serves all functions and scalars that are searched for in the same way.
 pub(crate) fn plan_key(robot: &str, load: &Load) -> String {
     let mut search = load.asked.clone();
-    for option in ["outputs", "scalar", "parameters", "scene", "name"] {
+    let of_functions = [
+        "outputs",
+        "scalar",
+        "parameters",
+        "bodies",
+        "keep_zeros",
+        "scene",
+        "name",
+    ];
+    for option in of_functions {
         // All of them are options.
         let _ = search.set(option, "");
     }

@@ -203,7 +203,12 @@ impl<T: Float> Reference<T> {
         let position = Argument::Position;
         let q = self.positions(self.values(position, vector(position))?);
         let given = Argument::ALL.into_iter().map(|argument| match argument {
-            Argument::Gravity | Argument::Load | Argument::Payload => Ok(Vec::new()),
+            Argument::Gravity
+            | Argument::Load
+            | Argument::Bodies
+            | Argument::Armature
+            | Argument::Viscous
+            | Argument::Payload => Ok(Vec::new()),
             _ if quantity.arguments().contains(&argument) => {
                 self.values(argument, vector(argument)).map(<[T]>::to_vec)
             }

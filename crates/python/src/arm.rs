@@ -137,6 +137,18 @@ impl Arm {
         self.0.parameters().map_err(|error| raised(&error))
     }
 
+    /// Returns what the robot has in the place of the arguments of `load`, by their names.
+    #[getter]
+    fn loading(&self) -> PyResult<Vec<(&'static str, Vec<f64>)>> {
+        self.0.loading().map_err(|error| raised(&error))
+    }
+
+    /// Returns the links whose bodies are among them.
+    #[getter]
+    fn body_links(&self) -> PyResult<Vec<usize>> {
+        self.0.body_links().map_err(|error| raised(&error))
+    }
+
     /// Returns the base parameters, by the combinations that they are.
     #[getter]
     fn base_parameters(&self, py: Python<'_>) -> PyResult<Vec<(String, f64)>> {

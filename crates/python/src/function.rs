@@ -22,7 +22,11 @@ use crate::xla;
 /// Arguments, by place or name, are those of ``arguments``: ``q``, ``qd``, ``qdd``, ``tau``
 /// (positions, velocities, accelerations, torques: rad or m, a second, N·m or N), ``v`` and
 /// ``a`` of a controller, ``g`` (3,) in m/s², ``load``, a :class:`dalembert.Load`, which
-/// ``arm.load(payload)`` returns.
+/// ``arm.load`` returns of what it takes: ``payload``, ``bodies``, ``armature`` and ``viscous``.
+///
+/// ``bodies`` (k, 10) has of each link in ``arm.body_links`` the same ten numbers as a payload, in
+/// the frame of the link in the file, that of ``link_poses``; ``armature`` and ``viscous`` have an
+/// entry a row of the robot's table.
 ///
 /// ``payload`` (10,) is mass, com x y z, inertia xx yy zz xy yz xz, in kg, m and kg·m²: the
 /// centre of mass in the last link's frame, the inertia about the centre of mass in the axes of
@@ -161,9 +165,9 @@ impl Function {
         threads: usize,
         kwargs: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let given = self.given(args, kwargs)?;
+        let mut given = self.given(args, kwargs)?;
         if self.is_load() {
-            given.iter().try_for_each(payload::check)?;
+            self.check_bodies(&mut given)?;
         }
         if threads == 0 {
             let name = self.__name__();
@@ -185,6 +189,22 @@ impl Function {
 }
 
 impl Function {
+    /// Refuses bodies that no body is, and puts them one behind the other.
+    fn check_bodies(&self, given: &mut [Bound<'_, PyAny>]) -> PyResult<()> {
+        let signature = self.compiled().next().map(|own| own.native().signature());
+        let arguments = signature.iter().flat_map(|own| &own.arguments);
+        for (value, (argument, length)) in given.iter_mut().zip(arguments) {
+            let name = argument.name();
+            if name == "bodies" {
+                *value = payload::flat(value, *length)?;
+            }
+            if name == "bodies" || name == "payload" {
+                payload::check(name, value)?;
+            }
+        }
+        Ok(())
+    }
+
     fn given<'py>(
         &self,
         args: &Bound<'py, PyTuple>,
@@ -223,7 +243,7 @@ impl Function {
             let Some(numbers) = load.map(|own| own.get().numbers.bind(own.py()).clone()) else {
                 let kind = value.get_type();
                 return wrong(format!(
-                    "`load` is {kind}, expected what `arm.load(payload)` returns"
+                    "`load` is {kind}, expected what `arm.load` returns"
                 ));
             };
             *value = numbers;

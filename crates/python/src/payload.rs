@@ -1,4 +1,4 @@
-//! Payloads, which have to be numbers that a body has, and the loads that they are.
+//! Bodies, which have to be numbers that a body has, and the loads that they are.
 
 use dalembert_model::number::Rational;
 use dalembert_model::robot::Inertia;
@@ -7,14 +7,14 @@ use pyo3::prelude::*;
 
 type Numbers = [f64; 10];
 
-/// A load: what ``arm.load(payload)`` returns, and what the arm's other functions take as
-/// ``load``. No payload is passed for one.
+/// A load: what ``arm.load`` returns of a payload or of bodies, and what the arm's other functions take
+/// as ``load``. No bodies are passed for one.
 ///
 /// ``numbers`` has them as an array, which the arm alone can read; ``dalembert.Load(numbers)``
 /// makes them a load again.
 #[pyclass(frozen, module = "dalembert")]
 pub struct Load {
-    /// An array, with leading axes where there are many payloads.
+    /// An array, with leading axes where there are many of them.
     #[pyo3(get)]
     pub(crate) numbers: Py<PyAny>,
 }
@@ -36,37 +36,57 @@ impl Load {
     }
 }
 
-/// Refuses payloads that no body is. What has not ten numbers a payload is left to the call.
-pub(crate) fn check(payloads: &Bound<'_, PyAny>) -> PyResult<()> {
-    let numpy = payloads.py().import("numpy")?;
-    let Ok(array) = numpy.call_method1("asarray", (payloads,)) else {
+/// Refuses bodies of the argument of a name that no body is. What has not ten numbers a body is left to
+/// the call.
+pub(crate) fn check(name: &str, bodies: &Bound<'_, PyAny>) -> PyResult<()> {
+    let numpy = bodies.py().import("numpy")?;
+    let Ok(array) = numpy.call_method1("asarray", (bodies,)) else {
         return Ok(());
     };
     let shape: Vec<usize> = array.getattr("shape")?.extract()?;
-    if shape.last() != Some(&10) {
+    let each = shape.last().map_or(0, |last| last / 10);
+    if shape.last() != Some(&(10 * each)) || each == 0 {
         return Ok(());
     }
     let rows = array.call_method1("reshape", ((-1, 10),))?;
     let Ok(rows) = rows.call_method0("tolist")?.extract::<Vec<Numbers>>() else {
         return Ok(());
     };
-    let mut states = rows.iter().enumerate();
-    let Some((state, why)) = states.find_map(|(state, own)| Some((state, defect(own)?))) else {
+    let mut all = rows.iter().enumerate();
+    let Some((place, why)) = all.find_map(|(place, own)| Some((place, defect(own)?))) else {
         return Ok(());
     };
-    let which = match rows.len() > 1 {
-        true => format!(" at state {state}"),
-        false => String::new(),
-    };
-    let message = format!("load: argument `payload`{which}: {why}");
+    let mut which = String::new();
+    if rows.len() > each {
+        which += &format!(" at state {}", place / each);
+    }
+    if each > 1 {
+        which += &format!(", body {}", place % each);
+    }
+    let message = format!("load: argument `{name}`{which}: {why}");
     Err(PyValueError::new_err(message))
 }
 
+/// Puts the ten numbers of each body, on an axis of their own, one behind the other.
+pub(crate) fn flat<'py>(bodies: &Bound<'py, PyAny>, length: usize) -> PyResult<Bound<'py, PyAny>> {
+    let numpy = bodies.py().import("numpy")?;
+    let Ok(array) = numpy.call_method1("asarray", (bodies,)) else {
+        return Ok(bodies.clone());
+    };
+    let mut shape: Vec<usize> = array.getattr("shape")?.extract()?;
+    if !shape.ends_with(&[length / 10, 10]) {
+        return Ok(bodies.clone());
+    }
+    shape.truncate(shape.len() - 2);
+    shape.push(length);
+    array.call_method1("reshape", (shape,))
+}
+
 /// Moments may be rounded to six digits, as in generated code.
-fn defect(payload: &Numbers) -> Option<String> {
-    let [mass, _, _, _, moments @ ..] = payload;
-    if !payload.iter().all(|x| x.is_finite()) {
-        return Some(format!("{payload:?} has to be finite numbers"));
+fn defect(body: &Numbers) -> Option<String> {
+    let [mass, _, _, _, moments @ ..] = body;
+    if !body.iter().all(|x| x.is_finite()) {
+        return Some(format!("{body:?} has to be finite numbers"));
     }
     if *mass < 0.0 {
         return Some(format!("the mass is {mass}, expected kg, zero or more"));

@@ -233,7 +233,7 @@ def test_a_payload_is_a_body_and_no_load():
     load = arm.load(payload)
     assert isinstance(load, dalembert.Load) and load.numbers.ndim == 1
     for passed in (payload, load.numbers, load.numbers.tolist()):
-        with pytest.raises(TypeError, match=r"expected what `arm.load\(payload\)` returns"):
+        with pytest.raises(TypeError, match=r"expected what `arm.load` returns"):
             arm.gravity(q, passed)
         with pytest.raises(TypeError, match="`load` is"):
             arm.gravity(q, load=passed)
@@ -256,6 +256,68 @@ def test_a_payload_is_a_body_and_no_load():
             arm.load([payload, wrong])
     # A plate whose moments are rounded.
     arm.load([1, 0, 0, 0, 0.1, 0.2, 0.3000001, 0, 0, 0])
+
+
+def test_bodies_are_arguments():
+    """Against robot files with other numbers, and against a batch of one load a state."""
+    pendulum = {
+        "name": "pendulum",
+        "convention": "standard",
+        "gravity": [0, -9.81, 0],
+        "joint": [
+            {"kind": "revolute", "a": 0.5, "mass": 2, "com": [-0.25, 0, 0], "inertia": [0.01, 0.05, 0.05, 0, 0, 0]},
+            {"kind": "revolute", "a": 0.4, "mass": 1, "com": [-0.2, 0.1, 0], "inertia": [0.01, 0.03, 0.03, 0, 0, 0]},
+        ],
+    }
+    outputs = ["inverse_dynamics", "inertia"]
+    arm = dalembert.load(pendulum, outputs=outputs, parameters=["bodies", "armature"])
+    assert arm.body_links == (1, 2) and arm.bodies.shape == (2, 10)
+    assert_array_equal(arm.bodies[1], [1, -0.2, 0.1, 0, 0.01, 0.03, 0.03, 0, 0, 0])
+    state = ([0.3, 0.2], [0.5, -0.4], [1.0, 2.0])
+    own = dalembert.load(pendulum, outputs=outputs)
+    assert_allclose(arm.with_bodies().inverse_dynamics(*state), own.inverse_dynamics(*state), rtol=1e-13)
+
+    def changed(masses, armature):
+        joints = []
+        for joint, mass, rotor in zip(pendulum["joint"], masses, armature):
+            inertia = [x * mass / joint["mass"] for x in joint["inertia"]]
+            joints.append({**joint, "mass": mass, "inertia": inertia, "armature": rotor})
+        return dalembert.load({**pendulum, "joint": joints}, outputs=outputs)
+
+    masses, armature = [3.0, 0.25], [0.5, 0.125]
+    heavy = arm.with_bodies(masses, armature=armature)
+    expected = changed(masses, armature)
+    for name in outputs:
+        arguments = state if name == "inverse_dynamics" else state[:1]
+        assert_allclose(getattr(heavy, name)(*arguments), getattr(expected, name)(*arguments), rtol=1e-13)
+    assert heavy.inverse_dynamics.arguments == ["q", "qd", "qdd"]
+    with pytest.raises(AttributeError):
+        heavy.load
+    assert arm.inverse_dynamics.arguments == ["q", "qd", "qdd", "load"]
+    for again in (pickle.loads(pickle.dumps(heavy)), copy.copy(heavy)):
+        assert_array_equal(again.inertia([0.1, 0.2]), heavy.inertia([0.1, 0.2]))
+    # Randomised worlds: a robot a state.
+    many = np.array([[2.0, 1.0], [3.0, 0.25], [1.0, 1.5]])
+    worlds = arm.with_bodies(many)
+    found = worlds.inverse_dynamics(*state)
+    assert found.shape == (3, 2)
+    for mass, torque in zip(many, found):
+        assert_array_equal(torque, arm.with_bodies(mass).inverse_dynamics(*state))
+    out = np.empty((3, 2))
+    assert_array_equal(worlds.inverse_dynamics(*state, out=out), found)
+    with pytest.raises(ValueError, match="masses: expected \\(2,\\), found \\(3,\\)"):
+        arm.with_bodies([1, 2, 3])
+    with pytest.raises(ValueError, match="at state 1, body 0: the mass is -1"):
+        arm.with_bodies([[1, 2], [-1, 2]])
+    with pytest.raises(ValueError, match="viscous are constants"):
+        arm.with_bodies(viscous=[1, 2])
+    with pytest.raises(ValueError, match="bodies are constants"):
+        own.with_bodies()
+    with pytest.raises(TypeError, match="expected what `arm.load` returns"):
+        arm.inertia([0.1, 0.2], arm.bodies)
+    one = dalembert.load(pendulum, outputs=outputs, parameters="bodies", bodies=[2], keep_zeros=True)
+    assert one.body_links == (2,)
+    assert_allclose(one.with_bodies([0.25]).inertia([0.1, 0.2]), changed([2, 0.25], [0, 0]).inertia([0.1, 0.2]), rtol=1e-13)
 
 
 def test_links_that_branch():

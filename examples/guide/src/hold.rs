@@ -1,6 +1,6 @@
 //! Holds the arm against gravity, with a tool in its hand.
 
-use crate::{Joints, arm, carrying, with_a_kilogram};
+use crate::{Joints, arm, carrying, varied, with_a_kilogram};
 
 /// The stiffness and the damping of [`hold`], N·m/rad and N·m s/rad.
 const STIFFNESS: f64 = 80.0;
@@ -27,6 +27,15 @@ pub fn hold_a_tool(q: &Joints) -> Joints {
     let load = carrying::load(&TOOL);
     let sideways = carrying::Gravity([9.81, 0.0, 0.0]);
     carrying::gravity(q, &sideways, &load)
+}
+
+/// Returns the torques of an arm whose second link is heavier than in the robot file.
+pub fn with_a_heavy_link(q: &Joints, qd: &Joints, qdd: &Joints) -> Option<Joints> {
+    let inertia = [0.012, 0.082, 0.078, 0.0, 0.0, 0.004];
+    let second = varied::Body::new(6.2, [-0.19, 0.0, 0.04], inertia)?;
+    // Places count from zero.
+    let load = varied::load(&varied::BODIES.with(1, second));
+    Some(varied::inverse_dynamics(q, qd, qdd, &load))
 }
 
 /// Returns the mass in the hand that explains the torques measured at poses, in kg, by least squares.

@@ -32,6 +32,14 @@ dalembert::dynamics! {
 }
 
 dalembert::dynamics! {
+    /// The same arm with the bodies of its links as arguments.
+    pub mod varied = "robots/arm.toml";
+    outputs: inverse_dynamics;
+    scalar: f64;
+    parameters: bodies;
+}
+
+dalembert::dynamics! {
     /// The arm while it picks: two torques, within 1% of the actuators' limits.
     pub mod picking = "robots/arm.toml";
     scene: pick;

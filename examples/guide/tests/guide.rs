@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use guide::simulate::{State, step};
-use guide::{Joints, arm, carrying, control, hold, picking};
+use guide::{Joints, arm, carrying, control, hold, picking, varied};
 
 fn texts(folder: &Path, ending: &str) -> Vec<String> {
     let mut found = Vec::new();
@@ -79,6 +79,16 @@ fn a_tool_is_held_on_a_wall() {
     assert!(distance(&empty, &arm::gravity(&Q)) < 1e-12);
     let wall = hold::hold_a_tool(&Q);
     assert!(wall[0].abs() > 1.0 && empty[0].abs() < 1e-12, "{wall:?}");
+}
+
+#[test]
+fn a_heavy_link_needs_more() {
+    let (q, qd, qdd) = ([0.3, 0.2, -0.4], [0.5, -0.3, 0.2], [1.0, 2.0, 0.5]);
+    let own = arm::inverse_dynamics(&q, &qd, &qdd);
+    let same = varied::inverse_dynamics(&q, &qd, &qdd, &varied::load(&varied::BODIES));
+    assert!(distance(&own, &same) < 1e-12);
+    let heavy = hold::with_a_heavy_link(&q, &qd, &qdd).unwrap();
+    assert!(heavy[1] > 1.1 * own[1] && (heavy[2] - own[2]).abs() < 1e-12);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// The options by their names, in the order in which they are written, and the word of each that
 /// means as much as leaving it out.
-pub const OPTIONS: [(&str, &str); 14] = [
+pub const OPTIONS: [(&str, &str); 16] = [
     ("outputs", ""),
     ("scalar", ""),
     ("formulation", "auto"),
@@ -17,6 +17,8 @@ pub const OPTIONS: [(&str, &str); 14] = [
     ("sincos_error", ""),
     ("batch", "off"),
     ("parameters", ""),
+    ("bodies", ""),
+    ("keep_zeros", "off"),
     ("scene", ""),
     ("plan", "on"),
     ("name", ""),

@@ -372,7 +372,7 @@ impl Arm {
     }
 
     /// Adds a body to a link, in a frame of that; the link's own is then both as one.
-    fn carry(&mut self, row: usize, (body, centre): (Body, Pose), frame: &Pose) {
+    pub(super) fn carry(&mut self, row: usize, (body, centre): (Body, Pose), frame: &Pose) {
         if let Some(link) = self.joints.get_mut(row) {
             let at = link.link.then(frame).then(&centre);
             link.body = link.body.plus(&body.moved(&at));
@@ -389,22 +389,6 @@ impl Arm {
         let base = base.ok_or("a payload on a base that does not move")?;
         *base = base.plus(&body.moved(&centre));
         Ok(())
-    }
-
-    /// In the frame of the robot file: mass, centre of mass, and the tensor about it.
-    pub(super) fn carrying(
-        mut self,
-        setting: &Setting,
-        point: &Point,
-        own: &[Number],
-    ) -> Result<Arm, String> {
-        let own: [Number; 10] = own.try_into().map_err(|_| "a payload is ten numbers")?;
-        let mut body = Body::new(own);
-        let centre = Pose::shift(std::mem::take(&mut body.first));
-        let frame = point.placement(setting.file.payload_frame.as_ref())?;
-        let row = setting.file.holder(None)?.unwrap_or_default();
-        self.carry(row, (body, centre), &frame);
-        Ok(self)
     }
 
     /// Returns the parameters that base parameters add up: ten a link, about the origin and in the axes

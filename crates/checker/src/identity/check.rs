@@ -120,7 +120,7 @@ fn at_point(own: Statement, setting: &Setting, point: &Point, mut arm: Arm) -> R
     if takes("load") {
         let computed = own.load.and_then(|load| load.residues(point, &state));
         state.given[place("load")] = computed.ok_or("nothing computes its `load`")?;
-        arm = arm.carrying(setting, point, &state.given[place("payload")])?;
+        arm = arm.given(setting, point, &state)?;
     }
     let found = own.program.residues(point, &state);
     let mut found = found.ok_or("the program reads what is not there")?;

@@ -15,12 +15,14 @@
 //! - [`aligned`]: rows that stand for placed joints; [`arm`]: axes and masses in base axes
 //! - [`table`]: the 42 functions; [`state`]: what they are given; [`outputs`]: every result by
 //!   the equations of Newton and Euler, with `contact`, `screw` and `matrix`
+//! - [`given`]: what a function that takes a `load` is given
 
 pub mod aligned;
 pub mod arm;
 mod check;
 mod contact;
 pub mod exact;
+pub mod given;
 mod matrix;
 pub mod number;
 pub mod outputs;

@@ -36,6 +36,12 @@ pub struct Setting<'f> {
     pub(super) floats: bool,
     /// The coordinates that results are over, from zero.
     pub rows: Vec<usize>,
+    /// The places of the arguments of `load`.
+    pub loading: Vec<usize>,
+    /// The links whose bodies are among them, from one; a base that floats is zero.
+    pub bodies: Vec<usize>,
+    /// The numbers of these that stay zero; empty if any may be another.
+    pub zeros: Vec<bool>,
 }
 
 /// The line along which a joint follows another, which moves by itself; or itself, once.
@@ -102,6 +108,9 @@ impl File {
             still: [scene.velocity.is_some(), scene.acceleration.is_some()],
             floats,
             rows: rows.collect(),
+            loading: Vec::new(),
+            bodies: Vec::new(),
+            zeros: Vec::new(),
         })
     }
 
@@ -190,6 +199,8 @@ impl Setting<'_> {
             joints: self.joints(),
             coordinates: self.base() + self.joints(),
             bodies: self.links() + usize::from(self.floats),
+            given: self.bodies.len(),
+            table: self.links(),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use super::given::LOADING;
 use super::setting::Setting;
 use crate::program::{ARGUMENTS, argument};
 
@@ -100,6 +101,10 @@ pub struct Sizes {
     pub coordinates: usize,
     /// The links, and a base that floats.
     pub bodies: usize,
+    /// The links whose bodies are arguments.
+    pub given: usize,
+    /// The rows of the table.
+    pub table: usize,
 }
 
 /// Returns the length of an axis.
@@ -109,6 +114,8 @@ pub fn length(axis: char, sizes: Sizes) -> usize {
         'n' => sizes.coordinates,
         'l' => 10 * sizes.bodies,
         'p' => 10,
+        'k' => 10 * sizes.given,
+        't' => sizes.table,
         digit => digit.to_digit(10).unwrap_or(0) as usize,
     }
 }
@@ -266,9 +273,9 @@ impl Function {
         if !arguments.is_sorted_by(|one, next| one < next) {
             return Err("its arguments are in another order".into());
         }
-        // A load is of a payload; other arguments are those of the table, or in place of numbers.
+        // A load is of bodies and drives; other arguments are those of the table, or in place of numbers.
         let mut taken = match results {
-            [] => vec![argument("payload")],
+            [] => LOADING.map(argument).to_vec(),
             _ => vec![argument("g"), argument("load")],
         };
         let mut of = |result: &String| {

@@ -68,7 +68,7 @@ pub struct Argument<'h> {
 
 impl Argument<'_> {
     fn is_struct(&self) -> bool {
-        ["load", "payload"].contains(&self.name)
+        ["load", "payload", "bodies"].contains(&self.name)
     }
 }
 

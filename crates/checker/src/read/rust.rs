@@ -12,7 +12,12 @@
 use super::reader::{Read, Reader, commas, joint_of};
 use super::{Function, Source};
 
-const TYPES: [(&str, &str); 3] = [("g", "Gravity"), ("load", "Load"), ("payload", "Payload")];
+const TYPES: [(&str, &str); 4] = [
+    ("g", "Gravity"),
+    ("load", "Load"),
+    ("payload", "Payload"),
+    ("bodies", "Bodies"),
+];
 
 impl<'r> Reader<'r> {
     pub(super) fn rust(&mut self, has_columns: bool) -> Read<()> {

@@ -1,7 +1,9 @@
-//! What a payload adds to regrouped parameters.
+//! What bodies, rotors and friction that are arguments make of regrouped parameters.
 //!
-//! A body that is fixed to the last link changes the base parameters that the
-//! link's own mass, first moments and tensor are part of; these are linear in them.
+//! Regrouped parameters are linear in the mass, the first moments and the tensor of each link about the
+//! origin of its row's frame, in armatures and in viscous friction. So a *load*, the numbers of a
+//! regrouped chain that depend on arguments, follows from these by a matrix. A payload is one body more
+//! on the last link.
 
 use alloc::vec::Vec;
 
@@ -12,17 +14,17 @@ use super::regressor::LinkParameter;
 use crate::robot::Inertia;
 use crate::scalar::Scalar;
 
-/// The numbers of a payload.
-pub const PAYLOAD: usize = 10;
+/// The numbers of a body: its mass, three of the centre of mass, six of the tensor about it.
+pub const BODY: usize = 10;
 
 /// One number of a load: what the arm has of that regrouped parameter, and what a unit of each of
-/// the payload's parameters adds, these about the origin and in the axes of the last link's frame.
+/// the parameters that are arguments adds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadRow<S> {
-    /// Without a payload.
+    /// Where all of them are zero.
     pub own: S,
-    /// The parameters that change it, each with its factor.
-    pub of: Vec<(LinkParameter, S)>,
+    /// The places of parameters that change it among [`Loading::parameters`], each with its factor.
+    pub of: Vec<(usize, S)>,
 }
 
 impl<S> LoadRow<S> {
@@ -31,39 +33,50 @@ impl<S> LoadRow<S> {
         let of = self.of.iter();
         LoadRow {
             own: f(&self.own),
-            of: of.map(|(parameter, x)| (*parameter, f(x))).collect(),
+            of: of.map(|(place, x)| (*place, f(x))).collect(),
         }
     }
 }
 
-/// A payload, and the load that it is to an arm.
+/// Parameters that are arguments, and the load that they are to an arm.
 #[derive(Clone, Debug)]
 pub struct Loading<S> {
-    /// The frame that the payload is given in, in the last link's.
-    pub frame: Option<Columns<S>>,
-    /// [`PAYLOAD`] numbers: the mass, three of the centre of mass, six of the tensor about it.
-    pub payload: Vec<S>,
+    /// Those of each body in the order of [`LinkParameter::ALL`], about the origin and in the axes of its
+    /// row's frame; then armatures and viscous friction.
+    pub parameters: Vec<S>,
     /// A number of the load each.
     pub rows: Vec<LoadRow<S>>,
 }
 
 impl<S: Scalar> Loading<S> {
+    /// Makes it of links that bodies are on, and of the parameters of drives.
+    pub fn new(bodies: &[Link<S>], drives: Vec<S>, rows: Vec<LoadRow<S>>) -> Loading<S> {
+        let of_body = |link: &Link<S>| {
+            let body = Body::of(link);
+            LinkParameter::ALL.map(|parameter| parameter.of_body(&body))
+        };
+        let parameters = bodies.iter().flat_map(of_body).chain(drives);
+        Loading {
+            parameters: parameters.collect(),
+            rows,
+        }
+    }
+
     /// Returns the numbers of the load.
     pub fn load(&self) -> Vec<S> {
-        let body = Body::of(&carried(&self.payload, self.frame.as_ref()));
         let row = |row: &LoadRow<S>| {
             let terms = row.of.iter();
-            let terms = terms.map(|(parameter, factor)| times(factor, &parameter.of_body(&body)));
+            let terms = terms.map(|(place, factor)| times(factor, &self.parameters[*place]));
             terms.fold(row.own.clone(), |sum, term| plus(&sum, &term))
         };
         self.rows.iter().map(row).collect()
     }
 }
 
-/// Returns a payload as a link behind the last one that does not move: its frame is the last
-/// link's, in which the payload's own frame is placed. Entries that are missing are zero.
-pub fn carried<S: Scalar>(payload: &[S], frame: Option<&Columns<S>>) -> Link<S> {
-    let entry = |index: usize| payload.get(index).cloned().unwrap_or_else(S::zero);
+/// Returns a body of [`BODY`] numbers as a link that does not move: its frame is that of a row, in
+/// which the frame that the numbers are given in is placed. Entries that are missing are zero.
+pub fn carried<S: Scalar>(numbers: &[S], frame: Option<&Columns<S>>) -> Link<S> {
+    let entry = |index: usize| numbers.get(index).cloned().unwrap_or_else(S::zero);
     let com = [1, 2, 3].map(entry);
     let inertia = Inertia::of([4, 5, 6, 7, 8, 9].map(entry));
     let (com, inertia) = match frame {

@@ -168,6 +168,19 @@ impl Exact {
         (!divisor.is_zero()).then(|| self.scale(&divisor.recip()))
     }
 
+    /// Returns its monomials, whose sum it is.
+    pub fn monomials(&self) -> Vec<Exact> {
+        match &self.0 {
+            Form::Rational(_) => alloc::vec![self.clone()],
+            Form::Polynomial(terms) => {
+                let single = |(monomial, x): (&Monomial, &Rational)| {
+                    Exact::from_terms(Terms::from([(monomial.clone(), x.clone())]))
+                };
+                terms.iter().map(single).collect()
+            }
+        }
+    }
+
     /// Returns the number of monomials: 1 for a rational.
     pub fn terms(&self) -> usize {
         match &self.0 {

@@ -2,7 +2,7 @@
 //! for that.
 
 use super::Sizes;
-use crate::equations::load::PAYLOAD;
+use crate::equations::load::BODY;
 use crate::robot::Limit;
 
 /// An argument of a generated function: an array, of most with an entry a joint or, of rates and
@@ -23,7 +23,7 @@ pub enum Argument {
     ReferenceAcceleration,
     /// The acceleration of gravity, where it is an argument.
     Gravity,
-    /// The regrouped parameters that a payload changes.
+    /// The regrouped parameters that depend on arguments.
     Load,
     /// A payload's mass, centre of mass and inertia.
     Payload,
@@ -33,11 +33,17 @@ pub enum Argument {
     Damping,
     /// λ: by how much each torque, or acceleration, counts in what is differentiated twice.
     Multiplier,
+    /// The mass, the centre of mass and the inertia of links, ten numbers each.
+    Bodies,
+    /// The rotors' inertias, one a row.
+    Armature,
+    /// The coefficients of viscous friction, one a row.
+    Viscous,
 }
 
 impl Argument {
     /// The number of arguments.
-    pub const COUNT: usize = 12;
+    pub const COUNT: usize = 15;
 
     /// Every argument, in the order of signatures; [`Argument::STATE`] and [`Argument::JOINTS`] are its
     /// beginning.
@@ -54,6 +60,9 @@ impl Argument {
         Argument::Wrench,
         Argument::Damping,
         Argument::Multiplier,
+        Argument::Bodies,
+        Argument::Armature,
+        Argument::Viscous,
     ];
 
     /// Those with an entry a joint, which a motion is made of: the first six.
@@ -83,6 +92,9 @@ impl Argument {
             Argument::ReferenceAcceleration => ["a", "a"],
             Argument::Gravity => ["g", "g"],
             Argument::Load => ["load", "load"],
+            Argument::Bodies => ["bodies", "bodies"],
+            Argument::Armature => ["armature", "armature"],
+            Argument::Viscous => ["viscous", "viscous"],
             Argument::Payload => ["payload", "payload"],
             Argument::Wrench => ["wrench", "w"],
             Argument::Damping => ["damping", "λ²"],
@@ -93,6 +105,11 @@ impl Argument {
     /// Returns the argument of a name in generated code.
     pub fn from_name(name: &str) -> Option<Argument> {
         Argument::ALL.into_iter().find(|a| a.name() == name)
+    }
+
+    /// True if it has a type of its own in generated code, so that it is not confused with another.
+    pub fn has_type(self) -> bool {
+        matches!(self, Argument::Load | Argument::Payload | Argument::Bodies)
     }
 
     /// Returns its letter in the equations.
@@ -123,7 +140,10 @@ impl Argument {
             Argument::Gravity => {
                 "Acceleration of gravity in base axes, m/s²; where the base moves, less that of the base."
             }
-            Argument::Load => "What `load` returns of what the hand carries.",
+            Argument::Load => "What `load` returns.",
+            Argument::Bodies => "Mass, centre of mass and inertia of links.",
+            Argument::Armature => "Inertias of rotors, kg·m² or kg.",
+            Argument::Viscous => "Viscous friction, N·m·s/rad or N·s/m.",
             Argument::Payload => "Mass, centre of mass and inertia of what the hand carries.",
             Argument::Wrench => {
                 "Force in N over moment in N·m that act on the frame, in its axes and about its point."
@@ -142,7 +162,9 @@ impl Argument {
         match self {
             Argument::Gravity => 3,
             Argument::Load => sizes.load,
-            Argument::Payload => PAYLOAD,
+            Argument::Bodies => BODY * sizes.bodies,
+            Argument::Armature | Argument::Viscous => sizes.table,
+            Argument::Payload => BODY,
             Argument::Wrench => 6,
             Argument::Damping => 1,
             Argument::Position => sizes.joints,
@@ -195,7 +217,8 @@ mod tests {
         let of_joints = |own: &Argument| own.length(two) != own.length(three);
         let motion = Argument::JOINTS.into_iter();
         let all = Argument::ALL.into_iter().filter(of_joints);
-        assert!(all.eq(motion.chain([Argument::Multiplier])));
+        let of_drives = [Argument::Multiplier, Argument::Armature, Argument::Viscous];
+        assert!(all.eq(motion.chain(of_drives)));
         assert_eq!(Argument::from_name("t"), None);
     }
 }

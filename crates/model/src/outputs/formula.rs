@@ -70,7 +70,7 @@ pub struct Motion<S> {
     pub per_speed: Vec<Option<S>>,
     /// For each joint, true if it moves by itself; one that does not is held or follows another.
     pub moves: Vec<bool>,
-    /// The payload at the hand, where that is an argument.
+    /// The parameters that are arguments, where some are.
     pub loading: Option<Loading<S>>,
 }
 

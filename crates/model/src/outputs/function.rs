@@ -171,8 +171,8 @@ impl Function {
     /// Returns whether it depends on a parameter that can be an argument.
     pub fn depends_on(self, parameter: RuntimeParameter) -> bool {
         match parameter {
-            RuntimeParameter::Payload => self.payload_dependence() == PayloadDependence::Torque,
             RuntimeParameter::Gravity => self.quantities().iter().any(|q| q.facts().gravity),
+            _ => self.payload_dependence() == PayloadDependence::Torque,
         }
     }
 

@@ -1,4 +1,5 @@
-//! Parameters that are arguments where somebody asks for that: gravity, and what the hand carries.
+//! Parameters that are arguments where somebody asks for that: gravity, what the hand carries, and the
+//! links' bodies and drives.
 
 use alloc::vec::Vec;
 
@@ -11,7 +12,13 @@ use crate::scalar::Divide;
 /// A parameter of the arm that generated functions can take as an argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum RuntimeParameter {
-    /// A body that is fixed to the last link: its regrouped parameters are the argument `load`.
+    /// The bodies of links: their regrouped parameters are the argument `load`.
+    Bodies,
+    /// The rotors' inertias: in `load` as well.
+    Armature,
+    /// The coefficients of viscous friction: in `load` as well.
+    Viscous,
+    /// A body that is fixed to the last link: in `load` as well.
     Payload,
     /// The acceleration of gravity in base axes: the argument `g`.
     Gravity,
@@ -19,11 +26,23 @@ pub enum RuntimeParameter {
 
 impl RuntimeParameter {
     /// All of them.
-    pub const ALL: [RuntimeParameter; 2] = [RuntimeParameter::Payload, RuntimeParameter::Gravity];
+    pub const ALL: [RuntimeParameter; 5] = [
+        RuntimeParameter::Bodies,
+        RuntimeParameter::Armature,
+        RuntimeParameter::Viscous,
+        RuntimeParameter::Payload,
+        RuntimeParameter::Gravity,
+    ];
+
+    /// Those that functions take as the argument `load`.
+    pub const LOADING: [RuntimeParameter; 4] = *RuntimeParameter::ALL.first_chunk().unwrap();
 
     /// Returns its name in the macro and on the command line.
     pub fn name(self) -> &'static str {
         match self {
+            RuntimeParameter::Bodies => "bodies",
+            RuntimeParameter::Armature => "armature",
+            RuntimeParameter::Viscous => "viscous",
             RuntimeParameter::Payload => "payload",
             RuntimeParameter::Gravity => "gravity",
         }
@@ -32,9 +51,20 @@ impl RuntimeParameter {
     /// Returns the argument by which functions take it.
     pub fn argument(self) -> Argument {
         match self {
-            RuntimeParameter::Payload => Argument::Load,
             RuntimeParameter::Gravity => Argument::Gravity,
+            _ => Argument::Load,
         }
+    }
+
+    /// Returns the argument of the function `load` that gives it; `None` of gravity.
+    pub fn given(self) -> Option<Argument> {
+        Some(match self {
+            RuntimeParameter::Bodies => Argument::Bodies,
+            RuntimeParameter::Armature => Argument::Armature,
+            RuntimeParameter::Viscous => Argument::Viscous,
+            RuntimeParameter::Payload => Argument::Payload,
+            RuntimeParameter::Gravity => return None,
+        })
     }
 }
 
@@ -49,15 +79,20 @@ pub enum PayloadDependence {
     Full,
 }
 
-/// The load that a payload is: regrouped parameters that stand where constants stood elsewhere.
+/// The load that bodies and drives are: regrouped parameters that stand where constants stood elsewhere.
 pub(super) struct Load;
 
 impl Formula for Load {
     const FACTS: Facts = Facts {
         field: "load",
         letter: "load",
-        summary: "The regrouped parameters that a payload changes.",
-        arguments: &[Argument::Payload],
+        summary: "The regrouped parameters that depend on arguments.",
+        arguments: &[
+            Argument::Payload,
+            Argument::Bodies,
+            Argument::Armature,
+            Argument::Viscous,
+        ],
         shape: Shape(&[Axis::Load]),
         ..Facts::PLAIN
     };

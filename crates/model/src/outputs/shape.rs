@@ -22,7 +22,7 @@ pub enum Axis {
     Limbs,
     /// An entry a base parameter: how many there are, the arm says, and the scene.
     BaseParameters,
-    /// An entry a regrouped parameter that a payload changes.
+    /// An entry a regrouped parameter that depends on arguments.
     Load,
 }
 
@@ -43,8 +43,12 @@ pub struct Sizes {
     pub blocks: usize,
     /// The base parameters; zero where nothing is over these.
     pub base: usize,
-    /// The regrouped parameters that a payload changes; zero where there is none at run time.
+    /// The regrouped parameters that depend on arguments; zero where none do.
     pub load: usize,
+    /// The links whose bodies are arguments.
+    pub bodies: usize,
+    /// The rows of the table: joints that follow others have rows too.
+    pub table: usize,
 }
 
 impl Sizes {
@@ -60,6 +64,8 @@ impl Sizes {
             blocks: 0,
             base: 0,
             load: 0,
+            bodies: 0,
+            table: joints,
         }
     }
 
@@ -69,7 +75,10 @@ impl Sizes {
             Some(_) => robot.limb_starts(),
             None => 0,
         };
-        Sizes::floating(robot.base_coordinates(), robot.joints.len(), limbs)
+        Sizes {
+            table: robot.rows().len(),
+            ..Sizes::floating(robot.base_coordinates(), robot.joints.len(), limbs)
+        }
     }
 
     /// Returns the sizes of results over all coordinates of a robot with limbs that begin with these

@@ -54,6 +54,7 @@ class Arm:
     def __init__(self, native: _dalembert.Arm, name: str, options: dict[str, Any]) -> None:
         self._native = native
         self._loaded = (name, options)
+        self._bound: tuple[Arm, _dalembert.Load] | None = None
         raises = options["nan"] == "raise"
         self._functions: dict[str, _dalembert.Function] = {}
         for name in dict.fromkeys(about["name"] for about in native.functions):
@@ -80,6 +81,8 @@ class Arm:
 
     def __reduce__(self) -> Any:
         """Pickle and copy by source, programs and options: they are proved and compiled again."""
+        if self._bound is not None:
+            return _with_load, self._bound
         name, options = self._loaded
         return _load, (name, self._native.source, self._native.plan, options)
 
@@ -189,6 +192,112 @@ class Arm:
         """
         return dict(self._native.base_parameters)
 
+    @functools.cached_property
+    def _loading(self) -> dict[str, NDArray[np.float64]]:
+        import numpy as np
+
+        arrays = {name: np.array(values, dtype=float) for name, values in self._native.loading}
+        if "bodies" in arrays:
+            arrays["bodies"] = arrays["bodies"].reshape(-1, 10)
+        return arrays
+
+    @property
+    def body_links(self) -> tuple[int, ...]:
+        """The links whose bodies ``load`` takes, counted from one; 0 is a base that floats."""
+        return tuple(self._native.body_links)
+
+    @property
+    def bodies(self) -> NDArray[np.float64]:
+        """The robot's bodies, (k, 10), as ``load`` takes them: mass, com x y z, inertia xx yy zz xy yz
+        xz of each of :attr:`body_links`, in the frame of the link in the file.
+
+        The arm has to be loaded with ``parameters="bodies"``.
+        """
+        return self._default("bodies")
+
+    def _default(self, name: str) -> NDArray[np.float64]:
+        if name not in self._loading:
+            raise ValueError(
+                f"{name} are constants of this arm: load it with parameters={name!r} among others"
+            )
+        return self._loading[name].copy()
+
+    def with_bodies(
+        self,
+        masses: ArrayLike | None = None,
+        centres: ArrayLike | None = None,
+        inertias: ArrayLike | None = None,
+        *,
+        bodies: ArrayLike | None = None,
+        armature: ArrayLike | None = None,
+        viscous: ArrayLike | None = None,
+        payload: ArrayLike | None = None,
+    ) -> Arm:
+        """Return this arm with other bodies and drives: nothing is searched for, proved or compiled.
+
+        The arm has to be loaded with ``parameters="bodies"``, and with ``"armature"``, ``"viscous"``
+        or ``"payload"`` for these. What is not given is the robot's; nothing is carried then.
+
+        Parameters
+        ----------
+        masses, centres, inertias
+            Of each of :attr:`body_links`, in kg, m and kg·m²: (k,), (k, 3) and (k, 6), inertias
+            about the centre of mass as xx yy zz xy yz xz. A mass that is given alone scales the
+            inertia, as a body of the same shape has it. With leading axes, (N, k), there are N
+            robots, and functions take N states, or one for all.
+        bodies
+            All ten numbers of each, (k, 10).
+        armature, viscous
+            Rotors' inertias and viscous friction, an entry a row of the robot's table.
+        payload
+            What the hand carries, (10,).
+        """
+        import numpy as np
+
+        numbers = self._default("bodies") if bodies is None else np.array(bodies, dtype=float)
+        count = len(self.body_links)
+        if numbers.shape[-2:] != (count, 10):
+            raise ValueError(f"bodies: expected ({count}, 10), found {numbers.shape}")
+        for name, values, place, width in (
+            ("masses", masses, slice(0, 1), ()),
+            ("centres", centres, slice(1, 4), (3,)),
+            ("inertias", inertias, slice(4, 10), (6,)),
+        ):
+            if values is None:
+                continue
+            given = np.asarray(values, dtype=float)
+            expected = (count, *width)
+            if given.shape[given.ndim - len(expected) :] != expected:
+                raise ValueError(f"{name}: expected {expected}, found {given.shape}")
+            given = given if width else given[..., None]
+            lead = np.broadcast_shapes(numbers.shape[:-2], given.shape[:-2])
+            numbers = np.broadcast_to(numbers, (*lead, count, 10)).copy()
+            if name == "masses" and inertias is None:
+                old = numbers[..., :1]
+                scale = np.divide(given, old, out=np.ones_like(old * given), where=old > 0)
+                numbers[..., 4:] *= scale
+            numbers[..., place] = given
+        taken: dict[str, Any] = {"bodies": numbers}
+        for name, values in (("armature", armature), ("viscous", viscous), ("payload", payload)):
+            if name in self._loading or values is not None:
+                default = np.zeros(10) if name == "payload" else self._default(name)
+                taken[name] = default if values is None else values
+        return self._with_load(self.__dict__["load"](**taken))
+
+    def _with_load(self, load: Any) -> Arm:
+        arm = object.__new__(type(self))
+        arm.__dict__.update(self.__dict__)
+        functions: dict[str, Any] = {
+            name: _Loaded(function, load) if "load" in function.arguments else function
+            for name, function in self._functions.items()
+            if name != "load"
+        }
+        arm.__dict__.pop("load", None)
+        arm._functions = functions
+        arm._bound = (self, load)
+        arm.__dict__.update(functions)
+        return arm
+
     @property
     def counts(self) -> dict[str, dict[str, int]]:
         """The operations of each function."""
@@ -286,6 +395,48 @@ class Arm:
             for tag, cells in rows
         )
         return f"<div>{self.svg()}<table>{table}</table></div>"
+
+
+class _Loaded:
+    """A function whose load is given, of the same name."""
+
+    def __init__(self, function: _dalembert.Function, load: _dalembert.Load) -> None:
+        self._function, self._load = function, load
+        self.__name__ = function.__name__
+
+    @property
+    def arguments(self) -> list[str]:
+        """The names of the arguments, in order."""
+        return [name for name in self._function.arguments if name != "load"]
+
+    @property
+    def results(self) -> list[tuple[str, list[int]]]:
+        """The results by name, each with its shape for one state."""
+        return self._function.results
+
+    @property
+    def dtypes(self) -> list[str]:
+        """The dtypes that it computes in."""
+        return self._function.dtypes
+
+    def __call__(self, *args: Any, out: Any = None, threads: int = 1, **kwargs: Any) -> Any:
+        """Call it as the arm's function, without a load."""
+        place = self._function.arguments.index("load")
+        if len(args) >= place:
+            args = (*args[:place], self._load, *args[place:])
+        else:
+            kwargs = {**kwargs, "load": self._load}
+        return self._function(*args, out=out, threads=threads, **kwargs)
+
+    def __repr__(self) -> str:
+        return repr(self._function).replace(", load", "").replace("load, ", "")
+
+    def __reduce__(self) -> Any:
+        return _Loaded, (self._function, self._load)
+
+
+def _with_load(arm: Arm, load: _dalembert.Load) -> Arm:
+    return arm._with_load(load)
 
 
 def _filled(
@@ -402,6 +553,8 @@ def load(
     outputs: str | Sequence[str] | None = None,
     scalar: str | Sequence[str] | None = None,
     parameters: str | Sequence[str] = (),
+    bodies: Sequence[int] = (),
+    keep_zeros: bool = False,
     scene: str | None = None,
     formulation: str = "auto",
     effort: str = "quick",
@@ -455,7 +608,12 @@ def load(
     parameters
         What is an argument instead of a constant: ``"gravity"``, then functions take ``g``
         (3,); ``"payload"``, then they take ``load``, a :class:`dalembert.Load`, which
-        ``arm.load(payload)`` computes of mass, centre of mass and inertia (10,).
+        ``arm.load(payload)`` computes of mass, centre of mass and inertia (10,); ``"bodies"``,
+        then ``arm.load(bodies)`` computes it of those of all links (k, 10), and
+        :meth:`Arm.with_bodies` makes arms with others; ``"armature"`` and ``"viscous"`` friction.
+    bodies, keep_zeros
+        The links whose bodies are arguments, by their numbers, 0 a base that floats; all if none
+        are given. Whether their numbers that are zero stay zero, for fewer operations.
     scene
         A scene of the robot file, with its tolerance, if it has one.
     formulation, effort, prefer, fma, sincos
@@ -492,6 +650,8 @@ def load(
         "outputs": _words("outputs", outputs),
         "scalar": _words("scalar", scalar),
         "parameters": _words("parameters", parameters),
+        "bodies": [str(int(link)) for link in bodies],
+        "keep_zeros": "on" if keep_zeros else "off",
         "scene": scene,
         "formulation": formulation,
         "effort": effort,

@@ -3,7 +3,7 @@ from typing import Any, Callable, Union
 from numpy.typing import ArrayLike
 
 class Load:
-    """A load: what ``arm.load(payload)`` returns, and the other functions take."""
+    """A load: what ``arm.load`` returns, and the other functions take."""
 
     def __new__(cls, numbers: Any) -> Load: ...
     @property
@@ -51,6 +51,10 @@ class Arm:
     def claim(self) -> str: ...
     @property
     def parameters(self) -> list[tuple[str, float]]: ...
+    @property
+    def loading(self) -> list[tuple[str, list[float]]]: ...
+    @property
+    def body_links(self) -> list[int]: ...
     @property
     def base_parameters(self) -> list[tuple[str, float]]: ...
     @property

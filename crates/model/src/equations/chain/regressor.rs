@@ -8,7 +8,9 @@ use super::composite::CompositeOrder;
 use super::floating::unit_twists;
 use super::recursion::{AccelerationForm, MomentForm, Motion, Motions};
 use super::{Body, Chain, Displacement, Rotation, Segment, Skeleton};
-use crate::equations::matrix::{Vector, cross, difference, dot, sum, times, zero_vector, zeros};
+use crate::equations::matrix::{
+    Vector, cross, difference, dot, plus, sum, times, zero_vector, zeros,
+};
 use crate::equations::screws::Twist;
 use crate::scalar::Scalar;
 
@@ -96,14 +98,27 @@ impl<S: Scalar> Skeleton<S> {
     /// Returns the skeleton whose bodies have its columns, times these values, and no columns.
     #[must_use]
     pub fn with_values(mut self, values: &[S]) -> Skeleton<S> {
-        let links = self.links.iter_mut();
-        let links = links.map(|Segment { link, .. }| (&mut link.body, &mut link.probes));
-        let base = self.base.as_mut().map(|body| (body, &mut self.base_probes));
-        for (body, probes) in links.chain(base) {
-            for probe in core::mem::take(probes) {
-                if let (Probed::Body(unit), Some(value)) = (&probe.of, values.get(probe.column)) {
-                    *body = body.with(&unit.map(|x| times(value, x)));
+        let weighed = |unit: &Body<S>, value: &S| unit.map(|x| times(value, x));
+        for Segment { link, .. } in &mut self.links {
+            for probe in core::mem::take(&mut link.probes) {
+                match (&probe.of, values.get(probe.column)) {
+                    (Probed::Body(unit), Some(value)) => {
+                        link.body = link.body.with(&weighed(unit, value));
+                    }
+                    (Probed::Armature, Some(value)) => link.armature = plus(&link.armature, value),
+                    (Probed::Viscous, Some(value)) => {
+                        link.friction.viscous = plus(&link.friction.viscous, value);
+                    }
+                    (_, None) => {}
                 }
+            }
+        }
+        let probes = core::mem::take(&mut self.base_probes);
+        for probe in &probes {
+            if let (Some(base), Probed::Body(unit), Some(value)) =
+                (&mut self.base, &probe.of, values.get(probe.column))
+            {
+                *base = base.with(&weighed(unit, value));
             }
         }
         self.columns = 0;

@@ -1,0 +1,306 @@
+//! Bodies and drives that are arguments: what is generated gives what the robot file with other bodies
+//! gives, and the checker shows it.
+
+use dalembert_checker::certify::{Demand, certify};
+use dalembert_codegen::workspace::{Emitted, JointState, Runtime, claim};
+use dalembert_codegen::{Function, Generated, Request};
+use dalembert_model::outputs::RuntimeParameter;
+use dalembert_model::robot::Robot;
+
+use crate::support::{self, Case, hold, read, read_robot};
+
+fn run(generated: &Generated, emitted: &Emitted, state: &JointState) -> Vec<f64> {
+    let mut state = state.clone();
+    let mut all = generated.emitted.iter();
+    let load = all.find(|own| own.function == Function::Load && own.scalar == emitted.scalar);
+    if let Some(load) = load {
+        state.load = load.run(&state);
+    }
+    emitted.run(&state)
+}
+
+/// Returns a robot file in which links have a state's bodies, a base that floats as link 0, and rows a
+/// state's drives.
+fn with_bodies(source: &str, state: &JointState, links: &[usize]) -> String {
+    let mut text = String::new();
+    // The table of a base that floats comes first.
+    let mut link = if source.contains("\"floating\"") {
+        -1
+    } else {
+        0
+    };
+    let body = |link: i64| {
+        let place = links.iter().position(|own| *own as i64 == link)?;
+        state.bodies.chunks(10).nth(place)
+    };
+    let drives = |link: i64| {
+        let row = usize::try_from(link - 1).ok()?;
+        let mut lines = String::new();
+        for (key, values) in [("armature", &state.armature), ("viscous", &state.viscous)] {
+            if let Some(value) = values.get(row) {
+                lines += &format!("{key} = {value:?}\n");
+            }
+        }
+        Some(lines)
+    };
+    let mut is_of_link = false;
+    for line in source.lines() {
+        let key = line.split('=').next().unwrap_or("").trim();
+        let is_replaced = is_of_link
+            && match key {
+                "mass" | "com" | "inertia" => body(link).is_some(),
+                "armature" => !state.armature.is_empty(),
+                "viscous" => !state.viscous.is_empty(),
+                _ => false,
+            };
+        if !is_replaced {
+            text += &format!("{line}\n");
+        }
+        if line.starts_with('[') {
+            is_of_link = line.starts_with("[[joint]]");
+            link += i64::from(is_of_link);
+            if let (true, Some([mass, x, y, z, inertia @ ..])) = (is_of_link, body(link)) {
+                text += &format!(
+                    "mass = {mass:?}\ncom = [{x:?}, {y:?}, {z:?}]\ninertia = {inertia:?}\n"
+                );
+            }
+            text += &drives(link).filter(|_| is_of_link).unwrap_or_default();
+        }
+    }
+    text
+}
+
+/// Compares with the runtime of robot files that have these bodies, and has the checker show all.
+#[track_caller]
+fn check(source: &str, asked: &str, count: usize) -> Generated {
+    let case = Case::read(source, asked);
+    let name = &case.robot().name;
+    let generated = case.rounds_well(count, name);
+    let setup = case.request.setup(case.robot()).unwrap();
+    let (_, states) = case.runtime(count, 0x626f_6479);
+    let plain = Request {
+        scene: case.request.scene.clone(),
+        parameters: case.request.parameters.clone(),
+        ..Request::default()
+    };
+    let given = |own: &RuntimeParameter| own.given().is_none() || *own == RuntimeParameter::Payload;
+    let plain = Request {
+        parameters: plain.parameters.iter().copied().filter(given).collect(),
+        ..plain
+    };
+    let all = generated.emitted.iter();
+    for emitted in all.filter(|own| own.function != Function::Load) {
+        let function = emitted.function;
+        let compared = states.iter().map(|state| {
+            let mut state = state.in_scalar(emitted.scalar);
+            let zeros = setup.zeros().iter().zip(&mut state.bodies);
+            zeros
+                .filter(|(is_zero, _)| **is_zero)
+                .for_each(|(_, x)| *x = 0.0);
+            let merged = read_robot(&with_bodies(source, &state, &setup.body_links()));
+            let runtime = Runtime::in_scene(plain.setup(&merged).unwrap());
+            let granted = runtime.granted(function, &state);
+            let expected = runtime.run(function, &state);
+            (run(&generated, emitted, &state), expected, granted)
+        });
+        hold(emitted, &compared.collect::<Vec<_>>(), name);
+    }
+    let claim = claim(case.robot(), source, &case.request, &generated)
+        .unwrap()
+        .write();
+    let demand = Demand {
+        scene: case.request.scene.as_ref().map(|scene| &*scene.name),
+        ..Demand::default()
+    };
+    let report = certify(&generated.texts[0], &claim, source, &demand).unwrap();
+    assert!(report.passes(false), "{name}: {:?}", report.lines);
+    generated
+}
+
+const MOST: &str = "outputs: inverse_dynamics, gravity, inertia, forward_dynamics";
+
+#[test]
+fn a_load_is_the_bodies_in_the_robot_file() {
+    for name in ["planar3r", "puma560", "stanford", "scara"] {
+        let source = support::source(name, "");
+        check(&source, &format!("{MOST}; parameters: bodies"), 10);
+    }
+    let all = "outputs: inverse_dynamics, coriolis, manipulator_equation, kinetic_energy, momentum, \
+        coriolis_matrix, inverse_dynamics_derivatives, passivity, inertia_inverse; parameters: bodies, gravity";
+    check(&support::source("planar2r", ""), all, 10);
+}
+
+#[test]
+fn drives_and_a_payload_go_with_bodies() {
+    for name in ["planar2r", "puma560"] {
+        let source = support::source(name, "");
+        check(
+            &source,
+            &format!("{MOST}; parameters: bodies, armature, viscous"),
+            10,
+        );
+        check(&source, &format!("{MOST}; parameters: armature"), 10);
+    }
+    let source = support::source("planar3r", "");
+    let case = Case::read(&source, &format!("{MOST}; parameters: bodies, payload"));
+    case.rounds_well(10, "planar3r");
+}
+
+#[test]
+fn some_links_alone_have_other_bodies() {
+    let source = support::source("puma560", "");
+    let some = check(
+        &source,
+        &format!("{MOST}; parameters: bodies; bodies: 2, 5"),
+        10,
+    );
+    let all = check(&source, &format!("{MOST}; parameters: bodies"), 10);
+    let load = |own: &Generated| own.functions[0].program.load;
+    assert!(load(&some) < load(&all));
+}
+
+/// A PUMA with other numbers where it has some costs hardly more than the PUMA.
+#[test]
+fn zeros_may_stay_zeros() {
+    let source = support::source("puma560", "");
+    let kept = format!("{MOST}; parameters: bodies; keep_zeros: on");
+    let counts = |asked: &str| -> usize {
+        let generated = check(&source, asked, 10);
+        let mut all = generated.functions.iter();
+        let own = all.find(|own| own.function == Function::InverseDynamics);
+        let counts = own.unwrap().program.counts();
+        counts.mul + counts.add
+    };
+    let (kept, free) = (
+        counts(&kept),
+        counts(&format!("{MOST}; parameters: bodies")),
+    );
+    // With constants 258.
+    assert!(kept * 100 <= 258 * 135, "{kept}");
+    assert!(kept < free, "{kept} {free}");
+}
+
+/// Frames of links that are not those of rows, limbs, joints that follow others, a base that floats.
+#[test]
+fn bodies_are_in_the_frames_of_the_file() {
+    let tilted = support::source("payload_frame", "").replace(
+        "axis = [0, 1, 0]\nmass = 1\n",
+        "axis = [0.2, 0.9, -0.4]\nmass = 1\n",
+    );
+    let asked = "outputs: inverse_dynamics, inertia; parameters: bodies; scalar: f64";
+    check(&support::source("payload_frame", ""), asked, 10);
+    check(&tilted, asked, 10);
+    let without = tilted.replace("payload_frame = { xyz = [0.1, -0.2, 0.05] }\n", "");
+    check(&without, asked, 5);
+    for name in [
+        "../gallery/robots/g1_hand",
+        "../gallery/robots/panda_gripper",
+    ] {
+        let path = format!("{}/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let source = std::fs::read_to_string(path).unwrap();
+        check(&source, &asked.replace(", inertia", ""), 5);
+    }
+}
+
+#[test]
+fn a_base_that_floats_is_link_zero() {
+    let source = FLOATING;
+    let asked = "outputs: inverse_dynamics, inertia; parameters: bodies; scalar: f64";
+    check(source, asked, 10);
+    check(source, &format!("{asked}; bodies: 0"), 10);
+}
+
+const FLOATING: &str = r#"name = "swimmer"
+gravity = [0, 0, -9.81]
+allow = ["large_inertia"]
+
+[[joint]]
+name = "torso"
+kind = "floating"
+mass = 3
+com = [0.01, 0.02, 0.03]
+inertia = [0.1, 0.11, 0.12, 0.01, 0, 0]
+
+[[joint]]
+name = "left"
+kind = "revolute"
+placement = { xyz = [0.1, 0, 0] }
+axis = [0, 1, 0]
+mass = 1
+com = [0.1, 0, 0]
+inertia = [0.01, 0.02, 0.02, 0, 0, 0]
+
+[[joint]]
+name = "right"
+parent = "torso"
+kind = "revolute"
+placement = { xyz = [-0.1, 0, 0] }
+axis = [0, 1, 0]
+mass = 1
+com = [-0.1, 0, 0]
+inertia = [0.01, 0.02, 0.02, 0, 0, 0]
+"#;
+
+/// Each is proved with the bodies as variables of the field.
+#[test]
+fn arms_that_nobody_chose() {
+    let request = Request {
+        parameters: vec![RuntimeParameter::Bodies],
+        ..Request::new(&[Function::InverseDynamics])
+    };
+    let mut seen = 0;
+    for (seed, robot, _) in support::draw::robots(25, 0xb0d1e5) {
+        let robot: Robot = robot;
+        match dalembert_codegen::generate(&robot, &request) {
+            Ok(generated) => {
+                assert_eq!(generated.functions[0].function, Function::Load, "{seed}");
+                seen += 1;
+            }
+            Err(error) => assert!(error.to_string().contains("no effect"), "{seed}: {error}"),
+        }
+    }
+    assert!(seen >= 20, "{seen}");
+}
+
+#[test]
+fn requests_that_cannot_be_are_refused() {
+    let said = |lines: &str, asked: &str| Case::refused("planar2r", lines, asked);
+    for (asked, why) in [
+        ("gravity; bodies: 2", "none are: add `parameters: bodies`"),
+        (
+            "gravity; keep_zeros: on",
+            "none are: add `parameters: bodies`",
+        ),
+        (
+            "gravity; parameters: bodies; bodies: 3",
+            "there is no link 3: links are 1 to 2",
+        ),
+        (
+            "gravity; parameters: bodies; bodies: two",
+            "expected the number of a link",
+        ),
+        ("gravity; parameters: bodies; bodies: 2, 2", "given twice"),
+        (
+            "centre_of_mass; parameters: bodies",
+            "`load` does not have these",
+        ),
+        (
+            "gravity; parameters: bodies; formulation: lagrange_euler",
+            "no regrouped parameters",
+        ),
+    ] {
+        let found = said("", asked);
+        assert!(found.contains(why), "{asked}: {found}");
+    }
+    let payload = "payload = { mass = 2.5, com = [0.05, 0, 0.1] }";
+    let found = said(payload, "gravity; parameters: bodies");
+    assert!(
+        found.contains("has a payload, which is part of a link"),
+        "{found}"
+    );
+    let tolerance = "tolerance = { value = 1e-3, relative_to = \"range\" }\n\
+                     box = { velocity = [1, 1], acceleration = [1, 1] }";
+    let found = said(tolerance, "gravity; parameters: bodies");
+    assert!(found.contains("bodies"), "{found}");
+    assert!(read(FLOATING).robot.floating.is_some());
+}

@@ -1,0 +1,225 @@
+//! What a function that takes a `load` is given: bodies of links, drives, a payload.
+
+use num_traits::ToPrimitive;
+
+use super::arm::{Arm, Reading};
+use super::exact::{Point, number};
+use super::number::Number;
+use super::robot::File;
+use super::screw::{Body, Pose, Vector};
+use super::setting::Setting;
+use super::state::State;
+use crate::claim::Claimed;
+use crate::defaults::Default;
+use crate::payload;
+use crate::program::{ARGUMENTS, LOAD, argument};
+
+/// What `load` can be of.
+pub const LOADING: [&str; 4] = ["payload", "bodies", "armature", "viscous"];
+/// A number below this is taken for zero.
+const NOTHING: f64 = 1e-18;
+/// Those of them that the robot file has numbers for.
+pub const DEFAULTS: [&str; 3] = ["bodies", "armature", "viscous"];
+/// The largest mass of a link that weighs nothing in the file, kg, and how far its body reaches, m.
+const LIGHT: (f64, f64) = (1.0, 0.3);
+
+impl Setting<'_> {
+    /// Takes from a claim which arguments `load` has, and of which links the bodies are; the robot file
+    /// has these numbers in their place.
+    ///
+    /// # Errors
+    /// Links that the robot has not, or not in order.
+    pub(crate) fn take(
+        &mut self,
+        functions: &[Claimed],
+        defaults: &[Default],
+    ) -> Result<(), String> {
+        let Some(load) = functions.iter().find(|own| own.function == LOAD) else {
+            return Ok(());
+        };
+        let places = load.arguments.iter().map(|name| argument(name));
+        self.loading = places.flatten().collect();
+        self.bodies.clone_from(&load.bodies);
+        let of_bodies = defaults
+            .iter()
+            .filter(|(name, _)| load.keeps_zeros && *name == "bodies");
+        let numbers = of_bodies.flat_map(|(_, numbers)| numbers);
+        self.zeros = numbers.map(|x| x.abs() < NOTHING).collect();
+        let (first, last) = (usize::from(!self.floats), self.links());
+        let is_there = |link: &usize| (first..=last).contains(link);
+        let are_in_order = self.bodies.is_sorted_by(|one, next| one < next);
+        if !are_in_order || !self.bodies.iter().all(is_there) {
+            return Err(format!(
+                "`bodies` are not of links {first} to {last}, in order"
+            ));
+        }
+        let is_taken = load.arguments.iter().any(|name| name == "bodies");
+        if is_taken == self.bodies.is_empty() {
+            return Err("`bodies` of no links, or of links and no argument".into());
+        }
+        Ok(())
+    }
+
+    /// Lists the arguments that bodies are, each with those that there may be: of a payload as the scene's
+    /// box or the robot's limits have it.
+    ///
+    /// # Errors
+    /// A range that is empty, a number that is not one.
+    pub fn bodies_given(&self) -> Result<Vec<(usize, Vec<payload::Body>)>, String> {
+        let mut all = Vec::new();
+        for &place in &self.loading {
+            match ARGUMENTS[place].0 {
+                "payload" => all.push((place, vec![self.body()?.unwrap_or_default()])),
+                "bodies" => all.push((place, self.body_ranges()?)),
+                _ => {}
+            }
+        }
+        Ok(all)
+    }
+
+    /// Returns the bodies that each link's may be: half to twice the mass, twice as far from its frame.
+    ///
+    /// # Errors
+    /// A number of a link that is not one.
+    pub fn body_ranges(&self) -> Result<Vec<payload::Body>, String> {
+        let of = |link: &usize| {
+            let [mass, x, y, z, xx, yy, zz, ..] = self.file.body_of(*link)?;
+            let about = if mass > 0.0 {
+                0.5 * (xx + yy + zz).abs() / mass
+            } else {
+                0.0
+            };
+            let reach = (x * x + y * y + z * z).sqrt() + about.sqrt();
+            let (most, radius) = match mass > 0.0 && reach > 0.0 {
+                true => (mass, reach),
+                false => LIGHT,
+            };
+            Ok(payload::Body {
+                mass: [0.5 * most, 2.0 * most],
+                radius: 2.0 * radius,
+            })
+        };
+        self.bodies.iter().map(of).collect()
+    }
+}
+
+impl File {
+    /// Returns the ten numbers of a link in its frame, the base's for zero.
+    ///
+    /// # Errors
+    /// One that is not a number.
+    pub fn body_of(&self, link: usize) -> Result<[f64; 10], String> {
+        let base = self.floating.as_ref();
+        let (mass, com, inertia) = match link.checked_sub(1) {
+            Some(row) => {
+                let row = self.joint.get(row).ok_or("a link that is not there")?;
+                (&row.mass, &row.com, &row.inertia)
+            }
+            None => {
+                let base = base.ok_or("the body of a base that does not move")?;
+                (&base.mass, &base.com, &base.inertia)
+            }
+        };
+        let com = com.iter().flatten();
+        let inertia = inertia.iter().flatten();
+        let mut numbers = [0.0; 10];
+        let texts = [(0, mass)].into_iter().filter(|(_, text)| !text.is_empty());
+        let texts = texts.chain((1..).zip(com)).chain((4..).zip(inertia));
+        for (place, text) in texts {
+            let value = number(text).and_then(|own| own.to_f64());
+            numbers[place] =
+                value.ok_or_else(|| format!("link {link}: `{text}` is not a number"))?;
+        }
+        Ok(numbers)
+    }
+
+    /// Returns what an argument of `load` is of this robot: of some links, or of all rows.
+    ///
+    /// # Errors
+    /// One that is not a number.
+    pub fn defaults(&self, name: &str, links: &[usize]) -> Result<Vec<f64>, String> {
+        let read = |text: &Option<String>| match text {
+            Some(text) => number(text)
+                .and_then(|own| own.to_f64())
+                .ok_or_else(|| format!("`{text}` is not a number")),
+            None => Ok(0.0),
+        };
+        match name {
+            "bodies" => {
+                let all = links.iter().map(|link| self.body_of(*link));
+                Ok(all.collect::<Result<Vec<_>, String>>()?.concat())
+            }
+            "armature" => self.joint.iter().map(|row| read(&row.armature)).collect(),
+            _ => self.joint.iter().map(|row| read(&row.viscous)).collect(),
+        }
+    }
+}
+
+/// Returns a body of ten numbers about its centre of mass, and where that is.
+fn body(numbers: &[Number]) -> Result<(Body, Pose), String> {
+    let numbers: [Number; 10] = numbers.try_into().map_err(|_| "a body is ten numbers")?;
+    let mut body = Body::new(numbers);
+    let centre = Pose::shift(std::mem::take::<Vector>(&mut body.first));
+    Ok((body, centre))
+}
+
+impl Arm {
+    /// Returns the arm with what `load` is of.
+    pub(super) fn given(
+        mut self,
+        setting: &Setting,
+        point: &Point,
+        state: &State,
+    ) -> Result<Arm, String> {
+        // A payload is on what its link has.
+        let is_payload = |place: &usize| ARGUMENTS[*place].0 == "payload";
+        let (payloads, others): (Vec<usize>, Vec<usize>) =
+            setting.loading.iter().partition(|place| is_payload(place));
+        for place in others.into_iter().chain(payloads) {
+            let own = &state.given[place];
+            match ARGUMENTS[place].0 {
+                "bodies" => {
+                    let mut numbers = own.clone();
+                    for (number, is_zero) in numbers.iter_mut().zip(&setting.zeros) {
+                        if *is_zero {
+                            *number = 0.into();
+                        }
+                    }
+                    for (link, numbers) in setting.bodies.iter().zip(numbers.chunks(10)) {
+                        self.take_body(*link, body(numbers)?)?;
+                    }
+                }
+                "armature" => self
+                    .joints
+                    .iter_mut()
+                    .zip(own)
+                    .for_each(|(row, x)| row.armature = *x),
+                "viscous" => self
+                    .joints
+                    .iter_mut()
+                    .zip(own)
+                    .for_each(|(row, x)| row.viscous = *x),
+                _ => {
+                    let frame = point.placement(setting.file.payload_frame.as_ref())?;
+                    let row = setting.file.holder(None)?.unwrap_or_default();
+                    self.carry(row, body(own)?, &frame);
+                }
+            }
+        }
+        Ok(self)
+    }
+
+    /// Puts a body, given in the frame of its link, in the place of that link's.
+    fn take_body(&mut self, link: usize, (body, centre): (Body, Pose)) -> Result<(), String> {
+        match link.checked_sub(1) {
+            None => self.base = Some(body.moved(&centre)),
+            Some(row) => {
+                let joint = self.joints.get_mut(row).ok_or("a link that is not there")?;
+                let at = joint.shown.then(&centre);
+                joint.body = body.moved(&at);
+                joint.given = (body, at);
+            }
+        }
+        Ok(())
+    }
+}
