@@ -5,9 +5,9 @@ use dalembert_checker::certify::{Demand, certify};
 use dalembert_codegen::workspace::{Emitted, JointState, Runtime, claim};
 use dalembert_codegen::{Function, Generated, Request};
 use dalembert_model::outputs::RuntimeParameter;
-use dalembert_model::robot::Robot;
+use dalembert_model::robot::write;
 
-use crate::support::{self, Case, hold, read, read_robot};
+use crate::support::{self, Case, daily_and_campaign, hold, read, read_robot};
 
 fn run(generated: &Generated, emitted: &Emitted, state: &JointState) -> Vec<f64> {
     let mut state = state.clone();
@@ -123,11 +123,11 @@ const MOST: &str = "outputs: inverse_dynamics, gravity, inertia, forward_dynamic
 fn a_load_is_the_bodies_in_the_robot_file() {
     for name in ["planar3r", "puma560", "stanford", "scara"] {
         let source = support::source(name, "");
-        check(&source, &format!("{MOST}; parameters: bodies"), 10);
+        check(&source, &format!("{MOST}; parameters: bodies"), 4);
     }
     let all = "outputs: inverse_dynamics, coriolis, manipulator_equation, kinetic_energy, momentum, \
         coriolis_matrix, inverse_dynamics_derivatives, passivity, inertia_inverse; parameters: bodies, gravity";
-    check(&support::source("planar2r", ""), all, 10);
+    check(&support::source("planar2r", ""), all, 4);
 }
 
 #[test]
@@ -137,9 +137,9 @@ fn drives_and_a_payload_go_with_bodies() {
         check(
             &source,
             &format!("{MOST}; parameters: bodies, armature, viscous"),
-            10,
+            4,
         );
-        check(&source, &format!("{MOST}; parameters: armature"), 10);
+        check(&source, &format!("{MOST}; parameters: armature"), 4);
     }
     let source = support::source("planar3r", "");
     let case = Case::read(&source, &format!("{MOST}; parameters: bodies, payload"));
@@ -152,9 +152,9 @@ fn some_links_alone_have_other_bodies() {
     let some = check(
         &source,
         &format!("{MOST}; parameters: bodies; bodies: 2, 5"),
-        10,
+        4,
     );
-    let all = check(&source, &format!("{MOST}; parameters: bodies"), 10);
+    let all = check(&source, &format!("{MOST}; parameters: bodies"), 4);
     let load = |own: &Generated| own.functions[0].program.load;
     assert!(load(&some) < load(&all));
 }
@@ -165,7 +165,7 @@ fn zeros_may_stay_zeros() {
     let source = support::source("puma560", "");
     let kept = format!("{MOST}; parameters: bodies; keep_zeros: on");
     let counts = |asked: &str| -> usize {
-        let generated = check(&source, asked, 10);
+        let generated = check(&source, asked, 4);
         let mut all = generated.functions.iter();
         let own = all.find(|own| own.function == Function::InverseDynamics);
         let counts = own.unwrap().program.counts();
@@ -188,17 +188,20 @@ fn bodies_are_in_the_frames_of_the_file() {
         "axis = [0.2, 0.9, -0.4]\nmass = 1\n",
     );
     let asked = "outputs: inverse_dynamics, inertia; parameters: bodies; scalar: f64";
-    check(&support::source("payload_frame", ""), asked, 10);
-    check(&tilted, asked, 10);
+    check(&support::source("payload_frame", ""), asked, 4);
+    check(&tilted, asked, 4);
     let without = tilted.replace("payload_frame = { xyz = [0.1, -0.2, 0.05] }\n", "");
-    check(&without, asked, 5);
-    for name in [
-        "../gallery/robots/g1_hand",
-        "../gallery/robots/panda_gripper",
-    ] {
-        let path = format!("{}/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-        let source = std::fs::read_to_string(path).unwrap();
-        check(&source, &asked.replace(", inertia", ""), 5);
+    check(&without, asked, 2);
+    // cos² π/4 is a half, which exact numbers do not see.
+    let eighth = without.replace("rpy = [\"pi/2\", 0, 0]", "rpy = [\"pi/4\", 0, 0]");
+    check(&eighth, asked, 2);
+    for name in ["slide_with_follower", "slides_on_limbs"] {
+        let path = format!(
+            "{}/../crates/formulas/tests/data/{name}.toml",
+            env!("CARGO_MANIFEST_DIR")
+        );
+        let source = write(&read_robot(&std::fs::read_to_string(path).unwrap()));
+        check(&source, asked, 2);
     }
 }
 
@@ -206,8 +209,8 @@ fn bodies_are_in_the_frames_of_the_file() {
 fn a_base_that_floats_is_link_zero() {
     let source = FLOATING;
     let asked = "outputs: inverse_dynamics, inertia; parameters: bodies; scalar: f64";
-    check(source, asked, 10);
-    check(source, &format!("{asked}; bodies: 0"), 10);
+    check(source, asked, 4);
+    check(source, &format!("{asked}; bodies: 0"), 4);
 }
 
 const FLOATING: &str = r#"name = "swimmer"
@@ -242,24 +245,26 @@ inertia = [0.01, 0.02, 0.02, 0, 0, 0]
 "#;
 
 /// Each is proved with the bodies as variables of the field.
-#[test]
-fn arms_that_nobody_chose() {
+fn arms_that_nobody_chose(count: usize) {
     let request = Request {
         parameters: vec![RuntimeParameter::Bodies],
         ..Request::new(&[Function::InverseDynamics])
     };
-    let mut seen = 0;
-    for (seed, robot, _) in support::draw::robots(25, 0xb0d1e5) {
-        let robot: Robot = robot;
+    let mut proved = 0;
+    for (seed, robot, _) in support::draw::robots(count, 0xb0d1e5) {
         match dalembert_codegen::generate(&robot, &request) {
             Ok(generated) => {
                 assert_eq!(generated.functions[0].function, Function::Load, "{seed}");
-                seen += 1;
+                proved += 1;
             }
             Err(error) => assert!(error.to_string().contains("no effect"), "{seed}: {error}"),
         }
     }
-    assert!(seen >= 20, "{seen}");
+    assert!(10 * proved >= 8 * count, "{proved}");
+}
+
+daily_and_campaign! {
+    arms_that_nobody_chose: (6), (100);
 }
 
 #[test]

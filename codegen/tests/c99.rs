@@ -168,6 +168,60 @@ fn a_payload_is_a_body_and_no_load() {
     }
 }
 
+/// One load for all states, and one a state, have the bits of the function of one state; bodies are put
+/// in their places.
+#[test]
+fn a_batch_has_one_load_or_one_a_state() {
+    let asked =
+        "outputs: inverse_dynamics; parameters: bodies; batch: on; scalar: f64; language: c";
+    let main = r#"#include <string.h>
+enum { N = 37 };
+int main(void) {
+    static double q[2 * N], qd[2 * N], qdd[2 * N], one[2 * N], many[2 * N], alone[2 * N];
+    static double loads[sizeof(planar2r_load_t) / sizeof(double) * N];
+    enum { L = sizeof(planar2r_load_t) / sizeof(double) };
+    const double numbers[10] = {3, 0.1, 0, 0, 0.01, 0.02, 0.02, 0, 0, 0};
+    planar2r_bodies_t bodies;
+    planar2r_body_t body;
+    planar2r_load_t load;
+    int i, s, bad = 0;
+    for (i = 0; i < 2 * N; ++i) { q[i] = 0.1 * i - 2; qd[i] = 1 - 0.05 * i; qdd[i] = 0.3 * i; }
+    planar2r_bodies(&bodies);
+    bad += !planar2r_body(numbers, &body);
+    bad += planar2r_with_body(&bodies, 2, &body) + planar2r_with_body(&bodies, -1, &body);
+    planar2r_load(&bodies, &load);
+    planar2r_inverse_dynamics_batch(N, q, qd, qdd, 1, load.load, one);
+    for (s = 0; s < N; ++s) {
+        body.body[0] = 1 + 0.1 * s;
+        bad += !planar2r_with_body(&bodies, 1, &body);
+        const double a[2] = {q[s], q[N + s]}, b[2] = {qd[s], qd[N + s]}, c[2] = {qdd[s], qdd[N + s]};
+        double tau[2];
+        planar2r_inverse_dynamics(a, b, c, &load, tau);
+        for (i = 0; i < 2; ++i) bad += memcmp(&tau[i], &one[i * N + s], sizeof *tau) != 0;
+        planar2r_load_t other;
+        planar2r_load(&bodies, &other);
+        for (i = 0; i < L; ++i) loads[i * N + s] = other.load[i];
+        planar2r_inverse_dynamics(a, b, c, &other, tau);
+        for (i = 0; i < 2; ++i) alone[i * N + s] = tau[i];
+    }
+    planar2r_inverse_dynamics_batch(N, q, qd, qdd, N, loads, many);
+    bad += memcmp(many, alone, sizeof many) != 0;
+    bad += memcmp(many, one, sizeof many) == 0;
+    return bad;
+}
+"#;
+    let text = Case::new("planar2r", "", asked).generated().text();
+    let folder = with_main("loads", &text, main);
+    for compiler in there(&["gcc", "clang"]) {
+        run(
+            compiler,
+            "-std=c99 -O2 arm.c -o loads -lm".split(' '),
+            &folder,
+        );
+        run(folder.join("loads").to_str().unwrap(), [], &folder);
+    }
+}
+
 #[cfg(target_arch = "x86_64")]
 #[test]
 fn batches_are_vectors() {

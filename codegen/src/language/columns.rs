@@ -148,6 +148,8 @@ struct Columns {
     gathered: String,
     passed: Vec<String>,
     stored: String,
+    /// The declaration of a load, where the function takes one: one for all states, and one a state.
+    load: Option<[String; 2]>,
 }
 
 impl Columns {
@@ -156,6 +158,7 @@ impl Columns {
         let float = float(names.dialect().scalar);
         let (mut parameters, mut passed) = (vec!["const size_t n".to_owned()], Vec::new());
         let (mut gathered, mut stored) = (String::new(), String::new());
+        let mut load = None;
         let at = |index: usize| match index {
             0 => "s".to_owned(),
             1 => "n + s".to_owned(),
@@ -163,8 +166,19 @@ impl Columns {
         };
         for &argument in &program.arguments {
             let (name, length) = (argument.name(), argument.length(sizes));
-            parameters.push(format!("const {float} *{restrict} {name}"));
             let entries = list((0..length).map(|index| format!("{name}[{}]", at(index))));
+            if argument == Argument::Load {
+                let kind = argument_structure(argument, names).unwrap_or_default();
+                let one = list((0..length).map(|index| format!("load[{index}]")));
+                let declared =
+                    |entries| format!("        const {kind} load_s[1] = {{{{{{{entries}}}}}}};\n");
+                load = Some([one, entries].map(declared));
+                parameters.push("const size_t loads".to_owned());
+                parameters.push(format!("const {float} *{restrict} load"));
+                passed.push("load_s".to_owned());
+                continue;
+            }
+            parameters.push(format!("const {float} *{restrict} {name}"));
             gathered += &match argument_structure(argument, names) {
                 Some(kind) => {
                     format!("        const {kind} {name}_s[1] = {{{{{{{entries}}}}}}};\n")
@@ -200,6 +214,7 @@ impl Columns {
             gathered,
             passed,
             stored,
+            load,
         }
     }
 
@@ -224,11 +239,11 @@ pub(crate) fn batch(program: &Program, code: &Code, names: &Names) -> String {
     let (is_told, function) = (is_told(code, names), program.function);
     let columns = Columns::of(program, names, &restrict);
     let gathered = &columns.gathered;
-    let body = |is_told: bool, when: &str| {
+    let body = |load: &str, is_told: bool, when: &str| {
         let call = columns.call(function, names, is_told);
-        format!("    for (s = 0U; s < n; ++s) {{\n{gathered}{when}{call}    }}\n")
+        format!("    for (s = 0U; s < n; ++s) {{\n{load}{gathered}{when}{call}    }}\n")
     };
-    let mut again = String::new();
+    let mut near_enough = None;
     if is_told {
         let (scalar, joints) = (code.scalar, program.joints);
         let far = largest(scalar) / joints.next_power_of_two() as f64;
@@ -236,31 +251,60 @@ pub(crate) fn batch(program: &Program, code: &Code, names: &Names) -> String {
         let near = (0..joints).map(|joint| format!("(fabs{f}(q_s[{joint}]) <= {far})"));
         let near = near.collect::<Vec<String>>().join(" && ");
         let when = format!("        if ({near}) {{\n            continue;\n        }}\n");
-        again = body(false, &when);
+        near_enough = Some(when);
     }
+    let loops = |load: &str| {
+        let again = near_enough.iter().map(|when| body(load, false, when));
+        let again: String = again.collect();
+        format!("    {simd}\n{}{again}", body(load, is_told, ""))
+    };
+    let (loops, of_load) = match &columns.load {
+        None => (loops(""), ""),
+        Some([one, each]) => {
+            let (shared, own) = (loops(""), loops(each));
+            let text =
+                format!("    if (loads == 1U) {{\n{one}{shared}    }} else {{\n{own}    }}\n");
+            (text, LOADS)
+        }
+    };
     format!(
-        "/* {} at n states, in columns: entry i of state s stands at i * n + s. Each state\n \
+        "/* {} at n states, in columns: entry i of state s stands at i * n + s.{of_load} Each state\n \
          * has the results that it has alone, bit for bit. */\n\
          #if defined(__GNUC__)\n__attribute__((flatten))\n#endif\n\
-         static inline void {}({})\n{{\n    size_t s;\n    {simd}\n{}{again}}}\n",
+         static inline void {}({})\n{{\n    size_t s;\n{loops}}}\n",
         names.of(function.name()),
         names.of(&format!("{function}_batch")),
         columns.parameters.join(", "),
-        body(is_told, "")
     )
 }
+
+/// Where entry i of load l stands among so many, instead of entry i of state s.
+fn of_loads(each: &str) -> String {
+    let each = each.replace("* n) + s", "* loads) + l");
+    each.replace("n + s", "loads + l")
+        .replace("load[s]", "load[l]")
+}
+
+const LOADS: &str = " There are n\n * loads, or 1 for all states.";
 
 /// Each thread takes its own state, then every state after as many as there are threads.
 fn kernel(program: &Program, names: &Names) -> String {
     let function = program.function;
     let columns = Columns::of(program, names, "__restrict__");
+    let (load, of_load) = match &columns.load {
+        None => (String::new(), ""),
+        Some([_, each]) => {
+            let place = "        const size_t l = (loads == 1U) ? 0U : s;\n";
+            (format!("{place}{}", of_loads(each)), LOADS)
+        }
+    };
     format!(
-        "/* {} at n states, in columns: entry i of state s stands at i * n + s. Any number of\n \
+        "/* {} at n states, in columns: entry i of state s stands at i * n + s.{of_load} Any number of\n \
          * threads in one dimension: each takes a state, then the one as many further on as there are\n \
          * threads. Each state has the results that it has alone, bit for bit. */\n\
          static __global__ void {}({})\n{{\n    \
          const size_t threads = (size_t)gridDim.x * blockDim.x;\n    size_t s;\n    \
-         for (s = ((size_t)blockIdx.x * blockDim.x) + threadIdx.x; s < n; s += threads) {{\n{}{}    }}\n}}\n",
+         for (s = ((size_t)blockIdx.x * blockDim.x) + threadIdx.x; s < n; s += threads) {{\n{load}{}{}    }}\n}}\n",
         names.of(function.name()),
         names.of(&format!("{function}_batch")),
         columns.parameters.join(", "),

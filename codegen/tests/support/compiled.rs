@@ -74,11 +74,14 @@ fn call(case: &Case, generated: &Generated, emitted: &Emitted) -> String {
         assert!(length <= MOST);
         body += &format!("IN({float}, {}, {length}, {from})\n", argument.name());
         let cast = match argument {
-            Argument::Load | Argument::Payload if !batch => {
+            argument if argument.has_type() && !batch => {
                 format!("(const {} *)", names.of(&format!("{}_t", argument.name())))
             }
             _ => String::new(),
         };
+        if batch && *argument == Argument::Load {
+            passed.push("STATES".to_owned());
+        }
         passed.push(cast + argument.name());
     }
     let quantities = function.quantities();

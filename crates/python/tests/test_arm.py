@@ -320,6 +320,22 @@ def test_bodies_are_arguments():
     assert_allclose(one.with_bodies([0.25]).inertia([0.1, 0.2]), changed([2, 0.25], [0, 0]).inertia([0.1, 0.2]), rtol=1e-13)
 
 
+def test_bodies_are_those_of_pinocchio():
+    """Four Pandas with other bodies, torques from Pinocchio; the fingers' bodies are part of link 7's."""
+    path = urdf("panda")
+    golden = json.loads((path.parent / "panda.bodies.json").read_text())
+    arm = dalembert.load(
+        path, tip="panda_link8", lock="*", outputs="inverse_dynamics", parameters=["bodies", "viscous"]
+    )
+    bodies = np.array(golden["bodies"])
+    robots = arm.with_bodies(bodies=bodies[:, None], viscous=np.zeros(7))
+    q, qd, qdd = np.moveaxis(np.array(golden["states"]), 1, 0)
+    expected = np.array(golden["torques"])
+    found = robots.inverse_dynamics(q, qd, qdd)
+    assert found.shape == expected.shape == (4, 10, 7)
+    assert_allclose(found, expected, rtol=0, atol=1e-13 * np.abs(expected).max())
+
+
 def test_links_that_branch():
     """A Panda with its hand: the second finger follows the first, on a limb of its own."""
     path = urdf("panda")

@@ -287,11 +287,24 @@ impl<'r> Reader<'r> {
         let mut columns = "const size_t n".to_owned();
         let (mut state, mut stored, mut to) = (String::new(), String::new(), String::new());
         for own in &self.head.arguments {
-            columns += &format!(", const {float} *{restrict} {}", own.name);
+            let loads = if own.name == "load" {
+                ", const size_t loads"
+            } else {
+                ""
+            };
+            columns += &format!("{loads}, const {float} *{restrict} {}", own.name);
         }
+        // One load for all states, and one a state.
+        let mut load = None;
         for own in parameters {
             let (kind, name, length) = own;
             let entries = commas((0..*length).map(|index| format!("{name}[{}]", place(index))));
+            if name == "load" && kind.starts_with("const ") {
+                let one = commas((0..*length).map(|index| format!("load[{index}]")));
+                let declared = |own| format!("{kind} load_s[1] = {{{{{{{own}}}}}}}; ");
+                load = Some([one, entries].map(declared));
+                continue;
+            }
             let given = match (kind.starts_with("const "), kind.ends_with("_t")) {
                 (true, true) => format!(" = {{{{{{{entries}}}}}}}"),
                 (true, false) => format!(" = {{{entries}}}"),
@@ -318,19 +331,25 @@ impl<'r> Reader<'r> {
         let (single, batch) = (format!("{}(", symbols.single), &symbols.batch);
         if symbols.is_cuda {
             let first = "((size_t)blockIdx.x * blockDim.x) + threadIdx.x";
-            let body = each("", &single);
+            let of_load = load.map_or_else(String::new, |[_, own]| {
+                let own = own.replace("* n) + s", "* loads) + l");
+                let own = own
+                    .replace("n + s", "loads + l")
+                    .replace("load[s]", "load[l]");
+                format!("const size_t l = (loads == 1U) ? 0U : s; {own}")
+            });
+            let body = format!("{of_load}{}", each("", &single));
             return format!(
                 "static __global__ void {batch}({columns}) {{
                 const size_t threads = (size_t)gridDim.x * blockDim.x; size_t s;
                 for (s = {first}; s < n; s += threads) {{ {body} }} }}"
             );
         }
-        let looped = |when: &str, call: &str| {
+        let looped = |load: &str, when: &str, call: &str| {
             let body = each(when, call);
-            format!("for (s = 0U; s < n; ++s) {{ {body} }}")
+            format!("for (s = 0U; s < n; ++s) {{ {load}{body} }}")
         };
-        let mut loops = looped("", &single);
-        if is_told {
+        let near = || {
             let (f, joints) = (self.suffix(), self.head.joints);
             // Up to here sines need no library.
             let largest = if self.head.is_single { 100.0 } else { 8192.0 };
@@ -338,12 +357,28 @@ impl<'r> Reader<'r> {
             let most = largest / joints.next_power_of_two() as f64;
             let near = (0..joints).map(|k| format!("(fabs{f}(q_s[{k}]) <= {most:?}{end})"));
             let near = near.collect::<Vec<String>>().join(" && ");
-            loops = looped("", &format!("{}(0, ", symbols.any));
-            loops += &looped(&format!("if ({near}) {{ continue; }} "), &single);
-        }
+            format!("if ({near}) {{ continue; }} ")
+        };
+        let loops = |load: &str| {
+            let all = match is_told {
+                false => looped(load, "", &single),
+                true => {
+                    let first = looped(load, "", &format!("{}(0, ", symbols.any));
+                    first + &looped(load, &near(), &single)
+                }
+            };
+            format!("{macros}_SIMD {all}")
+        };
+        let loops = match &load {
+            None => loops(""),
+            Some([one, own]) => {
+                let (shared, own) = (loops(""), loops(own));
+                format!("if (loads == 1U) {{ {one}{shared} }} else {{ {own} }}")
+            }
+        };
         format!(
             "\n#if defined(__GNUC__)\n__attribute__((flatten))\n#endif\n
-            static inline void {batch}({columns}) {{ size_t s; {macros}_SIMD {loops} }}"
+            static inline void {batch}({columns}) {{ size_t s; {loops} }}"
         )
     }
 }

@@ -57,7 +57,7 @@ macro_rules! registry {
                         &function::Definition::of(
                             "load",
                             "Load",
-                            "Load: the regrouped parameters of the arm with a payload, once for each tool.",
+                            "Load: the regrouped parameters of its arguments, once for each set of them.",
                             &[Quantity::Load],
                         )
                     },
