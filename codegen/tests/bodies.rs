@@ -1,7 +1,7 @@
 //! Bodies and drives that are arguments: what is generated gives what the robot file with other bodies
 //! gives, and the checker shows it.
 
-use dalembert_checker::certify::{Demand, certify};
+use dalembert_checker::certify::{Demand, Report, certify};
 use dalembert_codegen::workspace::{Emitted, JointState, Runtime, claim};
 use dalembert_codegen::{Function, Generated, Request};
 use dalembert_model::outputs::RuntimeParameter;
@@ -265,6 +265,49 @@ fn arms_that_nobody_chose(count: usize) {
 
 daily_and_campaign! {
     arms_that_nobody_chose: (6), (100);
+}
+
+/// Rounding is bounded for the bodies of a link's limits, or for those around the file's.
+#[test]
+fn bodies_have_ranges() {
+    let own = support::source("planar2r", "");
+    let limits = "\"pi\"], body = { mass = [1, 30], radius = 1.5 } }";
+    let source = own.replacen("\"pi\"] }", limits, 1);
+    let asked = "outputs: inverse_dynamics; parameters: bodies; scalar: f64";
+    let report = |source: &str| {
+        let case = Case::read(source, asked);
+        let generated = case.generated();
+        let claim = claim(case.robot(), source, &case.request, &generated).unwrap();
+        let demand = Demand::default();
+        certify(&generated.texts[0], &claim.write(), source, &demand).unwrap()
+    };
+    let (around, given) = (report(&own), report(&source));
+    assert!(
+        around.passes(false) && given.passes(false),
+        "{:?}",
+        given.lines
+    );
+    let ranges = |own: &Report| -> Vec<(usize, [f64; 2], f64)> {
+        let all = own.bodies.iter();
+        all.map(|(link, body)| (*link, body.mass, body.radius))
+            .collect()
+    };
+    let (around, given) = (ranges(&around), ranges(&given));
+    assert_eq!(given[0], (1, [1.0, 30.0], 1.5));
+    assert_eq!(given[1], around[1]);
+    assert!(around[0].1[0] < around[0].1[1] && around[0].2 > 0.0);
+    let empty = source.replace("[1, 30]", "[30, 1]");
+    let why = dalembert_model::read::parse(&empty)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        why.contains("the range of its mass is empty or negative"),
+        "{why}"
+    );
+    assert_eq!(
+        read_robot(&write(&read_robot(&source))),
+        read_robot(&source)
+    );
 }
 
 #[test]

@@ -56,6 +56,8 @@ pub struct Report {
     pub is_unlimited: bool,
     /// The payloads, where a function takes one, and whether they are the default.
     pub payloads: Option<(Body, bool)>,
+    /// The links whose bodies are arguments, from one, a base that floats zero, with those of each.
+    pub bodies: Vec<(usize, Body)>,
 }
 
 impl Report {
@@ -202,6 +204,12 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     Ok(Report {
         lines,
         is_unlimited: setting.is_unlimited(),
+        bodies: setting
+            .bodies
+            .iter()
+            .copied()
+            .zip(setting.body_ranges().map_err(of_robot)?)
+            .collect(),
         payloads: takes_payload.then(|| (given.unwrap_or_default(), given.is_none())),
     })
 }

@@ -137,6 +137,9 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
         let default = ["", " (no range is given)"][usize::from(is_default)];
         report.line(format!("Payloads: {body}{default}."));
     }
+    for (link, body) in &found.bodies {
+        report.line(format!("Bodies of link {link}: {body}."));
+    }
     let mut table = Table::new("module|function|rounding|units|states|bounded|why|passed");
     let mut module = "";
     for line in &found.lines {

@@ -5,7 +5,7 @@ use num_traits::ToPrimitive;
 use super::arm::{Arm, Reading};
 use super::exact::{Point, number};
 use super::number::Number;
-use super::robot::File;
+use super::robot::{Bodies, File};
 use super::screw::{Body, Pose, Vector};
 use super::setting::Setting;
 use super::state::State;
@@ -16,6 +16,8 @@ use crate::program::{ARGUMENTS, LOAD, argument};
 
 /// What `load` can be of.
 pub const LOADING: [&str; 4] = ["payload", "bodies", "armature", "viscous"];
+/// The largest mass, kg, and radius, m.
+const MOST: f64 = 1e9;
 /// A number below this is taken for zero.
 const NOTHING: f64 = 1e-18;
 /// Those of them that the robot file has numbers for.
@@ -57,6 +59,9 @@ impl Setting<'_> {
         if is_taken == self.bodies.is_empty() {
             return Err("`bodies` of no links, or of links and no argument".into());
         }
+        if is_taken && self.scene.payload.is_some() {
+            return Err("the scene's payload is part of a link whose body is an argument".into());
+        }
         Ok(())
     }
 
@@ -77,29 +82,65 @@ impl Setting<'_> {
         Ok(all)
     }
 
-    /// Returns the bodies that each link's may be: half to twice the mass, twice as far from its frame.
+    /// Returns the bodies that each link's may be: those of its limits, or half to twice the mass, twice
+    /// as far from its frame.
     ///
     /// # Errors
     /// A number of a link that is not one.
     pub fn body_ranges(&self) -> Result<Vec<payload::Body>, String> {
         let of = |link: &usize| {
-            let [mass, x, y, z, xx, yy, zz, ..] = self.file.body_of(*link)?;
-            let about = if mass > 0.0 {
-                0.5 * (xx + yy + zz).abs() / mass
-            } else {
-                0.0
+            let limits = match link.checked_sub(1) {
+                Some(row) => self
+                    .file
+                    .joint
+                    .get(row)
+                    .and_then(|row| row.limits.body.as_ref()),
+                None => self
+                    .file
+                    .floating
+                    .as_ref()
+                    .and_then(|base| base.limits.body.as_ref()),
             };
-            let reach = (x * x + y * y + z * z).sqrt() + about.sqrt();
-            let (most, radius) = match mass > 0.0 && reach > 0.0 {
-                true => (mass, reach),
-                false => LIGHT,
-            };
-            Ok(payload::Body {
-                mass: [0.5 * most, 2.0 * most],
-                radius: 2.0 * radius,
-            })
+            match limits {
+                Some(given) => given.read("body"),
+                None => Ok(around(self.file.body_of(*link)?)),
+            }
         };
         self.bodies.iter().map(of).collect()
+    }
+}
+
+/// Returns the bodies around one of these numbers.
+fn around([mass, x, y, z, xx, yy, zz, ..]: [f64; 10]) -> payload::Body {
+    let about = match mass > 0.0 {
+        true => 0.5 * (xx + yy + zz).abs() / mass,
+        false => 0.0,
+    };
+    let reach = (x * x + y * y + z * z).sqrt() + about.sqrt();
+    let (most, radius) = match mass > 0.0 && reach > 0.0 {
+        true => (mass, reach),
+        false => LIGHT,
+    };
+    payload::Body {
+        mass: [0.5 * most, 2.0 * most],
+        radius: 2.0 * radius,
+    }
+}
+
+impl Bodies {
+    /// Returns the range that it is; `key` is its own.
+    ///
+    /// # Errors
+    /// It is not one.
+    pub(super) fn read(&self, key: &str) -> Result<payload::Body, String> {
+        let read = |text: &String| number(text)?.to_f64();
+        let read = |[low, high]: &[String; 2]| {
+            let (mass, radius) = ([read(low)?, read(high)?], read(&self.radius)?);
+            let is_range = 0.0 <= mass[0] && mass[0] <= mass[1] && 0.0 <= radius;
+            (is_range && mass[1].max(radius) <= MOST).then_some(payload::Body { mass, radius })
+        };
+        let why = || format!("`{key}`: expected `mass = [low, high]`, kg, and `radius`, m");
+        read(&self.mass).ok_or_else(why)
     }
 }
 

@@ -93,19 +93,19 @@ pub(super) struct Bounds {
     pub(super) position: Option<Vec<[String; 2]>>,
     pub(super) velocity: Option<Vec<String>>,
     pub(super) acceleration: Option<Vec<String>>,
-    pub(super) payload: Option<Payloads>,
+    pub(super) payload: Option<Bodies>,
 }
 
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct PayloadLimits {
-    pub(super) payload: Option<Payloads>,
+    pub(super) payload: Option<Bodies>,
 }
 
-/// The payloads that there may be.
+/// The bodies that there may be of a payload or a link.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Payloads {
+pub(super) struct Bodies {
     pub(super) mass: [String; 2],
     pub(super) radius: String,
 }
@@ -181,6 +181,7 @@ pub(super) struct BaseLimits {
     pub(super) velocity: Option<[String; 6]>,
     pub(super) acceleration: Option<[String; 6]>,
     pub(super) torque: Option<[String; 6]>,
+    pub(super) body: Option<Bodies>,
 }
 
 #[derive(Deserialize)]
@@ -198,6 +199,7 @@ pub(super) struct Limits {
     pub(super) velocity: Option<String>,
     pub(super) acceleration: Option<String>,
     pub(super) torque: Option<String>,
+    pub(super) body: Option<Bodies>,
 }
 
 impl File {

@@ -17,7 +17,6 @@ const MOST_JOINTS: usize = 64;
 /// The most turns of a joint that follows, for one of its leader's.
 const MOST_TURNS: i64 = 16;
 /// Neither masses nor lengths are so large.
-const MOST_PAYLOAD: f64 = 1e9;
 /// The rounding of gravity as it is turned into the axes of a base makes it longer, in f32 by less than
 /// this part.
 const GRAVITY_SLACK: f64 = 1e-6;
@@ -339,18 +338,8 @@ impl Setting<'_> {
     /// A range that is empty, or not a range.
     pub fn body(&self) -> Result<Option<Body>, String> {
         let own = self.scene.r#box.payload.as_ref();
-        let Some(own) = own.or(self.file.limits.payload.as_ref()) else {
-            return Ok(None);
-        };
-        let read = |text: &String| number(text)?.to_f64();
-        let read = |[low, high]: &[String; 2], radius| {
-            let (mass, radius) = ([read(low)?, read(high)?], read(radius)?);
-            let is_range = 0.0 <= mass[0] && mass[0] <= mass[1] && 0.0 <= radius;
-            (is_range && mass[1].max(radius) <= MOST_PAYLOAD).then_some(Body { mass, radius })
-        };
-        let why = "`payload`: expected `mass = [low, high]`, kg, and `radius`, m";
-        let body = read(&own.mass, &own.radius).ok_or(why)?;
-        Ok(Some(body))
+        let own = own.or(self.file.limits.payload.as_ref());
+        own.map(|own| own.read("payload")).transpose()
     }
 
     fn positions(&self, joint: usize, rate: f64) -> Option<[f64; 2]> {

@@ -4,7 +4,7 @@ use num_traits::Zero;
 use toml_span::Value;
 
 use super::table::Table;
-use super::value::Context;
+use super::value::{Context, bodies};
 use crate::number::Rational;
 use crate::robot::{BaseLimits, FloatingBase};
 
@@ -80,6 +80,7 @@ fn limits(cx: &mut Context, keys: &mut Table) -> BaseLimits {
             velocity: six(cx, "velocity"),
             acceleration: six(cx, "acceleration"),
             torque: six(cx, "torque"),
+            body: bodies(cx, keys, "body"),
         };
         if let Some(value) = keys.get("position") {
             let help = "where it is has no effect: leave it out";

@@ -8,7 +8,7 @@ use toml_span::Value;
 
 use super::report::quote;
 use super::table::{Table, locate};
-use super::value::{Context, payloads, placement};
+use super::value::{Context, bodies, placement};
 use super::{Reading, base, guard, joint, link, mimic, parent, scene, suggest, syntax};
 use crate::placed::{derive, place};
 use crate::robot::{
@@ -80,7 +80,7 @@ fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Finding>) {
     });
     let [base, tool, payload_frame] =
         ["base", "tool", "payload_frame"].map(|key| placement(cx, keys, key));
-    let payload_range = keys.table(cx, "limits", LIMITS, payloads);
+    let payload_range = keys.table(cx, "limits", LIMITS, |cx, keys| bodies(cx, keys, "payload"));
     keys.optional(cx, "allow", allow);
     let notes = keys.optional(cx, "notes", notes);
     keys.get("outputs");

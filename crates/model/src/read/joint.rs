@@ -7,7 +7,7 @@ use num_traits::Zero;
 use toml_span::Value;
 
 use super::table::Table;
-use super::value::{Context, placement};
+use super::value::{Context, bodies, placement};
 use crate::number::{Angle, Rational};
 use crate::robot::Placed;
 use crate::robot::{FloatingBase, Joint, JointKind, Limits};
@@ -170,6 +170,7 @@ fn limits(cx: &mut Context, keys: &mut Table, kind: Option<JointKind>) -> Limits
             velocity: keys.optional(cx, "velocity", |cx, v| cx.rate(v, kind, "rad/s")),
             acceleration: keys.optional(cx, "acceleration", |cx, v| cx.rate(v, kind, "rad/s²")),
             torque: keys.optional(cx, "torque", Context::number),
+            body: bodies(cx, keys, "body"),
         })
     });
     read.unwrap_or_default()

@@ -10,7 +10,7 @@ use toml_span::Value;
 use super::link;
 use super::report::quote;
 use super::table::{Table, locate};
-use super::value::{Context, bytes_of, payloads};
+use super::value::{Context, bodies, bytes_of};
 use crate::robot::{Follower, Joint, JointKind, Parent, Position, Robot};
 use crate::scene::{Float, MotionBox, Payload, Scale, Scene, Tolerance};
 
@@ -209,7 +209,7 @@ fn bounds(cx: &mut Context, robot: &Robot, keys: &mut Table) -> Option<MotionBox
             acceleration: each(cx, keys, "acceleration", |cx, coordinate, value| {
                 cx.rate(value, kind_of_rate(robot, coordinate), "rad/s²")
             }),
-            payload: payloads(cx, keys),
+            payload: bodies(cx, keys, "payload"),
         })
     })
 }

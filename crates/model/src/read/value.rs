@@ -17,7 +17,7 @@ use super::{RobotWarning, foreign, suggest};
 use crate::number::parse::{parse_decimal, parse_fraction};
 use crate::number::{Angle, Rational, Snapped};
 use crate::outputs::Function;
-use crate::robot::{Inertia, JointKind, PayloadRange, Placement, Position, values};
+use crate::robot::{BodyRange, Inertia, JointKind, Placement, Position, values};
 
 pub(super) struct Context {
     pub(super) sink: Sink,
@@ -45,15 +45,15 @@ pub(super) fn placement(
     placement.and_then(Placement::unless_identity)
 }
 
-/// Reads the payloads that there may be.
-pub(super) fn payloads(cx: &mut Context, keys: &mut Table) -> Option<PayloadRange> {
-    const HELP: &str = "payload = { mass = [0, 2], radius = 0.1 }: kg, and m around its frame";
-    keys.table(cx, "payload", HELP, |cx, keys| {
-        let mass = keys.required(cx, "mass", HELP, |cx, value| {
-            cx.array(value, HELP, Context::number)
+/// Reads the bodies that there may be of a payload or a link.
+pub(super) fn bodies(cx: &mut Context, keys: &mut Table, key: &'static str) -> Option<BodyRange> {
+    let help = format!("{key} = {{ mass = [0, 2], radius = 0.1 }}: kg, and m around its frame");
+    keys.table(cx, key, &help, |cx, keys| {
+        let mass = keys.required(cx, "mass", &help, |cx, value| {
+            cx.array(value, &help, Context::number)
         });
-        let radius = keys.required(cx, "radius", HELP, Context::number);
-        Some(PayloadRange {
+        let radius = keys.required(cx, "radius", &help, Context::number);
+        Some(BodyRange {
             mass: mass?,
             radius: radius?,
         })

@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::String;
 
 use super::findings::{Findings, of_base};
-use super::{Inertia, Joint, JointKind, Limit, Robot};
+use super::{BodyRange, Inertia, Joint, JointKind, Limit, Robot};
 use crate::number::Rational;
 
 /// The body of a base that floats, with its limits. It moves in six coordinates, which come before
@@ -32,6 +32,8 @@ pub struct BaseLimits {
     pub acceleration: Option<[Rational; 6]>,
     /// Largest size of each component of the wrench, N and N·m.
     pub torque: Option<[Rational; 6]>,
+    /// The bodies of the base, where they are an argument.
+    pub body: Option<BodyRange>,
 }
 
 impl BaseLimits {
@@ -136,6 +138,9 @@ impl Findings {
             for limit in base.limits.rate(rate).into_iter().flatten() {
                 self.not_negative(&of_base(&format!("limits/{}", rate.key())), limit);
             }
+        }
+        if let Some((message, help)) = base.limits.body.as_ref().and_then(BodyRange::error) {
+            self.error(of_base("limits/body"), message, help);
         }
         let placements = robot.placements().into_iter();
         for (key, _) in placements.filter(|(_, placement)| placement.is_some()) {

@@ -108,7 +108,7 @@ pub struct Robot {
     /// frame, unless it is that frame. Of an arm by placements it is the last link's own.
     pub payload_frame: Option<Placement>,
     /// The payloads that there may be, where a payload is an argument.
-    pub payload_range: Option<PayloadRange>,
+    pub payload_range: Option<BodyRange>,
     /// The base, if it floats; joints are counted without it.
     pub floating: Option<FloatingBase>,
     /// The joints, each after the one that carries it; 1 to [`Robot::MAX_JOINTS`]. Each is a row of
@@ -200,16 +200,16 @@ impl Robot {
     }
 }
 
-/// The bodies that a payload may be.
+/// The bodies that a payload, or the body of a link, may be where it is an argument.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PayloadRange {
+pub struct BodyRange {
     /// The lowest and the highest mass, kg.
     pub mass: [Rational; 2],
-    /// All of the mass is so near to the origin of the payload's frame, m.
+    /// All of the mass is so near to the origin of its frame, m.
     pub radius: Rational,
 }
 
-impl PayloadRange {
+impl BodyRange {
     const MOST: i64 = 1_000_000_000;
 
     /// Returns an error about it, and help, if it is not a range.
@@ -219,7 +219,7 @@ impl PayloadRange {
             let help = "write mass = [lowest, highest], kg, neither below 0";
             return Some(("the range of its mass is empty or negative", help));
         }
-        let most = Rational::from_integer(PayloadRange::MOST.into());
+        let most = Rational::from_integer(BodyRange::MOST.into());
         if self.radius.is_negative() || self.radius > most || *high > most {
             let help =
                 "the distance within which all of it is, m; neither that nor a mass is above 1e9";
@@ -355,6 +355,8 @@ pub struct Limits {
     pub acceleration: Option<Rational>,
     /// Largest |τ|, N·m or N.
     pub torque: Option<Rational>,
+    /// The bodies of the link, where they are an argument.
+    pub body: Option<BodyRange>,
 }
 
 impl Limits {

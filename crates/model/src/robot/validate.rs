@@ -14,7 +14,7 @@ use num_traits::{Signed, Zero};
 use super::body::Defect;
 use super::findings::{Finding, Findings, of_joint};
 use super::{
-    Convention, Joint, JointKind, Limit, PayloadRange, Placement, Position, Robot, RobotWarning,
+    BodyRange, Convention, Joint, JointKind, Limit, Placement, Position, Robot, RobotWarning,
     reach, units, values,
 };
 use crate::number::parse::in_range;
@@ -102,7 +102,7 @@ impl Robot {
             }
         }
         findings.frames(self);
-        if let Some((message, help)) = self.payload_range.as_ref().and_then(PayloadRange::error) {
+        if let Some((message, help)) = self.payload_range.as_ref().and_then(BodyRange::error) {
             findings.error("limits/payload", message, help);
         }
         if self
@@ -231,6 +231,9 @@ impl Findings {
             if let Some(limit) = joint.limits.rate(rate) {
                 self.not_negative(&at(&format!("limits/{}", rate.key())), limit);
             }
+        }
+        if let Some((message, help)) = joint.limits.body.as_ref().and_then(BodyRange::error) {
+            self.error(at("limits/body"), message, help);
         }
         if let Some(range) = &joint.limits.position {
             self.range(&at("limits/position"), joint.kind, range);

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use core::fmt::Write;
 
 use super::units::turns_text;
-use super::{PayloadRange, Placement, Position};
+use super::{BodyRange, Placement, Position};
 use crate::number::parse::write_decimal;
 use crate::number::{Angle, Rational};
 
@@ -49,7 +49,7 @@ pub fn range(ends: &[Position; 2]) -> String {
 }
 
 /// Returns a table of `mass` and `radius`.
-pub fn payloads(range: &PayloadRange) -> Option<String> {
+pub fn bodies(range: &BodyRange) -> Option<String> {
     let radius = Some(number(&range.radius));
     table([("mass", Some(numbers(&range.mass))), ("radius", radius)])
 }

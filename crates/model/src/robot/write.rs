@@ -8,7 +8,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::values::{
-    angle, lines, list, number, numbers, payloads, placement, position, quoted, range, short_hash,
+    angle, bodies, lines, list, number, numbers, placement, position, quoted, range, short_hash,
     table, texts, unless_zero, word,
 };
 use super::{Convention, FloatingBase, Joint, JointKind, Parent, Placed, Placement, Robot};
@@ -31,7 +31,7 @@ pub fn write(robot: &Robot) -> String {
     let placements = robot.placements();
     let placements = placements.map(|(key, value)| (key, value.map(placement)));
     lines(&mut text, head.into_iter().chain(placements));
-    let limits = table([("payload", robot.payload_range.as_ref().and_then(payloads))]);
+    let limits = table([("payload", robot.payload_range.as_ref().and_then(bodies))]);
     lines(&mut text, [("limits", limits)]);
     lines(&mut text, [("notes", texts(&robot.notes))]);
     if let Some(base) = &robot.floating {
@@ -90,6 +90,7 @@ fn write_base(text: &mut String, base: &FloatingBase) {
         ("velocity", six(&base.limits.velocity)),
         ("acceleration", six(&base.limits.acceleration)),
         ("torque", six(&base.limits.torque)),
+        ("body", base.limits.body.as_ref().and_then(bodies)),
     ]);
     lines(
         text,
@@ -125,6 +126,7 @@ fn write_joint(text: &mut String, joint: &Joint) {
         ("velocity", limits.velocity.as_ref().map(number)),
         ("acceleration", limits.acceleration.as_ref().map(number)),
         ("torque", limits.torque.as_ref().map(number)),
+        ("body", limits.body.as_ref().and_then(bodies)),
     ]);
     lines(
         text,

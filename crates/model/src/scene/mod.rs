@@ -15,7 +15,7 @@ use alloc::vec::Vec;
 use crate::number::Rational;
 use crate::outputs::Function;
 use crate::robot::values::word;
-use crate::robot::{Limit, Parent, PayloadRange, Position, Robot};
+use crate::robot::{BodyRange, Limit, Parent, Position, Robot};
 
 pub use crate::placed::Body as Payload;
 pub use write::write;
@@ -69,7 +69,7 @@ pub struct MotionBox {
     /// Largest |q̈|.
     pub acceleration: Option<Vec<Rational>>,
     /// The payloads, where a payload is an argument.
-    pub payload: Option<PayloadRange>,
+    pub payload: Option<BodyRange>,
 }
 
 impl MotionBox {

@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 use super::{Float, Scene};
 use crate::robot::Parent;
 use crate::robot::values::{
-    lines, list, number, numbers, payloads, position, quoted, range, short_hash, table, word,
+    bodies, lines, list, number, numbers, position, quoted, range, short_hash, table, word,
 };
 
 /// Writes a scene as its table in a robot file, `[scene.NAME]`, joints by number.
@@ -44,7 +44,7 @@ pub fn write(scene: &Scene) -> String {
         ("position", positions.map(|all| list(all.iter().map(range)))),
         ("velocity", bounds.velocity.as_ref().map(numbers)),
         ("acceleration", bounds.acceleration.as_ref().map(numbers)),
-        ("payload", bounds.payload.as_ref().and_then(payloads)),
+        ("payload", bounds.payload.as_ref().and_then(bodies)),
     ]);
     let tolerance = scene.tolerance.as_ref().and_then(|tolerance| {
         let value = match tolerance.value.as_slice() {

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use num_traits::Signed;
 
 use super::Check;
-use crate::robot::{Limit, PayloadRange, Position, RobotWarning, shown};
+use crate::robot::{BodyRange, Limit, Position, RobotWarning, shown};
 
 const BEYOND: &str = "bounds hold over the whole range; taken as it stands";
 
@@ -41,7 +41,7 @@ impl Check<'_> {
         }
         self.rates(Limit::Velocity);
         self.rates(Limit::Acceleration);
-        if let Some((message, help)) = bounds.payload.as_ref().and_then(PayloadRange::error) {
+        if let Some((message, help)) = bounds.payload.as_ref().and_then(BodyRange::error) {
             self.error("box/payload", message, help);
         }
     }
