@@ -320,6 +320,10 @@ fn requests_that_cannot_be_are_refused() {
             "none are: add `parameters: bodies`",
         ),
         (
+            "gravity; parameters: bodies; bodies: 18446744073709551615",
+            "there is no link",
+        ),
+        (
             "gravity; parameters: bodies; bodies: 3",
             "there is no link 3: links are 1 to 2",
         ),

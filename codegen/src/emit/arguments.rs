@@ -292,11 +292,15 @@ pub(super) fn bodies_c(setup: &Setup, names: &Names) -> Vec<(Vec<String>, String
         doc.extend(body(setup, scalar));
         let text = checked::c(is_single, dialect.function, both, "body");
         items.push((doc, indented(&text)));
-        let doc = vec![
-            of_links(setup),
-            "The function puts a body in a place, from zero: returns 1, or 0 if there is no such place."
-                .to_owned(),
-        ];
+        let kept = match setup.zeros() {
+            [] => "",
+            _ => ", or a\nnumber that is zero in the robot file is another in the body",
+        };
+        let said = format!(
+            "The function puts a body in a place, from zero: returns 1, or 0 if there is no such place{kept}."
+        );
+        let mut doc = vec![of_links(setup)];
+        doc.extend(said.lines().map(str::to_owned));
         let count = setup.body_links().len();
         let text = checked::c_bodies(is_single, dialect.function, both, (count, setup.zeros()));
         items.push((doc, indented(&text)));

@@ -179,7 +179,8 @@ impl Setup {
         }
         let known: Vec<usize> = self.rows_with_bodies().collect();
         let bodies = links.iter().map(|&link| {
-            let row = (link + self.robot.base_coordinates()).checked_sub(1);
+            let row = link.checked_add(self.robot.base_coordinates());
+            let row = row.and_then(|behind| behind.checked_sub(1));
             row.filter(|row| known.contains(row)).ok_or_else(|| {
                 let first = usize::from(self.robot.floating.is_none());
                 let message = format!("bodies: there is no link {link}");

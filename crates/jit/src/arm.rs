@@ -283,6 +283,14 @@ impl Arm {
             .collect())
     }
 
+    /// Returns which numbers of the bodies stay zero; none if any may be another.
+    ///
+    /// # Errors
+    /// As of [`Arm::loading`].
+    pub fn kept_zeros(&self) -> Result<Vec<bool>, LoadError> {
+        Ok(self.setup()?.zeros().to_vec())
+    }
+
     /// Returns the links whose bodies are arguments, from one; a base that floats is zero.
     ///
     /// # Errors

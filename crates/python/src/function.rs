@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::call::Call;
-use crate::convert::{Quantity, dtype, shown};
+use crate::convert::{Quantity, dtype, raised, shown};
 use crate::payload::{self, Load};
 use crate::xla;
 
@@ -50,6 +50,8 @@ pub struct Function {
     /// What several results are returned in.
     structure: Option<Py<PyAny>>,
     refuses_nan: bool,
+    /// The numbers of bodies that stay zero.
+    zeros: Vec<bool>,
     /// The name and the options of the arm, as Python has them.
     loaded: Py<PyAny>,
 }
@@ -74,8 +76,13 @@ impl Function {
             let lengths = quantity.shape().lengths(any.sizes());
             (quantity.field(), lengths.collect())
         };
+        let zeros = match any.output() == Output::Load {
+            true => arm.kept_zeros().map_err(|error| raised(&error))?,
+            false => Vec::new(),
+        };
         let arguments = any.native().signature().arguments.iter();
         Ok(Function {
+            zeros,
             arguments: arguments.map(|(argument, _)| argument.name()).collect(),
             quantities: any.output().quantities().iter().map(shape).collect(),
             arm: arm.clone(),
@@ -199,7 +206,12 @@ impl Function {
                 *value = payload::flat(value, *length)?;
             }
             if name == "bodies" || name == "payload" {
-                payload::check(name, value)?;
+                let zeros = if name == "bodies" {
+                    &self.zeros
+                } else {
+                    &[][..]
+                };
+                payload::check(name, value, zeros)?;
             }
         }
         Ok(())

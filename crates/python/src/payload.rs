@@ -38,7 +38,7 @@ impl Load {
 
 /// Refuses bodies of the argument of a name that no body is. What has not ten numbers a body is left to
 /// the call.
-pub(crate) fn check(name: &str, bodies: &Bound<'_, PyAny>) -> PyResult<()> {
+pub(crate) fn check(name: &str, bodies: &Bound<'_, PyAny>, zeros: &[bool]) -> PyResult<()> {
     let numpy = bodies.py().import("numpy")?;
     let Ok(array) = numpy.call_method1("asarray", (bodies,)) else {
         return Ok(());
@@ -53,7 +53,12 @@ pub(crate) fn check(name: &str, bodies: &Bound<'_, PyAny>) -> PyResult<()> {
         return Ok(());
     };
     let mut all = rows.iter().enumerate();
-    let Some((place, why)) = all.find_map(|(place, own)| Some((place, defect(own)?))) else {
+    let wrong = |(place, own): (usize, &Numbers)| {
+        let zeros = zeros.iter().skip(10 * (place % each));
+        let why = defect(own).or_else(|| filled(own, zeros))?;
+        Some((place, why))
+    };
+    let Some((place, why)) = all.find_map(wrong) else {
         return Ok(());
     };
     let mut which = String::new();
@@ -80,6 +85,19 @@ pub(crate) fn flat<'py>(bodies: &Bound<'py, PyAny>, length: usize) -> PyResult<B
     shape.truncate(shape.len() - 2);
     shape.push(length);
     array.call_method1("reshape", (shape,))
+}
+
+/// Finds a number that stays zero and is another.
+fn filled<'z>(body: &Numbers, zeros: impl Iterator<Item = &'z bool>) -> Option<String> {
+    const NAMES: [&str; 10] = [
+        "mass", "x", "y", "z", "Ixx", "Iyy", "Izz", "Ixy", "Iyz", "Ixz",
+    ];
+    let mut numbers = body.iter().zip(NAMES).zip(zeros);
+    let ((number, name), _) =
+        numbers.find(|((number, _), is_zero)| **is_zero && **number != 0.0)?;
+    Some(format!(
+        "{name} is {number}, and stays zero as in the robot file: load the arm without keep_zeros"
+    ))
 }
 
 /// Moments may be rounded to six digits, as in generated code.

@@ -317,6 +317,8 @@ def test_bodies_are_arguments():
         arm.inertia([0.1, 0.2], arm.bodies)
     one = dalembert.load(pendulum, outputs=outputs, parameters="bodies", bodies=[2], keep_zeros=True)
     assert one.body_links == (2,)
+    with pytest.raises(ValueError, match="z is 0.1, and stays zero as in the robot file"):
+        one.with_bodies(centres=[[-0.2, 0.1, 0.1]])
     assert_allclose(one.with_bodies([0.25]).inertia([0.1, 0.2]), changed([2, 0.25], [0, 0]).inertia([0.1, 0.2]), rtol=1e-13)
 
 
