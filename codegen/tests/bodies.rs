@@ -183,17 +183,16 @@ fn zeros_may_stay_zeros() {
 /// Frames of links that are not those of rows, limbs, joints that follow others, a base that floats.
 #[test]
 fn bodies_are_in_the_frames_of_the_file() {
-    let tilted = support::source("payload_frame", "").replace(
+    let asked = "outputs: inverse_dynamics, inertia; parameters: bodies; scalar: f64";
+    let source = support::source("payload_frame", "");
+    check(&source, asked, 2);
+    let tilted = source.replace(
         "axis = [0, 1, 0]\nmass = 1\n",
         "axis = [0.2, 0.9, -0.4]\nmass = 1\n",
     );
-    let asked = "outputs: inverse_dynamics, inertia; parameters: bodies; scalar: f64";
-    check(&support::source("payload_frame", ""), asked, 4);
-    check(&tilted, asked, 4);
-    let without = tilted.replace("payload_frame = { xyz = [0.1, -0.2, 0.05] }\n", "");
-    check(&without, asked, 2);
+    check(&tilted, &asked.replace(", inertia", ""), 2);
     // cos² π/4 is a half, which exact numbers do not see.
-    let eighth = without.replace("rpy = [\"pi/2\", 0, 0]", "rpy = [\"pi/4\", 0, 0]");
+    let eighth = source.replacen("rpy = [\"pi/2\", 0, 0]", "rpy = [\"pi/4\", 0, 0]", 1);
     check(&eighth, asked, 2);
     for name in ["slide_with_follower", "slides_on_limbs"] {
         let path = format!(
