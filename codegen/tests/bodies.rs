@@ -2,7 +2,7 @@
 //! gives, and the checker shows it.
 
 use dalembert_checker::certify::{Demand, Report, certify};
-use dalembert_codegen::workspace::{Emitted, JointState, Runtime, claim};
+use dalembert_codegen::workspace::{Emitted, JointState, Runtime, claim, keep};
 use dalembert_codegen::{Function, Generated, Request};
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::write;
@@ -307,6 +307,25 @@ fn bodies_have_ranges() {
         read_robot(&write(&read_robot(&source))),
         read_robot(&source)
     );
+}
+
+/// Loads of armatures and of friction may have as many numbers.
+#[test]
+fn plans_tell_loads_apart() {
+    let case = |parameter: &str| {
+        let asked = format!("outputs: inverse_dynamics; parameters: {parameter}; scalar: f64");
+        Case::new("planar2r", "", &asked)
+    };
+    let armature = case("armature");
+    let plan = keep(
+        armature.robot(),
+        &armature.request,
+        &armature.searched(),
+        None,
+    )
+    .plan;
+    let is_planned = |own: &Generated| own.functions[1].planned;
+    assert!(is_planned(&armature.by(&plan)) && !is_planned(&case("viscous").by(&plan)));
 }
 
 #[test]

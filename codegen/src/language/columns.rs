@@ -159,26 +159,28 @@ impl Columns {
         let (mut parameters, mut passed) = (vec!["const size_t n".to_owned()], Vec::new());
         let (mut gathered, mut stored) = (String::new(), String::new());
         let mut load = None;
-        let at = |index: usize| match index {
-            0 => "s".to_owned(),
-            1 => "n + s".to_owned(),
-            more => format!("({more}U * n) + s"),
+        let at = |index: usize| entry(index, ["n", "s"]);
+        // A thread of a kernel may be of another state than its load.
+        let of_load = match names.language() {
+            Language::Cuda => ["loads", "l"],
+            Language::C | Language::Rust => ["n", "s"],
         };
         for &argument in &program.arguments {
             let (name, length) = (argument.name(), argument.length(sizes));
-            let entries = list((0..length).map(|index| format!("{name}[{}]", at(index))));
             if argument == Argument::Load {
                 let kind = argument_structure(argument, names).unwrap_or_default();
                 let one = list((0..length).map(|index| format!("load[{index}]")));
+                let each = (0..length).map(|index| format!("load[{}]", entry(index, of_load)));
                 let declared =
                     |entries| format!("        const {kind} load_s[1] = {{{{{{{entries}}}}}}};\n");
-                load = Some([one, entries].map(declared));
+                load = Some([one, list(each)].map(declared));
                 parameters.push("const size_t loads".to_owned());
                 parameters.push(format!("const {float} *{restrict} load"));
                 passed.push("load_s".to_owned());
                 continue;
             }
             parameters.push(format!("const {float} *{restrict} {name}"));
+            let entries = list((0..length).map(|index| format!("{name}[{}]", at(index))));
             gathered += &match argument_structure(argument, names) {
                 Some(kind) => {
                     format!("        const {kind} {name}_s[1] = {{{{{{{entries}}}}}}};\n")
@@ -278,11 +280,13 @@ pub(crate) fn batch(program: &Program, code: &Code, names: &Names) -> String {
     )
 }
 
-/// Where entry i of load l stands among so many, instead of entry i of state s.
-fn of_loads(each: &str) -> String {
-    let each = each.replace("* n) + s", "* loads) + l");
-    each.replace("n + s", "loads + l")
-        .replace("load[s]", "load[l]")
+/// Returns the place of an entry of one of so many states, or loads.
+fn entry(index: usize, [count, one]: [&str; 2]) -> String {
+    match index {
+        0 => one.to_owned(),
+        1 => format!("{count} + {one}"),
+        more => format!("({more}U * {count}) + {one}"),
+    }
 }
 
 const LOADS: &str = " There are n\n * loads, or 1 for all states.";
@@ -295,7 +299,7 @@ fn kernel(program: &Program, names: &Names) -> String {
         None => (String::new(), ""),
         Some([_, each]) => {
             let place = "        const size_t l = (loads == 1U) ? 0U : s;\n";
-            (format!("{place}{}", of_loads(each)), LOADS)
+            (format!("{place}{each}"), LOADS)
         }
     };
     format!(

@@ -54,7 +54,12 @@ impl ParametersKey {
         }
         let load = setup.load().filter(|_| taken.contains(&Argument::Load));
         let numbers = load.map_or(&[][..], |load| &load.numbers);
-        let lines = numbers.iter().map(|number| format!("{number}\n"));
+        // Two loads may be the same numbers of other unknowns; a payload's has no more lines than before.
+        let given = RuntimeParameter::LOADING.into_iter();
+        let given = given.filter(|own| load.is_some() && setup.has(*own));
+        let given = given.filter(|own| *own != RuntimeParameter::Payload);
+        let given = given.map(|own| format!("{} {:?}\n", own.name(), setup.body_links()));
+        let lines = given.chain(numbers.iter().map(|number| format!("{number}\n")));
         Some(ParametersKey {
             taken,
             load: numbers.len(),

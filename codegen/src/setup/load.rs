@@ -137,7 +137,7 @@ impl Unknowns {
         self.angles.iter().map(value).collect()
     }
 
-    /// Returns whether a number depends on one of them.
+    /// True if a number depends on one of them.
     pub fn occur_in(&self, number: &Exact) -> bool {
         let mut found = false;
         number.map(&mut |x| Some(Exact::from(x.clone())), &mut |angle| {

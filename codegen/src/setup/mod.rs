@@ -250,14 +250,14 @@ impl Setup {
         self.has(parameter) && function.depends_on(parameter)
     }
 
-    /// Returns whether a parameter is an argument that functions take as their load.
+    /// True if functions take some parameter by their load.
     pub fn has_load(&self) -> bool {
         self.parameters
             .iter()
             .any(|own| RuntimeParameter::LOADING.contains(own))
     }
 
-    /// Returns whether a function takes a load.
+    /// True if a function takes a load.
     pub fn takes_load(&self, function: Function) -> bool {
         let mut all = RuntimeParameter::LOADING.into_iter();
         all.any(|parameter| self.takes(function, parameter))

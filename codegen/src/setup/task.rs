@@ -196,7 +196,7 @@ impl Setup {
         arguments.flat_map(move |argument| (0..rows).map(move |row| (argument, row)))
     }
 
-    /// Returns what the robot file has in the place of an argument of `load`: bodies in the frames of
+    /// Returns the robot file's numbers in the place of an argument of `load`: bodies in the frames of
     /// its links.
     pub(crate) fn defaults(&self, parameter: RuntimeParameter, scalar: ScalarType) -> Vec<Literal> {
         let values = self.exact_defaults(parameter);
@@ -207,7 +207,7 @@ impl Setup {
         values.iter().map(literal).collect()
     }
 
-    /// Returns what the robot file has in the place of an argument of `load`, in doubles.
+    /// Returns the robot file's numbers in the place of an argument of `load`, as doubles.
     pub fn file_values(&self, parameter: RuntimeParameter) -> Vec<f64> {
         let values = self.defaults(parameter, ScalarType::F64);
         values.into_iter().map(|Literal(value)| value).collect()

@@ -111,9 +111,17 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
         file = rows.in_scenes_of(file, scene);
     }
     let mut setting = file.setting(scene).map_err(of_robot)?;
-    setting
-        .take(&document.functions, &defaults)
-        .map_err(Fault::Claim)?;
+    if let Some(own) = load {
+        let of_bodies = defaults
+            .iter()
+            .filter(|(name, _)| *name == "bodies" && own.keeps_zeros);
+        let kept: Vec<f64> = of_bodies
+            .flat_map(|(_, numbers)| numbers)
+            .copied()
+            .collect();
+        let taken = setting.take(&own.arguments, links, &kept);
+        taken.map_err(Fault::Claim)?;
+    }
     let is_c = source.starts_with(c99::HEAD);
     let items = match is_c {
         true => c99::functions(source, setting.places().as_ref())?,
@@ -241,7 +249,7 @@ struct Whole<'w> {
     setting: &'w Setting<'w>,
     ranges: Ranges,
     bodies: Vec<(usize, Vec<Body>)>,
-    /// What the robot has in the place of arguments of `load`.
+    /// The robot's numbers in the place of arguments of `load`.
     defaults: Vec<Default>,
     worst: f64,
     work: Work,

@@ -269,7 +269,7 @@ impl Arm {
         Ok(names.zip(values.iter().map(f64::nearest)).collect())
     }
 
-    /// Returns what the robot file has in the place of the arguments of `load`, by their names: of
+    /// Returns the robot file's numbers in the place of the arguments of `load`, by their names: of
     /// `bodies` ten numbers a link of [`body_links`](Arm::body_links).
     ///
     /// # Errors

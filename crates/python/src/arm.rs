@@ -137,7 +137,7 @@ impl Arm {
         self.0.parameters().map_err(|error| raised(&error))
     }
 
-    /// Returns what the robot has in the place of the arguments of `load`, by their names.
+    /// Returns the robot's numbers in the place of the arguments of `load`, by their names.
     #[getter]
     fn loading(&self) -> PyResult<Vec<(&'static str, Vec<f64>)>> {
         self.0.loading().map_err(|error| raised(&error))

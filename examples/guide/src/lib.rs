@@ -32,7 +32,7 @@ dalembert::dynamics! {
 }
 
 dalembert::dynamics! {
-    /// The same arm with the bodies of its links as arguments.
+    /// This arm with the bodies of its links as arguments.
     pub mod varied = "robots/arm.toml";
     outputs: inverse_dynamics;
     scalar: f64;

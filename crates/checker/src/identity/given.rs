@@ -1,4 +1,4 @@
-//! What a function that takes a `load` is given: bodies of links, drives, a payload.
+//! Bodies of links, drives and a payload: the arguments of the function `load`.
 
 use num_traits::ToPrimitive;
 
@@ -9,44 +9,36 @@ use super::robot::{Bodies, File};
 use super::screw::{Body, Pose, Vector};
 use super::setting::Setting;
 use super::state::State;
-use crate::claim::Claimed;
-use crate::defaults::Default;
 use crate::payload;
-use crate::program::{ARGUMENTS, LOAD, argument};
+use crate::program::{ARGUMENTS, argument};
 
-/// What `load` can be of.
+/// The arguments that `load` can have.
 pub const LOADING: [&str; 4] = ["payload", "bodies", "armature", "viscous"];
 /// The largest mass, kg, and radius, m.
 const MOST: f64 = 1e9;
 /// A number below this is taken for zero.
 const NOTHING: f64 = 1e-18;
-/// Those of them that the robot file has numbers for.
+/// Those in whose place the robot file has numbers.
 pub const DEFAULTS: [&str; 3] = ["bodies", "armature", "viscous"];
 /// The largest mass of a link that weighs nothing in the file, kg, and how far its body reaches, m.
 const LIGHT: (f64, f64) = (1.0, 0.3);
 
 impl Setting<'_> {
-    /// Takes from a claim which arguments `load` has, and of which links the bodies are; the robot file
-    /// has these numbers in their place.
+    /// Takes from a claim the arguments of `load` and the links whose bodies they are. The robot file has
+    /// these numbers in the place of bodies, of which those that are zero stay zero, if there are any.
     ///
     /// # Errors
     /// Links that the robot has not, or not in order.
-    pub(crate) fn take(
+    pub fn take(
         &mut self,
-        functions: &[Claimed],
-        defaults: &[Default],
+        arguments: &[String],
+        links: &[usize],
+        kept: &[f64],
     ) -> Result<(), String> {
-        let Some(load) = functions.iter().find(|own| own.function == LOAD) else {
-            return Ok(());
-        };
-        let places = load.arguments.iter().map(|name| argument(name));
+        let places = arguments.iter().map(|name| argument(name));
         self.loading = places.flatten().collect();
-        self.bodies.clone_from(&load.bodies);
-        let of_bodies = defaults
-            .iter()
-            .filter(|(name, _)| load.keeps_zeros && *name == "bodies");
-        let numbers = of_bodies.flat_map(|(_, numbers)| numbers);
-        self.zeros = numbers.map(|x| x.abs() < NOTHING).collect();
+        self.bodies = links.to_vec();
+        self.zeros = kept.iter().map(|x| x.abs() < NOTHING).collect();
         let (first, last) = (usize::from(!self.floats), self.links());
         let is_there = |link: &usize| (first..=last).contains(link);
         let are_in_order = self.bodies.is_sorted_by(|one, next| one < next);
@@ -55,7 +47,7 @@ impl Setting<'_> {
                 "`bodies` are not of links {first} to {last}, in order"
             ));
         }
-        let is_taken = load.arguments.iter().any(|name| name == "bodies");
+        let is_taken = arguments.iter().any(|name| name == "bodies");
         if is_taken == self.bodies.is_empty() {
             return Err("`bodies` of no links, or of links and no argument".into());
         }
@@ -127,15 +119,20 @@ fn around([mass, x, y, z, xx, yy, zz, ..]: [f64; 10]) -> payload::Body {
     }
 }
 
+fn double(text: &str) -> Result<f64, String> {
+    let value = number(text).and_then(|own| own.to_f64());
+    value.ok_or_else(|| format!("`{text}` is not a number"))
+}
+
 impl Bodies {
     /// Returns the range that it is; `key` is its own.
     ///
     /// # Errors
     /// It is not one.
     pub(super) fn read(&self, key: &str) -> Result<payload::Body, String> {
-        let read = |text: &String| number(text)?.to_f64();
         let read = |[low, high]: &[String; 2]| {
-            let (mass, radius) = ([read(low)?, read(high)?], read(&self.radius)?);
+            let [low, high, radius] = [low, high, &self.radius].map(|text| double(text).ok());
+            let (mass, radius) = ([low?, high?], radius?);
             let is_range = 0.0 <= mass[0] && mass[0] <= mass[1] && 0.0 <= radius;
             (is_range && mass[1].max(radius) <= MOST).then_some(payload::Body { mass, radius })
         };
@@ -167,24 +164,17 @@ impl File {
         let texts = [(0, mass)].into_iter().filter(|(_, text)| !text.is_empty());
         let texts = texts.chain((1..).zip(com)).chain((4..).zip(inertia));
         for (place, text) in texts {
-            let value = number(text).and_then(|own| own.to_f64());
-            numbers[place] =
-                value.ok_or_else(|| format!("link {link}: `{text}` is not a number"))?;
+            numbers[place] = double(text).map_err(|why| format!("link {link}: {why}"))?;
         }
         Ok(numbers)
     }
 
-    /// Returns what an argument of `load` is of this robot: of some links, or of all rows.
+    /// Returns this robot's numbers in the place of an argument of `load`: of some links, or of all rows.
     ///
     /// # Errors
     /// One that is not a number.
     pub fn defaults(&self, name: &str, links: &[usize]) -> Result<Vec<f64>, String> {
-        let read = |text: &Option<String>| match text {
-            Some(text) => number(text)
-                .and_then(|own| own.to_f64())
-                .ok_or_else(|| format!("`{text}` is not a number")),
-            None => Ok(0.0),
-        };
+        let read = |text: &Option<String>| text.as_ref().map_or(Ok(0.0), |text| double(text));
         match name {
             "bodies" => {
                 let all = links.iter().map(|link| self.body_of(*link));

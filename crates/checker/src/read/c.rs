@@ -275,10 +275,16 @@ impl<'r> Reader<'r> {
     /// told that no angle is far is called once more where one may be.
     fn batch(&self, symbols: &Symbols, is_told: bool, parameters: &[Parameter]) -> String {
         let (float, macros) = (self.head.float(), &symbols.macros);
-        let place = |index: usize| match index {
-            0 => "s".to_owned(),
-            1 => "n + s".to_owned(),
-            _ => format!("({index}U * n) + s"),
+        let entry = |index: usize, [count, one]: [&str; 2]| match index {
+            0 => one.to_owned(),
+            1 => format!("{count} + {one}"),
+            _ => format!("({index}U * {count}) + {one}"),
+        };
+        let place = |index: usize| entry(index, ["n", "s"]);
+        let of_load = if symbols.is_cuda {
+            ["loads", "l"]
+        } else {
+            ["n", "s"]
         };
         let restrict = match symbols.is_cuda {
             true => "__restrict__".to_owned(),
@@ -298,13 +304,14 @@ impl<'r> Reader<'r> {
         let mut load = None;
         for own in parameters {
             let (kind, name, length) = own;
-            let entries = commas((0..*length).map(|index| format!("{name}[{}]", place(index))));
             if name == "load" && kind.starts_with("const ") {
                 let one = commas((0..*length).map(|index| format!("load[{index}]")));
+                let each = (0..*length).map(|index| format!("load[{}]", entry(index, of_load)));
                 let declared = |own| format!("{kind} load_s[1] = {{{{{{{own}}}}}}}; ");
-                load = Some([one, entries].map(declared));
+                load = Some([one, commas(each)].map(declared));
                 continue;
             }
+            let entries = commas((0..*length).map(|index| format!("{name}[{}]", place(index))));
             let given = match (kind.starts_with("const "), kind.ends_with("_t")) {
                 (true, true) => format!(" = {{{{{{{entries}}}}}}}"),
                 (true, false) => format!(" = {{{entries}}}"),
@@ -332,10 +339,6 @@ impl<'r> Reader<'r> {
         if symbols.is_cuda {
             let first = "((size_t)blockIdx.x * blockDim.x) + threadIdx.x";
             let of_load = load.map_or_else(String::new, |[_, own]| {
-                let own = own.replace("* n) + s", "* loads) + l");
-                let own = own
-                    .replace("n + s", "loads + l")
-                    .replace("load[s]", "load[l]");
                 format!("const size_t l = (loads == 1U) ? 0U : s; {own}")
             });
             let body = format!("{of_load}{}", each("", &single));

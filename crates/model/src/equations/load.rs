@@ -1,4 +1,4 @@
-//! What bodies, rotors and friction that are arguments make of regrouped parameters.
+//! Regrouped parameters that depend on bodies, rotors and friction which are arguments.
 //!
 //! Regrouped parameters are linear in the mass, the first moments and the tensor of each link about the
 //! origin of its row's frame, in armatures and in viscous friction. So a *load*, the numbers of a

@@ -201,7 +201,7 @@ class Arm:
             arrays["bodies"] = arrays["bodies"].reshape(-1, 10)
         return arrays
 
-    @property
+    @functools.cached_property
     def body_links(self) -> tuple[int, ...]:
         """The links whose bodies ``load`` takes, counted from one; 0 is a base that floats."""
         return tuple(self._native.body_links)
