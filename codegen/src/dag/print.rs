@@ -106,7 +106,8 @@ impl Points {
     }
 
     fn constant_angle<const P: u64>(&self, angle: &Angle, point: usize) -> SinCosPair<Modulo<P>> {
-        circle(mix([self.seed, point as u64, 5, hash_angle(angle)]))
+        let parameter = mix([self.seed, point as u64, 5, hash_angle(angle)]);
+        Modulo::of_angle(angle, || Modulo::circle_point(Modulo::new(parameter)))
     }
 
     /// Returns true if a field cannot tell a constant from zero: its prime divides a coefficient.

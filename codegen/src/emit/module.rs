@@ -211,12 +211,12 @@ pub(super) fn header(
     let proved = match functions.iter().any(|function| function.admitted.is_some()) {
         false => [
             "Every function was proved before it was printed: with exact constants it equals",
-            "the equations of motion at random points modulo 2⁶¹ − 45, and this text, read",
+            "the equations of motion at random points modulo 2⁶¹ − 465, and this text, read",
             "back, is the proved program with each constant rounded once.",
         ],
         true => [
             "Every function was proved before anything was left out of it: with exact",
-            "constants it equals the equations of motion at random points modulo 2⁶¹ − 45.",
+            "constants it equals the equations of motion at random points modulo 2⁶¹ − 465.",
             "Each function lists what was then left out of it, within the scene's tolerance.",
         ],
     };

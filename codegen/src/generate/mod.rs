@@ -427,7 +427,7 @@ fn proved(job: &Job<'_>, function: Function) -> Outcome<GeneratedFunction> {
     let proof = prove(setup, &program).map_err(|disproof| match vanishing(setup) {
         Some(value) => {
             let message = format!(
-                "`{function}`: the constant {value} is divisible by 2^61 - 1 or 2^61 - 45, modulo \
+                "`{function}`: the constant {value} is divisible by 2^61 - 1 or 2^61 - 465, modulo \
                  which search and proof tell values apart"
             );
             GenerateError::refused(function, message, "change its last digit")

@@ -41,12 +41,15 @@ impl ScalarType {
         self.of(f64::MIN_POSITIVE, f32::MIN_POSITIVE.into())
     }
 
-    /// Rounds a constant once from its exact value; the double holds the rounded value exactly.
+    /// Rounds a constant once from its exact value; the double holds the rounded value exactly, and
+    /// zero has no sign.
     pub fn round(self, value: &Exact) -> f64 {
-        match self {
+        let rounded = match self {
             ScalarType::F64 => f64::nearest(value),
             ScalarType::F32 => f64::from(f32::nearest(value)),
-        }
+        };
+        // A sum of sines that is zero ends between −0.0 and 0.0.
+        rounded + 0.0
     }
 
     pub(crate) fn round_rational(self, value: &Rational) -> f64 {

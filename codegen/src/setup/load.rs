@@ -10,7 +10,7 @@
 use dalembert_model::equations::chain::{Body, Regrouping};
 use dalembert_model::equations::load::LoadRow;
 use dalembert_model::equations::regressor::{Column, LinkParameter, Probed};
-use dalembert_model::number::{Angle, Exact, Rational, Wide};
+use dalembert_model::number::{Angle, Exact, Rational};
 use dalembert_model::outputs::{Argument, RuntimeParameter};
 use dalembert_model::robot::{Placement, Position};
 use dalembert_model::scalar::{Scalar, SinCosPair};
@@ -156,20 +156,13 @@ impl Unknowns {
             Exact::sincos(angle)
         });
         occurring.sort_unstable();
-        let coefficients = occurring.into_iter().flat_map(|place| {
+        let coefficients = occurring.into_iter().filter_map(|place| {
             let with = self.where_one_is(number, Some(&self.angles[place]));
             let factor = with.sub(&own);
-            // cos² π/4 − ½ is zero, but not to exact numbers: its parts are not.
-            let is_nothing = Wide::from_exact(&factor).magnitude() < 1e-60;
-            let parts = if is_nothing {
-                factor.monomials()
-            } else {
-                vec![factor]
-            };
-            parts.into_iter().map(move |factor| (place, factor))
+            (!factor.is_zero()).then_some((place, factor))
         });
         LoadRow {
-            of: coefficients.filter(|(_, x)| !x.is_zero()).collect(),
+            of: coefficients.collect(),
             own,
         }
     }

@@ -1,6 +1,6 @@
 //! The exact proof: the final program equals Lagrange–Euler as written.
 //!
-//! Both are evaluated with their exact constants modulo p = 2⁶¹ − 45 at four to ten points that
+//! Both are evaluated with their exact constants modulo p = 2⁶¹ − 465 at four to ten points that
 //! follow from the SHA-256 of robot, scene and program. Above [`WRITTEN_LIMIT`] joints on the way
 //! to a tip, of which a base that floats has six, the reference is the link-frame recursion,
 //! itself proved against Lagrange–Euler for every joint kind and convention at up to that many
@@ -66,7 +66,7 @@ pub enum Disproof {
     Dependence(String),
     /// The program has another number of outputs.
     Shape,
-    /// Constants or divisors vanish, or have no value, modulo 2⁶¹ − 45.
+    /// Constants or divisors vanish, or have no value, modulo 2⁶¹ − 465.
     Unfit,
     /// The degree is so large that a miss is not unlikely.
     Large,
@@ -81,7 +81,7 @@ impl fmt::Display for Proof {
         };
         write!(
             f,
-            "equals {formula} at {} random points modulo 2⁶¹ − 45 (a wrong program passes with \
+            "equals {formula} at {} random points modulo 2⁶¹ − 465 (a wrong program passes with \
              probability below 1e{})",
             self.points,
             Proof::FAILURE_EXPONENT
@@ -100,7 +100,7 @@ impl fmt::Display for Disproof {
             ),
             Disproof::Shape => f.write_str("the number of outputs differs from the formula's"),
             Disproof::Unfit => f.write_str(
-                "constants or divisors vanish modulo 2⁶¹ − 45: write parameters as short decimals",
+                "constants or divisors vanish modulo 2⁶¹ − 465: write parameters as short decimals",
             ),
             Disproof::Large => f.write_str("the program's degree is too large to be proved"),
         }

@@ -39,7 +39,7 @@ const POINT: u32 = 60;
 /// because values are missing.
 const DRAWS: usize = 4;
 
-/// A residue modulo 2⁶¹ − 45. The search has another prime: what it takes for equal by chance, or
+/// A residue modulo 2⁶¹ − 465. The search has another prime: what it takes for equal by chance, or
 /// because its prime divides a difference, is not equal here.
 pub(super) type Residue = Sparse<ProofField>;
 
@@ -91,7 +91,7 @@ impl Leaves for Point {
         Sparse::Value(self.points.input_at(input, self.index))
     }
 
-    /// Lost where 2⁶¹ − 45 divides a coefficient or a denominator.
+    /// Lost where 2⁶¹ − 465 divides a coefficient or a denominator.
     fn constant(&self, constant: &Exact) -> Residue {
         match self.points.constant_at(constant, self.index) {
             Some(value) if !Points::lose::<{ ProofField::P }>(constant) => {

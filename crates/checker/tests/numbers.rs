@@ -40,6 +40,17 @@ fn the_nearest_float_is_told_from_its_neighbours() {
     }
     let zero = Exact::read("0").unwrap();
     assert!(zero.is_nearest(0.0, false) && !zero.is_nearest(-0.0, false));
+    // Relations of sines of multiples of 15° make constants zero, and no others do.
+    for text in [
+        "-1+2*cos(1*pi/4)^2",
+        "-3+4*cos(1*pi/6)^2",
+        "-1/2+1*sin(1*pi/6)",
+    ] {
+        let vanishing = Exact::read(text).unwrap();
+        assert!(vanishing.is_nearest(0.0, false), "{text}");
+        let off = Exact::read(&format!("{text}+1/1{}", "0".repeat(120))).unwrap();
+        assert!(!off.is_nearest(0.0, false), "{text}");
+    }
     // The series of a large angle has lost its digits.
     let far = Exact::read("1*sin(100)").unwrap();
     assert!(!far.is_nearest(100f64.sin(), false));
@@ -67,6 +78,14 @@ fn equal_angles_have_equal_sines() {
         assert_eq!(pair(equal), [sine, cosine], "{equal}");
     }
     assert_eq!(pair("3*pi/10"), [cosine, sine]);
+    // The sines of 15°, 30°, 45°, 60°, 75° and 90° have the relations of addition.
+    let turn = |parts: u32| point.angle(&Angle::read(&format!("{parts}*pi/12")).unwrap());
+    for (first, second) in (1..12).flat_map(|first| (1..12).map(move |second| (first, second))) {
+        let ([a, b], [c, d]) = (turn(first), turn(second));
+        let sum = [a * d + b * c, b * d - a * c].map(|x| x.value(point.prime));
+        let whole = turn(first + second).map(|x| x.value(point.prime));
+        assert_eq!(whole, sum, "{first} + {second}");
+    }
     assert_eq!(pair("1.5707963267948966"), [Some(1), Some(0)]);
     assert_eq!(pair("90deg"), [Some(1), Some(0)]);
     assert_ne!(pair("0.3"), pair("0.30000000000000001"));

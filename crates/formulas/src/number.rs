@@ -258,7 +258,7 @@ impl Constants {
             let residues = match angles.iter().find(|(known, _)| known == angle) {
                 Some((_, residues)) => residues.clone(),
                 None => {
-                    let drawn = residues_of(angle, points);
+                    let drawn = Field::of_angle(angle, || points.circle());
                     angles.push((angle.clone(), drawn.clone()));
                     drawn
                 }
@@ -294,19 +294,6 @@ impl Constants {
         self.fits &= number.is_some();
         number.unwrap_or_else(Number::zero)
     }
-}
-
-/// Returns a random point of the circle. Sine and cosine of an eighth of a turn are both √½, which
-/// the field has: 2³⁰.
-fn residues_of(angle: &Angle, points: &mut Points) -> SinCosPair<Field> {
-    let eighth = Angle::PiTimes(Rational::new(1.into(), 4.into()));
-    let root = Field::new(1 << 30);
-    let (sin, cos) = if *angle == eighth {
-        (root, root)
-    } else {
-        points.circle()
-    };
-    SinCosPair { sin, cos }
 }
 
 #[cfg(test)]

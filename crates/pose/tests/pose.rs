@@ -130,7 +130,7 @@ fn dot(a: [Residue; 3], b: [Residue; 3]) -> Residue {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Modulo 2⁶¹ − 45, at random quaternions of any length.
+/// Modulo 2⁶¹ − 465, at random quaternions of any length.
 #[test]
 fn rotations_are_those_of_the_textbook() {
     let mut points = Points::new(1);

@@ -156,7 +156,7 @@ impl BaseParameters {
         candidates.extend(drives.iter().cloned());
 
         let unfit = || {
-            let message = "a parameter is divisible by 2^61 - 1 or 2^61 - 45, modulo which columns \
+            let message = "a parameter is divisible by 2^61 - 1 or 2^61 - 465, modulo which columns \
                            are compared";
             no_base(message, "change its last digit")
         };

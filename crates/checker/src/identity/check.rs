@@ -12,10 +12,10 @@ use super::table::{Field, Function};
 use crate::program::{Program, argument};
 
 /// A wrong program passes with a probability below 2 to the power of minus this.
-const CERTAINTY: u32 = 144;
+const CERTAINTY: u32 = 140;
 /// A wrong difference of a degree d passes a point with a probability below d times 2 to the power
 /// of minus this: `mod.rs`.
-const POINT: u32 = 104;
+const POINT: u32 = 100;
 /// The largest degree of a difference.
 const MOST_DEGREE: f64 = (1u128 << 80) as f64;
 

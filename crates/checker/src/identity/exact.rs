@@ -349,9 +349,14 @@ impl Exact {
         };
         let is_exact = rounded.slack.is_zero();
         // Printed code has no zero with a sign. A number that is not zero does not vanish: others
-        // could be as large as it is small.
+        // could be as large as it is small. A sum of sines may be zero, as 2 cos² π/4 − 1 is.
         if literal == 0.0 {
-            return literal.is_sign_positive() && is_exact && rounded.over.is_zero();
+            let is_zero = rounded.over.abs() <= rounded.slack;
+            let vanishes = || {
+                let point = Point::new(&[&format!("{:?}", self.0.terms)]);
+                !point.constant(self).is_nonzero()
+            };
+            return literal.is_sign_positive() && is_zero && (is_exact || vanishes());
         }
         let own = literal as f32;
         if is_single && f64::from(own) != literal {
@@ -428,12 +433,34 @@ impl Point {
         part(value.numer()) / part(value.denom())
     }
 
-    /// Returns sine and cosine of a constant angle: a point of the circle, drawn once for an angle
-    /// up to an eighth of a turn or of positive radians, so that angles share theirs.
+    /// Returns sine and cosine of a twenty-fourth of a turn, a twelfth or an eighth, by √2 and √3.
+    fn part_of_turn(&self, angle: &Angle) -> Option<[Number; 2]> {
+        let Angle::Pi(multiple) = angle else {
+            return None;
+        };
+        let [one, half] = [1.into(), self.half()];
+        let [two, three] = [2, 3].map(|square| Number::new(square, self.prime).root());
+        let parts = multiple * BigInt::from(12);
+        let parts = parts.is_integer().then(|| parts.to_u8());
+        Some(match parts?? {
+            1 => [three - one, three + one].map(|x| x * two * half * half),
+            2 => [half, three * half],
+            3 => [two * half; 2],
+            _ => return None,
+        })
+    }
+
+    /// Returns sine and cosine of a constant angle: a point of the circle, which one angle up to an
+    /// eighth of a turn or of positive radians gives to all that follow from it. Multiples of a
+    /// twenty-fourth of a turn have all their relations, other angles are drawn.
     pub fn angle(&self, angle: &Angle) -> [Number; 2] {
         let drawn = |angle: Angle| {
-            let mut angles = self.angles.borrow_mut();
-            *angles.entry(angle).or_insert_with(|| self.pair())
+            if let Some(known) = self.angles.borrow().get(&angle) {
+                return *known;
+            }
+            let pair = self.part_of_turn(&angle).unwrap_or_else(|| self.pair());
+            self.angles.borrow_mut().insert(angle, pair);
+            pair
         };
         let multiple = match angle {
             Angle::Pi(multiple) => multiple,
@@ -450,7 +477,7 @@ impl Point {
         let rest = halves - whole;
         let [sin, cos] = if rest.is_zero() {
             [0.into(), 1.into()]
-        } else if rest > half || rest == half && quarters % 2 == 1 {
+        } else if rest > half {
             let [sin, cos] = drawn(Angle::Pi((Rational::one() - rest) * half));
             [cos, sin]
         } else {

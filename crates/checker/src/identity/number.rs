@@ -139,6 +139,13 @@ impl Number {
         (self.prime.value != LOST).then(|| prime.outward(self.entry(0, prime)))
     }
 
+    /// Returns the square root of a residue that has one, modulo a prime of the form 4 k − 1.
+    pub fn root(self) -> Number {
+        let exponent = self.prime.value.div_ceil(4);
+        let parts = [self.prime.power(self.parts[0], exponent), 0, 0, 0];
+        Number { parts, ..self }
+    }
+
     /// Returns true for any number but zero.
     pub fn is_nonzero(self) -> bool {
         self.parts[0] != 0
@@ -301,10 +308,11 @@ impl Draws {
         u128::from(self.next()) << 64 | u128::from(self.next())
     }
 
-    /// Returns the next prime of 126 bits.
+    /// Returns the next prime of 126 bits of the form 24 k − 1, modulo which 2 and 3 have roots.
     pub fn prime(&mut self) -> Prime {
         loop {
-            let number = self.pair() >> 2 | 1 << 125 | 1;
+            let number = self.pair() >> 2 | 1 << 125;
+            let number = number - number % 24 + 23;
             let is_small = |small: &u128| number.is_multiple_of(*small);
             if SMALL.iter().any(is_small) {
                 continue;

@@ -64,6 +64,16 @@ impl Angle {
         }
     }
 
+    /// Tests for π/4 itself, whose sine and cosine are both √½.
+    pub fn is_eighth(&self) -> bool {
+        match self {
+            Angle::PiTimes(multiple) => {
+                multiple.numer().is_one() && multiple.denom().to_u8() == Some(4)
+            }
+            Angle::Radians(_) | Angle::TwiceAtan(_) => false,
+        }
+    }
+
     /// True for zero, in any form.
     pub fn is_zero(&self) -> bool {
         self.number().is_zero()

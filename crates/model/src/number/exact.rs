@@ -1,9 +1,13 @@
 //! Constants, exact to the end: polynomials over ℚ in the sines and cosines of constant angles.
 //!
-//! Every angle that is no multiple of π/2 contributes two generators, its sine and its cosine, with
-//! the one relation s² = 1 − c². Relations between different angles (sin π/3 and cos π/6 are the
-//! same generator, but 2·cos² π/6 − 1 = sin π/6 is not known) are lost, never wrongly assumed: two
-//! equal constants may look different, two different ones never look equal.
+//! Every angle that is not a multiple of π/4 contributes two generators, its sine and its cosine,
+//! with the one relation s² = 1 − c². An eighth of a turn contributes one, √½ = sin π/4 = cos π/4,
+//! whose square is ½. Relations between different angles (sin π/3 and cos π/6 are the same generator,
+//! but 2·cos² π/6 − 1 = sin π/6 is not known) are lost, never wrongly assumed: two equal constants
+//! may look different, two different ones never look equal. [`Modulo::of_angle`] has the relations
+//! in the fields of searches and proofs.
+//!
+//! [`Modulo::of_angle`]: crate::scalar::field::Modulo::of_angle
 
 use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
@@ -168,19 +172,6 @@ impl Exact {
         (!divisor.is_zero()).then(|| self.scale(&divisor.recip()))
     }
 
-    /// Returns its monomials, whose sum it is.
-    pub fn monomials(&self) -> Vec<Exact> {
-        match &self.0 {
-            Form::Rational(_) => alloc::vec![self.clone()],
-            Form::Polynomial(terms) => {
-                let single = |(monomial, x): (&Monomial, &Rational)| {
-                    Exact::from_terms(Terms::from([(monomial.clone(), x.clone())]))
-                };
-                terms.iter().map(single).collect()
-            }
-        }
-    }
-
     /// Returns the number of monomials: 1 for a rational.
     pub fn terms(&self) -> usize {
         match &self.0 {
@@ -313,7 +304,7 @@ fn generator(angle: &Arc<Angle>, sin: u32, cos: u32) -> Exact {
     Exact(Form::Polynomial(Arc::new(terms)))
 }
 
-/// Adds c · m · n to the terms, each s² replaced by 1 − c².
+/// Adds c · m · n to the terms, each s² replaced by 1 − c², and by ½ for an eighth of a turn.
 fn multiply_into(terms: &mut Terms, m: &Monomial, n: &Monomial, c: &Rational) {
     let mut product = m.clone();
     for power in n {
@@ -325,7 +316,15 @@ fn multiply_into(terms: &mut Terms, m: &Monomial, n: &Monomial, c: &Rational) {
             Err(at) => product.insert(at, power.clone()),
         }
     }
-    let mut pending = Vec::from([(product, c.clone())]);
+    let mut factor = c.clone();
+    product.retain_mut(|power| {
+        if power.cos >= 2 && power.angle.is_eighth() {
+            power.cos -= 2;
+            factor *= ratio(1, 2);
+        }
+        power.sin + power.cos > 0
+    });
+    let mut pending = Vec::from([(product, factor)]);
     while let Some((mut monomial, coefficient)) = pending.pop() {
         match monomial.iter().position(|power| power.sin == 2) {
             None => {
@@ -351,7 +350,11 @@ fn multiply_into(terms: &mut Terms, m: &Monomial, n: &Monomial, c: &Rational) {
 fn reduce(angle: &Angle) -> (u8, [Exact; 2]) {
     let generators = |angle: Angle| {
         let angle = Arc::new(angle);
-        [generator(&angle, 1, 0), generator(&angle, 0, 1)]
+        let cos = generator(&angle, 0, 1);
+        match angle.is_eighth() {
+            true => [cos.clone(), cos],
+            false => [generator(&angle, 1, 0), cos],
+        }
     };
     match angle {
         Angle::PiTimes(multiple) => {
@@ -364,9 +367,7 @@ fn reduce(angle: &Angle) -> (u8, [Exact; 2]) {
                 return (turns, [Exact::zero(), Exact::one()]);
             }
             let half = ratio(1, 2);
-            // At the eighth turn itself either would do; this one makes the
-            // opposite angle's pair (−s, c), so that the two cancel.
-            if rest > half || (rest == half && turns % 2 == 1) {
+            if rest > half {
                 let rest = Rational::one() - rest;
                 let [sin, cos] = generators(Angle::PiTimes(rest * half));
                 return (turns, [cos, sin]);
@@ -415,6 +416,20 @@ mod tests {
             let r = Exact::sincos(&angle);
             assert!(r.sin.mul(&r.sin).add(&r.cos.mul(&r.cos)).is_one());
         }
+    }
+
+    #[test]
+    fn an_eighth_of_a_turn_is_the_root_of_one_half() {
+        let [eighth, back, three] = [1, -1, 3].map(|n| Exact::sincos(&pi_times(n, 4)));
+        assert_eq!(eighth.sin, eighth.cos);
+        assert_eq!(eighth.sin, three.sin);
+        assert_eq!(back.sin, three.cos);
+        assert_eq!(eighth.sin.mul(&eighth.cos), Exact::from(ratio(1, 2)));
+        let turn = eighth.compose(&eighth);
+        assert!(turn.sin.is_one() && turn.cos.is_zero());
+        let other = Exact::sincos(&pi_times(1, 5)).cos;
+        let product = other.mul(&eighth.cos).mul(&eighth.sin);
+        assert_eq!(product, other.half());
     }
 
     #[test]

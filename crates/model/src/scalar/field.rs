@@ -7,7 +7,8 @@
 use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 
-use super::{Divide, Scalar};
+use super::{Divide, Scalar, SinCosPair};
+use crate::number::Angle;
 
 /// A residue modulo a prime, kept below it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
@@ -17,8 +18,8 @@ pub struct Modulo<const PRIME: u64>(u64);
 pub type Field = Modulo<{ (1 << 61) - 1 }>;
 
 /// The field of proofs, and of the second look at fractions that the field of searches finds:
-/// integers modulo 2⁶¹ − 45.
-pub type ProofField = Modulo<{ (1 << 61) - 45 }>;
+/// integers modulo 2⁶¹ − 465.
+pub type ProofField = Modulo<{ (1 << 61) - 465 }>;
 
 impl<const PRIME: u64> Modulo<PRIME> {
     /// The prime.
@@ -29,7 +30,7 @@ impl<const PRIME: u64> Modulo<PRIME> {
     pub const ONE: Self = Modulo(1);
     /// 2⁶¹ modulo the prime.
     const EXCESS: u64 = {
-        assert!(PRIME < 1 << 61 && PRIME > (1 << 61) - (1 << 10) && PRIME % 4 == 3);
+        assert!(PRIME < 1 << 61 && PRIME > (1 << 61) - (1 << 10) && PRIME % 8 == 7);
         (1 << 61) - PRIME
     };
 
@@ -84,6 +85,19 @@ impl<const PRIME: u64> Modulo<PRIME> {
         let sin = t.double().mul(&scale);
         let cos = Self::ONE.sub(&square).mul(&scale);
         (sin, cos)
+    }
+
+    /// Returns sine and cosine of a constant angle as exact numbers have them: both √½ for an eighth
+    /// of a turn, which is a residue for a prime of the form 8k − 1, and any other point of the
+    /// circle for another angle.
+    pub fn of_angle(angle: &Angle, other: impl FnOnce() -> (Self, Self)) -> SinCosPair<Self> {
+        let (sin, cos) = if angle.is_eighth() {
+            let root = Self::ONE.half().pow(PRIME.div_ceil(4));
+            (root, root)
+        } else {
+            other()
+        };
+        SinCosPair { sin, cos }
     }
 
     /// `x` is below 2p.
@@ -209,6 +223,10 @@ mod tests {
             let (sin, cos) = Own::circle_point(a);
             assert_eq!(sin.mul(&sin).add(&cos.mul(&cos)), one);
         }
+        let eighth = Angle::PiTimes(BigRational::new(1.into(), 4.into()));
+        let pair = Own::<PRIME>::of_angle(&eighth, || (zero, zero));
+        assert_eq!(pair.sin.mul(&pair.cos).double(), one);
+        assert_eq!(pair.sin, pair.cos);
         let top = zero.sub(&one);
         assert_eq!(top.0, PRIME - 1);
         assert_eq!(top.mul(&top), one);
