@@ -12,7 +12,7 @@ mod rounds;
 
 use std::hint::black_box;
 
-use dalembert::batch::{Vectors, columns_in, parallel};
+use dalembert::batch::{Argument, Vectors, columns_in, parallel};
 use dalembert_model::scalar::field::Points;
 
 #[path = "generated/puma560_batch.rs"]
@@ -115,9 +115,10 @@ macro_rules! bench {
                     continue;
                 }
                 let mut slices = in_columns.each_mut().map(|column| aligned(column, STATES));
-                let arguments = black_box(columns.each_ref());
+                let arguments = black_box(columns.each_ref().map(|own| Argument::Columns(own)));
                 rounds.time(name, || {
-                    columns_in::<Kind, 3, 6, $results, 4>(vectors, arguments, &mut slices).unwrap();
+                    columns_in::<Kind, 18, $results, 4, 0>(vectors, &arguments, &mut slices)
+                        .unwrap();
                 });
                 let program = match vectors {
                     Vectors::Avx512 => &mut $compiled.wide,
@@ -132,7 +133,7 @@ macro_rules! bench {
                 assert!(own == *expected);
             }
         }
-        let operations = ports::operations::<Kind, 3, 6, $results, 4>();
+        let operations = ports::operations::<Kind, 18, $results, 4>();
         rounds.print_limits($what, |name| {
             let width = match name {
                 name if name.ends_with("AVX-512") => 512,
@@ -147,13 +148,13 @@ macro_rules! bench {
                 std::array::from_fn(|_| vec![0.0; MANY + LINE]);
             for _ in 0..ROUNDS / 4 {
                 let mut slices = in_columns.each_mut().map(|column| aligned(column, MANY));
-                let many = many.each_ref();
+                let many = many.each_ref().map(|own| Argument::Columns(own));
                 rounds.time("one thread", || {
                     let widest = Vectors::widest();
-                    columns_in::<Kind, 3, 6, $results, 4>(widest, many, &mut slices).unwrap();
+                    columns_in::<Kind, 18, $results, 4, 0>(widest, &many, &mut slices).unwrap();
                 });
                 rounds.time("all cores", || {
-                    parallel::columns::<Kind, 3, 6, $results, 4>(many, &mut slices).unwrap();
+                    parallel::columns::<Kind, 18, $results, 4, 0>(&many, &mut slices).unwrap();
                 });
             }
             rounds.print(concat!($what, ", 16384 states in columns"));

@@ -175,19 +175,19 @@ macro_rules! number {
 }
 number!(f64, f32);
 
-pub fn operations<F, const A: usize, const N: usize, const M: usize, const K: usize>() -> Operations
+pub fn operations<F, const E: usize, const M: usize, const K: usize>() -> Operations
 where
-    F: Function<A, N, M, K>,
+    F: Function<E, M, K>,
     Counted: Vector<F::Scalar>,
 {
     COUNTED.set([0; KINDS]);
-    let arguments = [[Counted; N]; A];
-    let angles: [Counted; K] = F::angles(&arguments);
+    let entries = [Counted; E];
+    let angles: [Counted; K] = F::angles(&entries);
     let (sin, cos, _) = match F::FUSED {
         true => Counted::sincos::<Fused, K>(&angles),
         false => Counted::sincos::<Rounded, K>(&angles),
     };
-    let _ = F::vectors(&arguments, &sin, &cos);
+    let _ = F::vectors(&entries, &sin, &cos);
     COUNTED.get()
 }
 

@@ -160,8 +160,9 @@ pub mod matrices;
 ///   given.
 /// - `batch: on;` adds `NAME_columns` to each function, for any number of states
 ///   ([below](#many-states)).
-/// - `parameters: payload;`, `gravity` or both make arguments of what are constants
-///   of the robot otherwise ([below](#parameters-at-run-time)).
+/// - `parameters: payload;`, `gravity`, `bodies`, `armature` or `viscous` make arguments of what are
+///   constants of the robot otherwise ([below](#parameters-at-run-time)); `bodies: 2, 5;` takes the
+///   bodies of these links alone, and `keep_zeros: on;` keeps numbers of bodies that are zero.
 /// - `scene: NAME;` generates only what that scene of the robot file needs. Then `outputs`
 ///   and `scalar` may be left out: they are the scene's.
 /// - `crate = path;` is where this crate is, if not at `::dalembert`.
@@ -245,8 +246,28 @@ pub mod matrices;
 /// constants stood, so that a payload costs a call little. Every function is proved
 /// with the payload's ten numbers as variables. Kinematics take none; what depends
 /// on more of a payload than joints feel (`potential_energy`, `reaction_wrenches`,
-/// `dalembert_terms`) is refused, as are scenes with a tolerance and `batch: on;`.
+/// `dalembert_terms`) is refused.
 /// A plan keeps their programs beside those of the robot's own parameters.
+///
+/// `bodies` are the masses, centres of mass and inertias of the links, in the frames that the robot
+/// file gives them in. `BODIES` are those of the file, and `with` puts another in a place from zero.
+/// `armature` and `viscous` friction have an entry a row, and the constants `ARMATURE` and `VISCOUS`:
+///
+/// ```
+/// dalembert::dynamics! {
+///     mod arm = "generated/robots/planar2r.toml";
+///     outputs: inverse_dynamics;
+///     parameters: bodies, viscous;
+/// }
+/// use arm::{BODIES, Body, VISCOUS};
+/// // Mass in kg, centre of mass in m, inertia about it in kg·m².
+/// let heavy = Body::new(3.0, [-0.4, 0.0, 0.0], [0.0, 0.25, 0.25, 0.0, 0.0, 0.0]);
+/// let bodies = BODIES.with(1, heavy.expect("a body has these numbers"));
+/// let (own, other) = (arm::load(&BODIES, &VISCOUS), arm::load(&bodies, &[0.1, 0.2]));
+/// let (q, qd, qdd) = ([0.3, -0.5], [0.7, 0.2], [0.0, 0.0]);
+/// let [before, after] = [&own, &other].map(|load| arm::inverse_dynamics(&q, &qd, &qdd, load));
+/// assert!(after[0] > 2.0 * before[0]);
+/// ```
 ///
 /// # Many states
 ///
@@ -268,7 +289,8 @@ pub mod matrices;
 /// ```
 ///
 /// Batches need the feature `batch` of this crate; with `std` too they take the
-/// vectors that the processor has, whatever the build is for. Every state has
+/// vectors that the processor has, whatever the build is for. `Load` and `Gravity` are slices with one
+/// a state, or with one for all. Every state has
 /// the results that it has alone, to the last bit. With `sincos: together` and `polynomial`
 /// sines are computed in vectors; libm's are called for one state after the other.
 ///

@@ -3,7 +3,7 @@
 
 use std::array::from_fn;
 
-use dalembert::batch::{self, Function, Slice, Vectors};
+use dalembert::batch::{self, Argument, Function, Slice, Vectors};
 use dalembert_model::scalar::field::Points;
 
 #[path = "../benches/generated/puma560_batch.rs"]
@@ -62,6 +62,12 @@ arm!(together, sincos: together;);
 arm!(alone, sincos: libm;);
 arm!(polynomial, sincos: polynomial; sincos_error: 1e-5;);
 arm!(fused, fma: on; sincos: together;);
+// Arguments of other lengths than the arm has joints, with types of their names and without.
+arm!(
+    loaded,
+    [inverse_dynamics, forward_dynamics_with_wrench],
+    sincos: together; parameters: bodies, viscous, payload, gravity;
+);
 // Bundles: structs of the user's, with matrices of other shapes, a number and quotients.
 arm!(
     bundled,
@@ -133,7 +139,8 @@ macro_rules! check {
             match vectors {
                 None => $module::$columns($(&$argument,)* &mut slices),
                 Some(vectors) => {
-                    batch::columns_in::<Kind, _, N, _, _>(vectors, [$(&$argument),*], &mut slices)
+                    let arguments = [$(Argument::Columns(&$argument)),*];
+                    batch::columns_in::<Kind, _, _, _, 0>(vectors, &arguments, &mut slices)
                 }
             }
             .unwrap();
@@ -143,7 +150,7 @@ macro_rules! check {
         // Where products are fused, batches have sines of their own: those of the portable vectors,
         // of numbers one after the other, next to those of a state alone.
         let mut many = single.clone();
-        if <Kind as Function<_, N, _, _>>::FUSED {
+        if <Kind as Function<_, _, _>>::FUSED {
             many = of(Some(Vectors::Portable), MOST);
             for (k, (single, many)) in single.iter().zip(&many).enumerate() {
                 let is_usual = [$($argument[k]),*].as_flattened().iter().all(|x| x.abs() < 4.0);
@@ -248,8 +255,122 @@ fn all_cores_have_the_same_bits() {
         let mut all = [(); 3].map(|()| vec![1.0; count]);
         let mut slices = all.each_mut().map(|column| column.as_mut_slice());
         type Kind = together::InverseDynamicsBatch;
-        batch::parallel::columns::<Kind, 3, 3, 3, _>([&q; 3], &mut slices).unwrap();
+        let arguments = [Argument::Columns(&q); 3];
+        batch::parallel::columns::<Kind, 9, 3, _, 0>(&arguments, &mut slices).unwrap();
         let mut pairs = one.iter().flatten().zip(all.iter().flatten());
         assert!(pairs.all(|(one, all)| same(one, all)), "{count}");
+    }
+}
+
+/// States, bodies, payloads and directions of gravity, each its own.
+macro_rules! loads {
+    ($module:ident, $scalar:ty, $count:expr) => {{
+        let count: usize = $count;
+        let mut points = Points::new(5);
+        let mut unit = || points.unit() as $scalar;
+        let states: Vec<[[$scalar; 3]; 3]> = (0..count)
+            .map(|_| from_fn(|_| from_fn(|_| 3.0 * unit())))
+            .collect();
+        let load = |k: usize| {
+            let mass = 1.0 + k as $scalar;
+            let inertia = [0.3, 0.4, 0.5, 0.0, 0.01, 0.0];
+            let body = $module::Body::new(mass, [0.1, 0.0, -0.2], inertia).unwrap();
+            let bodies = $module::BODIES.with(k % 3, body);
+            let payload = $module::Payload::new(0.1 * mass, [0.2, 0.1, 0.3], inertia).unwrap();
+            $module::load(&payload, &bodies, &[0.1 * mass, 2.0, 3.0])
+        };
+        let loads: Vec<$module::Load> = (0..count).map(load).collect();
+        let gravity = |k: usize| $module::Gravity([k as $scalar, 1.0, -9.81]);
+        let gravity: Vec<$module::Gravity> = (0..count).map(gravity).collect();
+        let wrenches: Vec<[$scalar; 6]> = (0..count).map(|_| from_fn(|_| 9.0 * unit())).collect();
+        let [q, qd, qdd] =
+            [0, 1, 2].map(|i| columns(&states.iter().map(|x| x[i]).collect::<Vec<_>>()));
+        let [q, qd, qdd] = [&q, &qd, &qdd].map(|own| own.each_ref().map(Vec::as_slice));
+        let wrench = columns(&wrenches);
+        let wrench = wrench.each_ref().map(Vec::as_slice);
+        for (loads, gravity) in [
+            (&loads[..], &gravity[..]),
+            (&loads[..1], &gravity[..]),
+            (&loads[1.min(count - 1)..][..1], &gravity[..1]),
+        ] {
+            let mut found = [(); 3].map(|()| vec![0.0; count]);
+            let mut slices = found.each_mut().map(Vec::as_mut_slice);
+            $module::inverse_dynamics_columns(&q, &qd, &qdd, gravity, loads, &mut slices).unwrap();
+            let at = |k: usize| (&gravity[k % gravity.len()], &loads[k % loads.len()]);
+            for (k, [q, qd, qdd]) in states.iter().enumerate() {
+                let (gravity, load) = at(k);
+                let tau = $module::inverse_dynamics(q, qd, qdd, gravity, load);
+                assert!((0..3).all(|i| same(&tau[i], &found[i][k])), "{k}");
+            }
+            let mut slices = found.each_mut().map(Vec::as_mut_slice);
+            $module::forward_dynamics_with_wrench_columns(
+                &q,
+                &qd,
+                &qdd,
+                gravity,
+                loads,
+                &wrench,
+                &mut slices,
+            )
+            .unwrap();
+            for (k, [q, qd, tau]) in states.iter().enumerate() {
+                let (gravity, load) = at(k);
+                let qdd =
+                    $module::forward_dynamics_with_wrench(q, qd, tau, gravity, load, &wrenches[k]);
+                assert!((0..3).all(|i| same(&qdd[i], &found[i][k])), "{k}");
+            }
+        }
+    }};
+}
+
+#[test]
+fn loads_are_of_a_state_or_of_all() {
+    for count in [1, 2, 64, 131] {
+        loads!(loaded, f64, count);
+        loads!(loaded_f32, f32, count);
+    }
+}
+
+dalembert::dynamics! {
+    mod swimmer = r#"
+        name = "swimmer"
+        gravity = [0, 0, -9.81]
+        [[joint]]
+        kind = "floating"
+        mass = 5
+        com = [0.1, 0, 0]
+        inertia = [0.1, 0.2, 0.3, 0, 0, 0]
+        [[joint]]
+        kind = "revolute"
+        placement = { xyz = [0.3, 0, 0], rpy = ["pi/2", 0, 0] }
+        axis = [0, 0, 1]
+        mass = 1
+        com = [0.2, 0, 0]
+        inertia = [0.01, 0.02, 0.03, 0, 0, 0]
+    "#;
+    outputs: inverse_dynamics;
+    batch: on;
+}
+
+/// Of a base that floats, velocities have six entries more than positions, and gravity is an argument.
+#[test]
+fn bases_that_float_have_batches() {
+    const COUNT: usize = 70;
+    let numbers = numbers(15 * COUNT, 3);
+    let state = |k: usize| -> [f64; 15] { from_fn(|i| numbers[15 * k + i]) };
+    let states: Vec<[f64; 15]> = (0..COUNT).map(state).collect();
+    let all = columns(&states);
+    let all = all.each_ref().map(Vec::as_slice);
+    let (q, rest) = all.split_first_chunk().unwrap();
+    let (qd, qdd) = rest.split_at(7);
+    let mut found = [(); 7].map(|()| vec![0.0; COUNT]);
+    let mut slices = found.each_mut().map(Vec::as_mut_slice);
+    let gravity = swimmer::Gravity([0.0, 1.0, -9.81]);
+    let [qd, qdd] = [qd, qdd].map(|own| own.first_chunk().unwrap());
+    swimmer::inverse_dynamics_columns(q, qd, qdd, &[gravity], &mut slices).unwrap();
+    for (k, state) in states.iter().enumerate() {
+        let [qd, qdd] = [1, 8].map(|from| *state[from..].first_chunk().unwrap());
+        let tau = swimmer::inverse_dynamics(&[state[0]], &qd, &qdd, &gravity);
+        assert!((0..7).all(|i| same(&tau[i], &found[i][k])), "{k}");
     }
 }

@@ -1,7 +1,7 @@
 //! Bodies and drives that are arguments: what is generated gives what the robot file with other bodies
 //! gives, and the checker shows it.
 
-use dalembert_checker::certify::{Demand, Report, certify};
+use dalembert_checker::certify::{Demand, Line, Report, certify};
 use dalembert_codegen::workspace::{Emitted, JointState, Runtime, claim, keep};
 use dalembert_codegen::{Function, Generated, Request};
 use dalembert_model::outputs::RuntimeParameter;
@@ -274,14 +274,7 @@ fn bodies_have_ranges() {
     let limits = "\"pi\"], body = { mass = [1, 30], radius = 1.5 } }";
     let source = own.replacen("\"pi\"] }", limits, 1);
     let asked = "outputs: inverse_dynamics; parameters: bodies; scalar: f64";
-    let report = |source: &str| {
-        let case = Case::read(source, asked);
-        let generated = case.generated();
-        let claim = claim(case.robot(), source, &case.request, &generated).unwrap();
-        let demand = Demand::default();
-        certify(&generated.texts[0], &claim.write(), source, &demand).unwrap()
-    };
-    let (around, given) = (report(&own), report(&source));
+    let (around, given) = (report(&own, asked), report(&source, asked));
     assert!(
         around.passes(false) && given.passes(false),
         "{:?}",
@@ -308,6 +301,53 @@ fn bodies_have_ranges() {
         read_robot(&write(&read_robot(&source))),
         read_robot(&source)
     );
+}
+
+/// The ranges around the robot's bodies and drives hold these, also of links without mass and of points.
+#[test]
+fn ranges_hold_the_robots_numbers() {
+    let point = "mass = 900\ncom = [0, 1e-19, 0]\ninertia = [0, 0, 0, 0, 0, 0]\nviscous = 12";
+    let source = support::source("planar2r", "");
+    let (before, behind) = source.split_once("mass = 1\n").unwrap();
+    let (_, behind) = behind.split_once("limits").unwrap();
+    let source = format!("{before}{point}\nlimits{behind}");
+    let (before, behind) = source.rsplit_once("mass = 1\n").unwrap();
+    let (_, behind) = behind.split_once("limits").unwrap();
+    let source = format!("{before}mass = 0\narmature = 3\nlimits{behind}");
+    let asked = "outputs: inverse_dynamics; parameters: bodies, armature, viscous; scalar: f64";
+    let report = report(&source, asked);
+    assert!(report.passes(false), "{:?}", report.lines);
+    let ranges: Vec<_> = report
+        .bodies
+        .iter()
+        .map(|(_, own)| (own.mass, own.radius))
+        .collect();
+    assert_eq!(ranges, [([450.0, 1800.0], 0.6), ([0.0, 2.0], 0.6)]);
+}
+
+/// Some of the load's numbers are printed with a minus: with others, bodies are none that there are, and
+/// no bound holds where D has to be inverted.
+#[test]
+fn loads_that_are_measured_have_their_signs() {
+    for name in ["swimmer", "diver", "crawler", "otter"] {
+        let source = FLOATING.replacen("swimmer", name, 1);
+        let asked = "outputs: forward_dynamics; parameters: bodies; scalar: f64";
+        let report = report(&source, asked);
+        let lines = &report.lines;
+        let is_small = |line: &Line| match &line.result {
+            Ok(own) => own.costs[0].rounding < 1e-10,
+            Err(_) => false,
+        };
+        assert!(lines.iter().all(is_small), "{lines:?}");
+    }
+}
+
+fn report(source: &str, asked: &str) -> Report {
+    let case = Case::read(source, asked);
+    let generated = case.generated();
+    let claim = claim(case.robot(), source, &case.request, &generated).unwrap();
+    let demand = Demand::default();
+    certify(&generated.texts[0], &claim.write(), source, &demand).unwrap()
 }
 
 /// Loads of armatures and of friction may have as many numbers.
@@ -342,6 +382,15 @@ fn requests_that_cannot_be_are_refused() {
             "gravity; parameters: bodies; bodies: 18446744073709551615",
             "there is no link",
         ),
+        (
+            "gravity; parameters: bodies; bodies: 1 2",
+            "the number of a link",
+        ),
+        (
+            "gravity; parameters: bodies; bodies: +1",
+            "the number of a link",
+        ),
+        ("grav ity", "unknown output `grav ity`"),
         (
             "gravity; parameters: bodies; bodies: 3",
             "there is no link 3: links are 1 to 2",

@@ -6,7 +6,7 @@ use dalembert_checker::identity::table::Function;
 use serde_json::{Value, json};
 
 use crate::certified::Certified;
-use crate::support::{all_but_one_in, changes, daily_and_campaign, one_in, path, rows};
+use crate::support::{self, all_but_one_in, changes, daily_and_campaign, one_in, path, rows};
 
 fn attack(name: &str) -> String {
     fs::read_to_string(path(&format!(
@@ -505,6 +505,26 @@ int p_in_box( → int P_in_box(
     other.claim = claim;
     let why = other.refusal().unwrap();
     assert!(why.contains("nothing that is generated"), "{why}");
+}
+
+/// Names are shortened, but not to the name of a function of another frame.
+#[test]
+fn functions_of_frames_keep_their_names() {
+    let frames = "[[frame]]\nname = \"foot\"\nlink = 1\n[[frame]]\nname = \"foot2\"\nlink = 2\n";
+    let robot = support::source("planar2r", "") + frames;
+    let asked = "outputs: jacobian@foot, jacobian@foot2; scalar: f64; batch: on; language: c";
+    let own = Certified::of(&robot, None, asked).remove(0);
+    own.is_shown(2, asked);
+    for (end, name) in [("_batch(", "the batch"), ("(", "the function")] {
+        let [one, other] = ["foot", "foot2"].map(|frame| format!("jacobian_{frame}{end}"));
+        let text = own
+            .text
+            .replace(&one, "jacobian_fot(")
+            .replace(&other, &one);
+        let text = text.replace("jacobian_fot(", &format!("jacobian_fot{end}"));
+        assert_ne!(text, own.text);
+        assert!(own.with(&text).refusal().is_some(), "{name}");
+    }
 }
 
 #[test]

@@ -168,11 +168,10 @@ libm::sincos(q[0]) → crate::tancot(q[0]) … q[1].both(libm::sincos) → q[0].
 sincos(&[q[0], q[1]]) → sincos(&[q[1], q[0]])
 let ([s1, s2], [c1, c2]) = → let ([c1, c2], [s1, s2]) =
 let x2 → let x3 … x1 → x2
-[q, _qd, _qdd]: &[[V; 2]; 3] → [_qd, q, _qdd]: &[[V; 2]; 3]
+entries[0..2] → entries[2..4] … let q = &entries → let qd = &entries … = entries[0] → = entries[1]
 &[s1, s2]: &[V; 2] → &[s2, s1]: &[V; 2] … &[c1, c2]: &[V; 2] → &[c1, s2]: &[V; 2]
-········[q[0], q[1]] → ········[q[1], q[0]] … ([q, qd, qdd], results) → ([q, qdd, qd], results)
+[entries[0], entries[1]] → [entries[1], entries[0]] … Columns(qd), → Columns(q),
 qd: &[&[f64]; 2], qdd: &[&[f64]; 2] → qdd: &[&[f64]; 2], qd: &[&[f64]; 2]
-Vector<f64>>([q, qd, qdd]: → Vector<f64>>([q, qdd, qd]:
 of.all(9.81) → of.all(9.82) … <InverseDynamicsBatch → <ForwardDynamicsBatch
 ";
 

@@ -11,7 +11,7 @@ use super::state_box::StateBox;
 use super::{arguments, parameters, said, variant};
 use crate::emit::GeneratedFunction;
 use crate::figures::{decimal, placed};
-use crate::language::{columns, comment, function, list, result};
+use crate::language::{Language, columns, comment, function, list, result};
 use crate::program::{Code, Counts, ScalarType};
 use crate::setup::Setup;
 use crate::task::Job;
@@ -64,7 +64,7 @@ pub(crate) fn write(
         }
         let doc = function_doc(job, generated, scalar);
         text.push_str(&function::write(program, code, request.library(), &doc));
-        if request.batch {
+        if request.batch && columns::are_there(program.function, Language::Rust) {
             text += &format!("\n{}", columns::columns(program, code));
         }
     }

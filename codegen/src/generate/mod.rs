@@ -21,9 +21,9 @@ use dalembert_stamp::{Comment, Stamp};
 
 use crate::emit::{GeneratedFunction, header, module};
 use crate::function::Function;
-use crate::language::Language;
 use crate::language::c99::Names;
 use crate::language::read::{Signature, TextError};
+use crate::language::{Language, columns};
 use crate::limbs::LimbLayout;
 use crate::parallel;
 use crate::program::{Code, Program, ScalarType};
@@ -472,7 +472,8 @@ fn read_back(
     let fail = |why| GenerateError::Defect(generated.function, Some(scalar), why);
     let signature = Signature::of(&generated.program, scalar);
     let names = Names::new(&request.module_name(job.robot), request.language, scalar);
-    let read = Code::read(text, &signature, &names, request.batch);
+    let has_many = request.batch && columns::are_there(signature.function, request.language);
+    let read = Code::read(text, &signature, &names, has_many);
     let read = read.map_err(|error| fail(error.to_string()))?;
     if let Some(difference) = read.difference(code) {
         return Err(fail(difference.to_string()));

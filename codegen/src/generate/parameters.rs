@@ -4,7 +4,6 @@ use dalembert_model::outputs::{PayloadDependence, RuntimeParameter};
 
 use super::GenerateError;
 use crate::function::Function;
-use crate::language::Language;
 use crate::seeds::Start;
 use crate::task::Job;
 use crate::tolerance::refusals::{is_bounded, reads};
@@ -44,14 +43,6 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
             let why = reads(argument);
             return Err(refused(Some(function), format!("`{function}`: {why}"), ""));
         }
-    }
-    // In other languages a batch has columns of any argument.
-    if request.language == Language::Rust && request.batch {
-        let message = format!(
-            "batches in Rust take arguments with an entry a joint, and {} is none",
-            first.name()
-        );
-        return Err(refused(None, message, "leave `batch` out"));
     }
     if let Some(scene) = scene.filter(|scene| scene.gravity.is_some())
         && setup.has(RuntimeParameter::Gravity)

@@ -5,12 +5,13 @@
 //! The type `…Batch` tells that crate about the function, and has its arithmetic over vectors:
 //!
 //! ```text
-//! fn angles<V: dalembert_batch::Floats<f64>>([q]: &[[V; 2]; 1]) -> [V; 1] {
-//!     [q[0]]
+//! fn angles<V: dalembert_batch::Floats<f64>>(entries: &[V; 2]) -> [V; 1] {
+//!     [entries[0]]
 //! }
 //!
-//! fn vectors<V: dalembert_batch::Vector<f64>>([q]: &[[V; 2]; 1], &[s1]: &[V; 1], &[c1]: &[V; 1]) -> [V; 2] {
-//!     let of = q[0];
+//! fn vectors<V: dalembert_batch::Vector<f64>>(entries: &[V; 2], &[s1]: &[V; 1], &[c1]: &[V; 1]) -> [V; 2] {
+//!     let of = entries[0];
+//!     let q = &entries[0..2];
 //!     let t1 = c1 * of.all(0.5);
 //!     …
 //! }
@@ -30,15 +31,18 @@ use crate::program::{Code, Literal, Program};
 /// In u; the documentation of `dalembert-sines` proves it.
 const FUSED_ERROR: f64 = 0.83;
 
+/// Tells if a function has a second one for batches: in Rust a load is a call for each row of it.
+pub(crate) fn are_there(function: Function, language: Language) -> bool {
+    language != Language::Rust || function != Function::Load
+}
+
 pub(crate) fn columns(program: &Program, code: &Code) -> String {
     let name = program.function.name();
     let kind = format!("{}Batch", program.function.camel());
-    let (n, scalar) = (program.joints, code.scalar);
-    let arguments = program.arguments.iter().map(|argument| argument.name());
-    let arguments: Vec<&str> = arguments.collect();
-    let (count, entries) = (arguments.len(), code.dag.outputs.len());
+    let scalar = code.scalar;
+    let (given, results) = (entries(program), code.dag.outputs.len());
     let taken = trig::taken(code).count();
-    let sizes = format!("{count}, {n}, {entries}, {taken}");
+    let sizes = format!("{given}, {results}, {taken}");
     let bits = match fuses_sines(code) {
         false => {
             "/// the processor has; bit for bit the results that each has alone, or a NaN for a NaN.".to_owned()
@@ -62,18 +66,46 @@ pub(crate) fn columns(program: &Program, code: &Code) -> String {
     }
     text.push('\n');
     write_vectors(&mut text, program, code);
-    let parameter = |name: &&str| format!("{name}: &[&[{scalar}]; {n}], ");
-    let parameters: String = arguments.iter().map(parameter).collect();
+    let parameters = program.arguments.iter().map(|&argument| {
+        let kind = match function::named_type(argument) {
+            Some(kind) => format!("[{kind}]"),
+            None => format!("[&[{scalar}]; {}]", argument.length(program.sizes())),
+        };
+        format!("{}: &{kind}, ", argument.name())
+    });
+    let in_rows = |argument: &Argument| function::named_type(*argument).is_some();
+    let passed = program
+        .arguments
+        .iter()
+        .map(|argument| match in_rows(argument) {
+            true => format!("dalembert_batch::Argument::Rows(&{})", argument.name()),
+            false => format!("dalembert_batch::Argument::Columns({})", argument.name()),
+        });
+    let rows = program.arguments.iter().filter(|own| in_rows(own));
+    let rows: usize = rows.map(|own| own.length(program.sizes())).sum();
+    let of_rows = if rows > 0 {
+        "\n/// Arguments with a type are one a state, or one for all states."
+    } else {
+        ""
+    };
     text += &format!(
         "}}\n\n/// [`{name}`] at any number of states in columns: a slice for every entry of an argument, and of\n\
          /// the result in the order of its text. It is computed with the vectors that\n\
-         {bits}\n\
+         {bits}{of_rows}\n\
          ///\n/// # Errors\n/// The slices are of different lengths; then nothing is computed.\n\
-         pub fn {name}_columns({parameters}results: &mut [&mut [{scalar}]; {entries}]) -> Result<(), dalembert_batch::Unequal> {{\n    \
-         dalembert_batch::columns::<{kind}, {sizes}>([{}], results)\n}}\n",
-        arguments.join(", "),
+         pub fn {name}_columns({}results: &mut [&mut [{scalar}]; {results}]) -> Result<(), dalembert_batch::Unequal> {{\n    \
+         let arguments = [{}];\n    \
+         dalembert_batch::columns::<{kind}, {sizes}, {rows}>(&arguments, results)\n}}\n",
+        parameters.collect::<String>(),
+        list(passed),
     );
     text
+}
+
+/// Returns the number of entries of all arguments.
+fn entries(program: &Program) -> usize {
+    let arguments = program.arguments.iter();
+    arguments.map(|own| own.length(program.sizes())).sum()
 }
 
 fn fuses_sines(code: &Code) -> bool {
@@ -89,58 +121,47 @@ fn write_vectors(text: &mut String, program: &Program, code: &Code) {
         let suffix = code.scalar.math_suffix();
         format!("{angle}.{method}(libm::{function}{suffix})")
     });
-    let is_computed = !body.is_empty();
     trig::write_speeds(&mut body, dialect, code, "dalembert_batch");
     function::write_steps(&mut body, code, dialect);
     let results = list(Lines::new(dialect, code).results());
-    let first = program.arguments.first().map_or("", |first| first.name());
-    let of = match body.contains("of.all(") || results.contains("of.all(") {
-        true => format!("        let of = {first}[0];\n"),
-        false => String::new(),
-    };
-    let (count, n) = (program.arguments.len(), program.joints);
-    let entries = code.dag.outputs.len();
-    let arguments = program.arguments.iter().map(|&argument| {
-        let is_read = function::reads_entry(code, argument)
-            || (argument == Argument::Position && is_computed)
-            || (argument.name() == first && !of.is_empty());
-        marked(argument.name(), is_read)
-    });
+    let (mut slices, mut begin) = (String::new(), 0);
+    for argument in &program.arguments {
+        let end = begin + argument.length(program.sizes());
+        slices += &format!(
+            "        let {} = &entries[{begin}..{end}];\n",
+            argument.name()
+        );
+        begin = end;
+    }
+    let count = code.dag.outputs.len();
     let ([sin, cos], taken) = (trig::taken_names(code), trig::taken(code).count());
     *text += &format!(
-        "\n    #[inline(always)]\n    \
-         fn vectors<V: dalembert_batch::Vector<{}>>([{}]: &[[V; {n}]; {count}], \
-         &[{sin}]: &[V; {taken}], &[{cos}]: &[V; {taken}]) -> [V; {entries}] {{\n",
+        "\n{METHOD} vectors<V: dalembert_batch::Vector<{}>>(entries: &[V; {}], \
+         &[{sin}]: &[V; {taken}], &[{cos}]: &[V; {taken}]) -> [V; {count}] {{\n        \
+         let of = entries[0];\n{slices}",
         code.scalar,
-        list(arguments),
+        entries(program),
     );
-    text.push_str(&of);
     for line in body.lines() {
         *text += &format!("    {line}\n");
     }
     *text += &format!("        [{results}]\n    }}\n");
 }
 
-fn marked(name: &str, is_read: bool) -> String {
-    format!("{}{name}", if is_read { "" } else { "_" })
-}
+/// The entries that a function takes depend on the robot.
+const METHOD: &str = "    #[inline(always)]\n    #[allow(unused_variables)]\n    fn";
 
+/// Positions are the first entries.
 fn write_angles(text: &mut String, program: &Program, code: &Code) {
-    let (n, count) = (program.joints, program.arguments.len());
-    let angles: Vec<_> = trig::taken(code).map(|pair| pair.joint).collect();
-    let arguments = program.arguments.iter().map(|argument| {
-        let is_read = *argument == Argument::Position && !angles.is_empty();
-        marked(argument.name(), is_read)
-    });
+    let angles = trig::taken(code).map(|pair| format!("entries[{}]", pair.joint));
     *text += &format!(
-        "    #[inline(always)]\n    \
-         fn angles<V: dalembert_batch::Floats<{}>>([{}]: &[[V; {n}]; {count}]) -> [V; {}] {{\n",
+        "{METHOD} angles<V: dalembert_batch::Floats<{}>>(entries: &[V; {}]) -> [V; {}] {{\n        \
+         [{}]\n    }}\n",
         code.scalar,
-        list(arguments),
-        angles.len()
+        entries(program),
+        trig::taken(code).count(),
+        list(angles)
     );
-    let angles = list(angles.iter().map(|&own| trig::operand(own)));
-    *text += &format!("        [{angles}]\n    }}\n");
 }
 
 struct Columns {

@@ -191,15 +191,21 @@ fn signature(program: &Program, code: &Code) -> String {
     format!("pub fn {name}({arguments}) -> {result}")
 }
 
-/// An array that is no joint vector has a name, so that none is passed for another.
-fn argument_type(argument: Argument, sizes: Sizes, scalar: ScalarType) -> String {
+/// Returns the name of an argument's type: one that is not a vector of joints has a name, so that
+/// none is passed for another.
+pub(super) fn named_type(argument: Argument) -> Option<&'static str> {
     match argument {
-        Argument::Gravity => GRAVITY.to_owned(),
-        Argument::Load => LOAD.to_owned(),
-        Argument::Payload => PAYLOAD.to_owned(),
-        Argument::Bodies => BODIES.to_owned(),
-        _ => format!("[{scalar}; {}]", argument.length(sizes)),
+        Argument::Gravity => Some(GRAVITY),
+        Argument::Load => Some(LOAD),
+        Argument::Payload => Some(PAYLOAD),
+        Argument::Bodies => Some(BODIES),
+        _ => None,
     }
+}
+
+fn argument_type(argument: Argument, sizes: Sizes, scalar: ScalarType) -> String {
+    let array = || format!("[{scalar}; {}]", argument.length(sizes));
+    named_type(argument).map_or_else(array, str::to_owned)
 }
 
 pub(crate) fn result_type(function: Function, sizes: Sizes, scalar: ScalarType) -> String {
@@ -213,13 +219,4 @@ pub(crate) fn result_type(function: Function, sizes: Sizes, scalar: ScalarType) 
 pub(super) fn reads(code: &Code, argument: Argument) -> bool {
     let is = |input: &Input| input.argument() == argument;
     (argument == Argument::Position && !code.pairs.is_empty()) || code.dag.inputs().any(is)
-}
-
-/// Sines of the argument do not count.
-pub(super) fn reads_entry(code: &Code, argument: Argument) -> bool {
-    code.dag.inputs().any(|input| match input {
-        Input::Entry(read, _) => *read == argument,
-        Input::PerSpeed(_) => argument == Argument::Velocity,
-        Input::Sin(_) | Input::Cos(_) => false,
-    })
 }

@@ -249,9 +249,10 @@ pub static OPTIONS: [OptionRow; 16] = [
         words: Vec::new,
         is_list: true,
         set: |draft, item| {
-            let link = item
-                .parse::<usize>()
-                .map_err(|_| Complaint::new("expected the number of a link", "bodies: 2, 5"))?;
+            let is_number = item.chars().all(|c| c.is_ascii_digit());
+            let link = item.parse::<usize>().ok().filter(|_| is_number);
+            let why = || Complaint::new("expected the number of a link", "bodies: 2, 5");
+            let link = link.ok_or_else(why)?;
             add(&mut draft.request.bodies, link, PartialEq::eq, item)
         },
     },

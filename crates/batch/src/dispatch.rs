@@ -8,7 +8,8 @@ use pulp::x86::{V3, V4};
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 use crate::Vector;
-use crate::slices::{check_columns, ending, run_columns};
+use crate::argument::{Argument, Entries};
+use crate::slices::{run_columns, states_of};
 use crate::vector::BLOCK;
 use crate::{Float, Function, Unequal};
 
@@ -51,14 +52,14 @@ impl Vectors {
 ///
 /// # Errors
 /// [`Unequal`]; then nothing is computed.
-pub fn columns<F, const A: usize, const N: usize, const M: usize, const K: usize>(
-    arguments: [&[&[F::Scalar]; N]; A],
+pub fn columns<F, const E: usize, const M: usize, const K: usize, const R: usize>(
+    arguments: &[Argument<'_, F::Scalar>],
     results: &mut [&mut [F::Scalar]; M],
 ) -> Result<(), Unequal>
 where
-    F: Function<A, N, M, K>,
+    F: Function<E, M, K>,
 {
-    columns_in::<F, A, N, M, K>(Vectors::widest(), arguments, results)
+    columns_in::<F, E, M, K, R>(Vectors::widest(), arguments, results)
 }
 
 /// [`columns`] in vectors of the caller's choice; where the processor lacks them, in portable
@@ -66,60 +67,70 @@ where
 ///
 /// # Errors
 /// [`Unequal`]; then nothing is computed.
-pub fn columns_in<F, const A: usize, const N: usize, const M: usize, const K: usize>(
+pub fn columns_in<F, const E: usize, const M: usize, const K: usize, const R: usize>(
     vectors: Vectors,
-    arguments: [&[&[F::Scalar]; N]; A],
+    arguments: &[Argument<'_, F::Scalar>],
     results: &mut [&mut [F::Scalar]; M],
 ) -> Result<(), Unequal>
 where
-    F: Function<A, N, M, K>,
+    F: Function<E, M, K>,
 {
-    let states = check_columns(&arguments, results)?;
-    match states {
-        0 => {}
-        1..BLOCK => few_columns::<F, A, N, M, K>(vectors, arguments, results, states),
-        _ => run::<F, A, N, M, K>(vectors, arguments, results, 0),
-    }
+    let states = states_of(results)?;
+    let entries = Entries::<F::Scalar, E, R>::of(arguments, states)?;
+    entries_in::<F, E, M, K, R>(vectors, &entries, results);
     Ok(())
 }
 
-#[inline(never)]
-fn few_columns<F, const A: usize, const N: usize, const M: usize, const K: usize>(
+/// The slices are of one length.
+pub(crate) fn entries_in<F, const E: usize, const M: usize, const K: usize, const R: usize>(
     vectors: Vectors,
-    arguments: [&[&[F::Scalar]; N]; A],
+    entries: &Entries<'_, F::Scalar, E, R>,
+    results: &mut [&mut [F::Scalar]; M],
+) where
+    F: Function<E, M, K>,
+{
+    match results.first().map_or(0, |first| first.len()) {
+        0 => {}
+        states @ 1..BLOCK => few_columns::<F, E, M, K, R>(vectors, entries, results, states),
+        _ => run::<F, E, M, K, R>(vectors, entries, results, 0),
+    }
+}
+
+#[inline(never)]
+fn few_columns<F, const E: usize, const M: usize, const K: usize, const R: usize>(
+    vectors: Vectors,
+    entries: &Entries<'_, F::Scalar, E, R>,
     results: &mut [&mut [F::Scalar]; M],
     states: usize,
 ) where
-    F: Function<A, N, M, K>,
+    F: Function<E, M, K>,
 {
-    let blocks = arguments.map(|columns| columns.map(ending));
-    let slices = blocks
-        .each_ref()
-        .map(|columns| columns.each_ref().map(|column| &column[..]));
+    let blocks = entries.few(states);
+    let entries = Entries::<F::Scalar, E, 0>::of_blocks(&blocks);
     let mut found = [[F::Scalar::default(); BLOCK]; M];
     let from = BLOCK - states;
     let mut columns = found.each_mut().map(|column| &mut column[..]);
-    run::<F, A, N, M, K>(vectors, slices.each_ref(), &mut columns, from);
+    run::<F, E, M, K, 0>(vectors, &entries, &mut columns, from);
     for (column, found) in results.iter_mut().zip(&found) {
         column.copy_from_slice(&found[from..]);
     }
 }
 
-fn run<F, const A: usize, const N: usize, const M: usize, const K: usize>(
+fn run<F, const E: usize, const M: usize, const K: usize, const R: usize>(
     vectors: Vectors,
-    arguments: [&[&[F::Scalar]; N]; A],
+    entries: &Entries<'_, F::Scalar, E, R>,
     results: &mut [&mut [F::Scalar]; M],
     from: usize,
 ) where
-    F: Function<A, N, M, K>,
+    F: Function<E, M, K>,
 {
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
     match vectors {
         Vectors::Avx512 => {
             if let Some(token) = V4::try_new() {
-                return token.vectorize(Columns::<F, <F::Scalar as Float>::Avx512, A, N, M, K> {
+                return token.vectorize(Columns::<F, <F::Scalar as Float>::Avx512, E, M, K, R> {
                     token,
-                    arguments,
+                    entries,
                     results,
                     from,
                 });
@@ -127,9 +138,9 @@ fn run<F, const A: usize, const N: usize, const M: usize, const K: usize>(
         }
         Vectors::Avx2 => {
             if let Some(token) = V3::try_new() {
-                return token.vectorize(Columns::<F, <F::Scalar as Float>::Avx2, A, N, M, K> {
+                return token.vectorize(Columns::<F, <F::Scalar as Float>::Avx2, E, M, K, R> {
                     token,
-                    arguments,
+                    entries,
                     results,
                     from,
                 });
@@ -138,26 +149,26 @@ fn run<F, const A: usize, const N: usize, const M: usize, const K: usize>(
         Vectors::Portable => {}
     }
     let _ = vectors;
-    run_columns::<F, <F::Scalar as Float>::Portable, A, N, M, K>((), arguments, results, from);
+    run_columns::<F, <F::Scalar as Float>::Portable, E, M, K, R>((), entries, results, from);
 }
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
-struct Columns<'a, 'c, 'r, F, V, const A: usize, const N: usize, const M: usize, const K: usize>
+struct Columns<'a, 'c, 'r, F, V, const E: usize, const M: usize, const K: usize, const R: usize>
 where
-    F: Function<A, N, M, K>,
+    F: Function<E, M, K>,
     V: Vector<F::Scalar>,
 {
     token: V::Token,
-    arguments: [&'a [&'a [F::Scalar]; N]; A],
+    entries: &'a Entries<'a, F::Scalar, E, R>,
     results: &'r mut [&'c mut [F::Scalar]; M],
     from: usize,
 }
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
-impl<F, V, const A: usize, const N: usize, const M: usize, const K: usize> pulp::NullaryFnOnce
-    for Columns<'_, '_, '_, F, V, A, N, M, K>
+impl<F, V, const E: usize, const M: usize, const K: usize, const R: usize> pulp::NullaryFnOnce
+    for Columns<'_, '_, '_, F, V, E, M, K, R>
 where
-    F: Function<A, N, M, K>,
+    F: Function<E, M, K>,
     V: Vector<F::Scalar>,
 {
     type Output = ();
@@ -165,6 +176,6 @@ where
     // Inlined into what is compiled for the vectors.
     #[inline(always)]
     fn call(self) {
-        run_columns::<F, V, A, N, M, K>(self.token, self.arguments, self.results, self.from);
+        run_columns::<F, V, E, M, K, R>(self.token, self.entries, self.results, self.from);
     }
 }

@@ -2,30 +2,32 @@
 //! processor has.
 //!
 //! A generator that is asked for `batch: on` prints a function `NAME_columns` beside
-//! each of its own, which ends here. States stand in columns: a slice for each joint of an
-//! argument, and one for each number of the result.
+//! each of its own, which ends here. States stand in columns: a slice for each entry of an
+//! argument, and one for each number of the result. Arguments with a type, such as the load of a
+//! payload, stand in [`Rows`]: one a state, or one for all.
 //!
 //! ```
-//! use dalembert_batch::{Floats, Vector};
+//! use dalembert_batch::{Argument, Floats, Vector};
 //!
 //! // What a generator prints; here the torque that holds a pendulum of 1 kg and 1 m.
 //! pub struct GravityBatch;
-//! impl dalembert_batch::Function<1, 1, 1, 1> for GravityBatch {
+//! impl dalembert_batch::Function<1, 1, 1> for GravityBatch {
 //!     type Scalar = f64;
-//!     fn angles<V: Floats<f64>>([q]: &[[V; 1]; 1]) -> [V; 1] {
+//!     fn angles<V: Floats<f64>>(q: &[V; 1]) -> [V; 1] {
 //!         [q[0]]
 //!     }
-//!     fn vectors<V: Vector<f64>>(_: &[[V; 1]; 1], _sin: &[V; 1], cos: &[V; 1]) -> [V; 1] {
+//!     fn vectors<V: Vector<f64>>(_: &[V; 1], _sin: &[V; 1], cos: &[V; 1]) -> [V; 1] {
 //!         [cos[0] * 9.81]
 //!     }
 //! }
 //!
 //! let q = [0.0, 0.5, 1.0];
 //! let mut tau = [0.0; 3];
-//! dalembert_batch::columns::<GravityBatch, 1, 1, 1, 1>([&[&q]], &mut [&mut tau])?;
+//! let columns = dalembert_batch::columns::<GravityBatch, 1, 1, 1, 0>;
+//! columns(&[Argument::Columns(&[&q])], &mut [&mut tau])?;
 //! assert_eq!(tau[1], 9.81 * 0.5f64.cos());
 //!
-//! let error = dalembert_batch::columns::<GravityBatch, 1, 1, 1, 1>([&[&q[..2]]], &mut [&mut tau]);
+//! let error = columns(&[Argument::Columns(&[&q[..2]])], &mut [&mut tau]);
 //! let said = error.unwrap_err().to_string();
 //! assert_eq!(said, "entry 1 of argument 1 has 2 states, the results have 3");
 //! # Ok::<(), dalembert_batch::Unequal>(())
@@ -44,6 +46,7 @@
 //! feature `rayon` has the same on all cores, in `parallel`.
 //!
 //! - `function`: what a generator says of a function; which vectors there are of a float
+//! - `argument`: columns and rows of numbers
 //! - `unequal`: slices of different lengths
 //! - `vector`: floats side by side, `x86` and `portable`: those of a processor
 //! - `slices`: from columns to vectors and back
@@ -54,6 +57,7 @@
 #![cfg_attr(docsrs, feature(doc_cfg), doc(auto_cfg))]
 #![warn(missing_docs)]
 
+mod argument;
 mod function;
 mod unequal;
 mod vector;
@@ -69,6 +73,7 @@ mod dispatch;
 #[cfg(feature = "rayon")]
 pub mod parallel;
 
+pub use argument::{Argument, Rows};
 #[doc(no_inline)]
 pub use dalembert_sines::text::Floats;
 pub use dispatch::{Vectors, columns, columns_in};

@@ -9,9 +9,11 @@ use core::array::from_fn;
 use core::mem::take;
 use std::sync::Mutex;
 
-use crate::slices::check_columns;
+use crate::argument::Entries;
+use crate::dispatch::entries_in;
+use crate::slices::states_of;
 use crate::vector::BLOCK;
-use crate::{Function, Unequal};
+use crate::{Argument, Function, Unequal, Vectors};
 
 /// The bytes of a task's arguments and results: ten to thirty microseconds, in which a task costs
 /// nothing to take, and of which the last ones end at nearly one time.
@@ -25,17 +27,20 @@ const LEAST: usize = 3 << 20;
 ///
 /// # Errors
 /// [`Unequal`]; then nothing is computed.
-pub fn columns<F, const A: usize, const N: usize, const M: usize, const K: usize>(
-    arguments: [&[&[F::Scalar]; N]; A],
+pub fn columns<F, const E: usize, const M: usize, const K: usize, const R: usize>(
+    arguments: &[Argument<'_, F::Scalar>],
     results: &mut [&mut [F::Scalar]; M],
 ) -> Result<(), Unequal>
 where
-    F: Function<A, N, M, K>,
+    F: Function<E, M, K>,
     F::Scalar: Send + Sync,
 {
-    let states = check_columns(&arguments, results)?;
-    let Some(task) = task(states, (A * N + M) * size_of::<F::Scalar>()) else {
-        return crate::columns::<F, A, N, M, K>(arguments, results);
+    let states = states_of(results)?;
+    let entries = Entries::<F::Scalar, E, R>::of(arguments, states)?;
+    let vectors = Vectors::widest();
+    let Some(task) = task(states, (E + M) * size_of::<F::Scalar>()) else {
+        entries_in::<F, E, M, K, R>(vectors, &entries, results);
+        return Ok(());
     };
     let results = results.each_mut().map(|column| &mut **column);
     share(
@@ -47,14 +52,11 @@ where
             for (own, rest) in own.iter_mut().zip(results) {
                 (*own, *rest) = take(rest).split_at_mut(range.len());
             }
-            let own_arguments =
-                arguments.map(|columns| columns.map(|column| &column[range.clone()]));
-            (!range.is_empty()).then_some((own_arguments, own))
+            (!range.is_empty()).then(|| (entries.at(range), own))
         },
-        |(arguments, mut results)| {
-            crate::columns::<F, A, N, M, K>(arguments.each_ref(), &mut results)
-        },
-    )
+        |(entries, mut results)| entries_in::<F, E, M, K, R>(vectors, &entries, &mut results),
+    );
+    Ok(())
 }
 
 /// Whole blocks of states, each of so many bytes; `None` where the states are not worth a second
@@ -64,26 +66,19 @@ fn task(states: usize, bytes: usize) -> Option<usize> {
     is_much.then(|| (TASK / bytes).next_multiple_of(BLOCK))
 }
 
-fn share<W: Send, T>(
-    work: W,
-    split: impl Fn(&mut W) -> Option<T> + Sync,
-    run: impl Fn(T) -> Result<(), Unequal> + Sync,
-) -> Result<(), Unequal> {
+fn share<W: Send, T>(work: W, split: impl Fn(&mut W) -> Option<T> + Sync, run: impl Fn(T) + Sync) {
     let rest = Mutex::new(work);
     // Poisoned where another panicked, which ends all.
     let next = || rest.lock().ok().and_then(|mut rest| split(&mut rest));
     let all = || {
-        let mut found = Ok(());
         while let Some(task) = next() {
-            found = found.and(run(task));
+            run(task);
         }
-        found
     };
     rayon::in_place_scope(|scope| {
         for _ in 1..rayon::current_num_threads() {
-            // Slices that were checked before are equal.
-            scope.spawn(|_| _ = all());
+            scope.spawn(|_| all());
         }
-        all()
-    })
+        all();
+    });
 }

@@ -7,6 +7,10 @@ use core::fmt;
 pub enum Slice {
     /// The column of an argument's entry, both counted from one.
     Entry(usize, usize),
+    /// An argument in rows, counted from one.
+    Rows(usize),
+    /// All arguments: not their states, but their entries are counted.
+    Arguments,
     /// The column of a number of the result, counted from one.
     Result(usize),
 }
@@ -42,6 +46,14 @@ impl fmt::Display for Unequal {
             Slice::Entry(a, i) => write!(
                 f,
                 "entry {i} of argument {a} has {found} states, the results have {expected}"
+            ),
+            Slice::Rows(a) => write!(
+                f,
+                "argument {a} has {found} rows, and {expected} states take 1 row or {expected}"
+            ),
+            Slice::Arguments => write!(
+                f,
+                "the arguments have {found} entries, and the function takes {expected}"
             ),
             Slice::Result(k) => write!(
                 f,

@@ -3,24 +3,24 @@
 
 use std::array::from_fn;
 
+use dalembert_batch::Argument::{Columns, Rows};
 #[cfg(feature = "rayon")]
 use dalembert_batch::parallel;
-use dalembert_batch::{Floats, Function, Unequal, Vector, Vectors, columns_in};
+use dalembert_batch::{Argument, Floats, Function, Unequal, Vector, Vectors, columns, columns_in};
 
 /// x y, x − 2 y and x/y of the first entry of one argument and the second of the other.
 struct Three;
 
-impl Function<2, 2, 3, 0> for Three {
+impl Function<4, 3, 0> for Three {
     type Scalar = f32;
 
     #[inline(always)]
-    fn angles<V: Floats<f32>>(_: &[[V; 2]; 2]) -> [V; 0] {
+    fn angles<V: Floats<f32>>(_: &[V; 4]) -> [V; 0] {
         []
     }
 
     #[inline(always)]
-    fn vectors<V: Vector<f32>>([x, y]: &[[V; 2]; 2], _: &[V; 0], _: &[V; 0]) -> [V; 3] {
-        let (x, y) = (x[0], y[1]);
+    fn vectors<V: Vector<f32>>(&[x, _, _, y]: &[V; 4], _: &[V; 0], _: &[V; 0]) -> [V; 3] {
         [x * y, x - y * 2.0, x / y]
     }
 }
@@ -28,17 +28,16 @@ impl Function<2, 2, 3, 0> for Three {
 /// Every operation of a vector on angles of every size, one of which is NaN.
 struct Operations;
 
-impl Function<1, 1, 8, 2> for Operations {
+impl Function<1, 8, 2> for Operations {
     type Scalar = f64;
 
     #[inline(always)]
-    fn angles<V: Floats<f64>>([x]: &[[V; 1]; 1]) -> [V; 2] {
-        [x[0], x[0] * 1e4]
+    fn angles<V: Floats<f64>>(&[x]: &[V; 1]) -> [V; 2] {
+        [x, x * 1e4]
     }
 
     #[inline(always)]
-    fn vectors<V: Vector<f64>>([x]: &[[V; 1]; 1], sin: &[V; 2], cos: &[V; 2]) -> [V; 8] {
-        let x = x[0];
+    fn vectors<V: Vector<f64>>(&[x]: &[V; 1], sin: &[V; 2], cos: &[V; 2]) -> [V; 8] {
         let (floor, fraction) = x.both(|x| (x.floor(), x - x.floor()));
         let root = (x * x)
             .sqrt()
@@ -55,12 +54,12 @@ fn computed<F, const N: usize, const M: usize, const K: usize>(
     count: usize,
 ) -> [Vec<F::Scalar>; M]
 where
-    F: Function<1, N, M, K>,
+    F: Function<N, M, K>,
 {
     let x = x.each_ref().map(|column| &column[..count]);
     let mut found = from_fn(|_| vec![F::Scalar::default(); count]);
     let mut slices = found.each_mut().map(Vec::as_mut_slice);
-    columns_in::<F, 1, N, M, K>(vectors, [&x], &mut slices).unwrap();
+    columns_in::<F, N, M, K, 0>(vectors, &[Columns(&x)], &mut slices).unwrap();
     found
 }
 
@@ -95,17 +94,17 @@ macro_rules! fused {
     ($kind:ident, $float:ident, $test:ident) => {
         struct $kind;
 
-        impl Function<1, 5, 10, 5> for $kind {
+        impl Function<5, 10, 5> for $kind {
             type Scalar = $float;
             const FUSED: bool = true;
 
             #[inline(always)]
-            fn angles<V: Floats<$float>>([x]: &[[V; 5]; 1]) -> [V; 5] {
+            fn angles<V: Floats<$float>>(x: &[V; 5]) -> [V; 5] {
                 *x
             }
 
             #[inline(always)]
-            fn vectors<V: Vector<$float>>(_: &[[V; 5]; 1], s: &[V; 5], c: &[V; 5]) -> [V; 10] {
+            fn vectors<V: Vector<$float>>(_: &[V; 5], s: &[V; 5], c: &[V; 5]) -> [V; 10] {
                 [s[0], s[1], s[2], s[3], s[4], c[0], c[1], c[2], c[3], c[4]]
             }
         }
@@ -151,14 +150,18 @@ fused!(FusedFloats, f32, fused_sines_of_floats);
 
 fn check(
     count: usize,
-    run: impl FnOnce([&[&[f32]; 2]; 2], &mut [&mut [f32]; 3]) -> Result<(), Unequal>,
+    run: impl FnOnce(&[Argument<'_, f32>], &mut [&mut [f32]; 3]) -> Result<(), Unequal>,
 ) {
     let x: Vec<f32> = (0..count).map(|k| k as f32 + 0.5).collect();
     let y: Vec<f32> = (0..count).map(|k| 3.0 - k as f32).collect();
     let unread = vec![f32::NAN; count];
     let mut results = [(); 3].map(|()| vec![7.0; count + 1]);
     let mut slices = results.each_mut().map(|column| &mut column[..count]);
-    run([&[&x, &unread], &[&unread, &y]], &mut slices).unwrap();
+    run(
+        &[Columns(&[&x, &unread]), Columns(&[&unread, &y])],
+        &mut slices,
+    )
+    .unwrap();
     for (k, (x, y)) in x.iter().zip(&y).enumerate() {
         let expected = [x * y, x - 2.0 * y, x / y];
         assert_eq!([results[0][k], results[1][k], results[2][k]], expected);
@@ -171,7 +174,7 @@ fn every_length_in_all_vectors() {
     for vectors in ALL {
         for count in (0..=2 * 64 + 17).chain([1000]) {
             check(count, |arguments, results| {
-                columns_in::<Three, 2, 2, 3, 0>(vectors, arguments, results)
+                columns_in::<Three, 4, 3, 0, 0>(vectors, arguments, results)
             });
         }
     }
@@ -182,6 +185,99 @@ fn every_length_in_all_vectors() {
 fn every_length_on_all_cores() {
     // Tasks begin at 3 MiB, and a state has 28 bytes.
     for count in [0, 1, 112_347, 112_348, 200_001] {
-        check(count, parallel::columns::<Three, 2, 2, 3, 0>);
+        check(count, parallel::columns::<Three, 4, 3, 0, 0>);
+    }
+}
+
+/// Entries that generated code takes by a type.
+struct Pair([f32; 2]);
+
+impl std::ops::Deref for Pair {
+    type Target = [f32; 2];
+    fn deref(&self) -> &[f32; 2] {
+        &self.0
+    }
+}
+
+/// Runs the function with its last two entries in rows.
+fn run(
+    vectors: Option<Vectors>,
+    arguments: &[Argument<'_, f32>],
+    results: &mut [&mut [f32]; 3],
+) -> Result<(), Unequal> {
+    match vectors {
+        Some(vectors) => columns_in::<Three, 4, 3, 0, 2>(vectors, arguments, results),
+        #[cfg(feature = "rayon")]
+        None => parallel::columns::<Three, 4, 3, 0, 2>(arguments, results),
+        #[cfg(not(feature = "rayon"))]
+        None => columns::<Three, 4, 3, 0, 2>(arguments, results),
+    }
+}
+
+/// Rows hold for their states, and one for all, in blocks, in the rest of a batch and in tasks.
+#[test]
+fn rows_are_of_a_state_or_of_all() {
+    let counts = [1, 63, 64, 65, 200].into_iter();
+    let cases = counts.flat_map(|count| ALL.map(|vectors| (count, Some(vectors))));
+    for (count, vectors) in cases.chain([(200_001, None)]) {
+        let x: Vec<f32> = (0..count).map(|k| k as f32 + 0.5).collect();
+        let rows: Vec<Pair> = (0..count)
+            .map(|k| Pair([f32::NAN, 3.0 - k as f32]))
+            .collect();
+        for given in [&rows[..], &rows[..1]] {
+            let mut results = [(); 3].map(|()| vec![7.0; count]);
+            let mut slices = results.each_mut().map(Vec::as_mut_slice);
+            run(vectors, &[Columns(&[&x, &x]), Rows(&given)], &mut slices).unwrap();
+            for (k, x) in x.iter().enumerate() {
+                let y = given[k.min(given.len() - 1)][1];
+                let expected = [x * y, x - 2.0 * y, x / y];
+                let found = [results[0][k], results[1][k], results[2][k]];
+                assert_eq!(
+                    found.map(f32::to_bits),
+                    expected.map(f32::to_bits),
+                    "{vectors:?} {k}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn arguments_of_other_lengths_are_refused() {
+    let column = [0.0; 5];
+    let rows = [(); 4].map(|()| Pair([0.0; 2]));
+    let refused = |arguments: &[Argument<'_, f32>]| {
+        let mut results = [[7.0; 5]; 3];
+        let mut slices = results.each_mut().map(|column| &mut column[..]);
+        let error = columns::<Three, 4, 3, 0, 2>(arguments, &mut slices).unwrap_err();
+        assert_eq!(results, [[7.0; 5]; 3]);
+        error.to_string()
+    };
+    let (four, none, short) = (&rows[..], &rows[..0], [&column[..3]]);
+    let two = Columns(&[&column, &column]);
+    let cases = [
+        (
+            vec![two, Rows(&four)],
+            "argument 2 has 4 rows, and 5 states take 1 row or 5",
+        ),
+        (
+            vec![two, Rows(&none)],
+            "argument 2 has 0 rows, and 5 states take 1 row or 5",
+        ),
+        (
+            vec![two],
+            "the arguments have 2 entries, and the function takes 4",
+        ),
+        (
+            vec![two, two, two],
+            "the arguments have 6 entries, and the function takes 4",
+        ),
+        (
+            vec![Columns(&short)],
+            "entry 1 of argument 1 has 3 states, the results have 5",
+        ),
+    ];
+    for (arguments, message) in cases {
+        assert_eq!(refused(&arguments), message);
     }
 }

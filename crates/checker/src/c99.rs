@@ -6,6 +6,7 @@
 //! struct, if it has one.
 
 use crate::aside::untabbed;
+use crate::claim::Claimed;
 use crate::compare::is_literal;
 use crate::fault::Fault;
 use crate::file::{Found, Lines, between, fault, item};
@@ -202,11 +203,12 @@ pub(crate) fn functions<'t>(
     Err(Fault::Text(end, "the header does not end".into()))
 }
 
-/// A name may be shortened, but never to the name of another function of the table.
-pub(crate) fn are_of(found: &Found, function: &str) -> bool {
+/// A name may be shortened, but never to the name of another function of the table or of the claim.
+pub(crate) fn are_of(found: &Found, function: &str, claimed: &[Claimed]) -> bool {
     let is_own = |(module, word): (&str, &str)| {
-        let mut all = table::functions().iter();
-        let is_other = word != function && all.any(|own| own.name == word);
+        let mut all = table::functions().iter().map(|own| &own.name);
+        let is_other = all.any(|own| own == word) || claimed.iter().any(|own| own.function == word);
+        let is_other = is_other && word != function;
         module == found.module && !is_other && is_short(word, function)
     };
     let mut names = found.text.lines().filter_map(symbol);
@@ -227,7 +229,7 @@ pub(crate) fn are_values(found: &Found, name: &str, values: &[Exact]) -> bool {
     let mut all = lines.iter().zip(values).enumerate();
     *head == expected
         && lines.len() == count
-        && are_of(found, name)
+        && are_of(found, name, &[])
         && all.all(|(index, (line, value))| {
             let literal = between(line, &format!("pi[{index}] = "), end);
             literal.is_some_and(|own| is_literal(own, value, is_single))

@@ -101,9 +101,12 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     document.functions.retain(in_scene);
     let load = document.functions.iter().find(|own| own.function == LOAD);
     let links = load.map_or(&[][..], |own| &own.bodies);
-    let defaults = DEFAULTS.map(|name| Ok((name, file.defaults(name, links)?)));
-    let defaults = defaults.into_iter().collect::<Result<Vec<_>, String>>();
-    let defaults = defaults.map_err(of_robot)?;
+    let defaults = DEFAULTS
+        .iter()
+        .map(|name| Ok((*name, file.defaults(name, links)?)));
+    let defaults = defaults
+        .collect::<Result<Vec<_>, String>>()
+        .map_err(of_robot)?;
     if let Some(rows) = document.aligned.as_ref().filter(|_| file.is_placed()) {
         let of_rows = |why: String| Fault::Claim(format!("`aligned`: {why}"));
         let rows = robot::read(rows).map_err(of_rows)?;
@@ -112,14 +115,8 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     }
     let mut setting = file.setting(scene).map_err(of_robot)?;
     if let Some(own) = load {
-        let of_bodies = defaults
-            .iter()
-            .filter(|(name, _)| *name == "bodies" && own.keeps_zeros);
-        let kept: Vec<f64> = of_bodies
-            .flat_map(|(_, numbers)| numbers)
-            .copied()
-            .collect();
-        let taken = setting.take(&own.arguments, links, &kept);
+        let numbers = &defaults[0].1;
+        let taken = setting.take(&own.arguments, links, numbers, own.keeps_zeros);
         taken.map_err(Fault::Claim)?;
     }
     let is_c = source.starts_with(c99::HEAD);
@@ -133,7 +130,8 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     let work = Work::default();
     let constants = document.constants(&work)?;
     let load = document.functions.iter().find(|own| own.function == LOAD);
-    let singles = items.iter().filter(|item| item.text.contains("[f32; "));
+    let real = if is_c { "float " } else { "[f32; " };
+    let singles = items.iter().filter(|item| item.text.contains(real));
     let given = setting.body().map_err(of_robot)?;
     let bodies = setting.bodies_given().map_err(of_robot)?;
     let takes_payload = bodies.iter().any(|own| argument("payload") == Some(own.0));
@@ -209,15 +207,11 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
             lines.push(line(item, name.to_owned(), Err(why)));
         }
     }
+    let ranges_of_bodies = setting.body_ranges().map_err(of_robot)?;
     Ok(Report {
         lines,
         is_unlimited: setting.is_unlimited(),
-        bodies: setting
-            .bodies
-            .iter()
-            .copied()
-            .zip(setting.body_ranges().map_err(of_robot)?)
-            .collect(),
+        bodies: (setting.bodies.iter().copied().zip(ranges_of_bodies)).collect(),
         payloads: takes_payload.then(|| (given.unwrap_or_default(), given.is_none())),
     })
 }
@@ -273,7 +267,8 @@ impl<'w> Whole<'w> {
         let is_own = |own: &&Claimed| match self.is_c {
             true => {
                 let symbol = own.symbols.get(usize::from(self.is_single(found)));
-                symbol.is_some_and(|own| own == found.name) && c99::are_of(found, &own.function)
+                symbol.is_some_and(|own| own == found.name)
+                    && c99::are_of(found, &own.function, &self.claim.functions)
             }
             false => own.function == found.name,
         };
@@ -518,7 +513,8 @@ impl<'w> Whole<'w> {
     }
 
     fn follows(&self, item: &Found, known: &Known) -> Result<(), Fault> {
-        if is_default(item, self.is_c, &self.defaults) {
+        let is_single = self.singles.contains(item.module);
+        if is_default(item, self.is_c, is_single, &self.defaults) {
             return Ok(());
         }
         if !self.is_c {

@@ -11,8 +11,6 @@ use crate::work::Work;
 
 /// Nanoseconds for the comparison of a constant with a literal, whatever their digits are.
 const COMPARED: u64 = 20_000;
-/// Nanoseconds for a residue of a constant that is printed as zero.
-const VANISHES: u64 = 200_000;
 
 /// The literals that were compared with each constant: no pair is compared twice.
 #[derive(Debug, Default)]
@@ -26,8 +24,8 @@ impl Literals {
         if let Some(known) = self.known.borrow().get(&key) {
             return *known;
         }
-        let cost = if literal == 0.0 { VANISHES } else { COMPARED };
-        let is_same = work.spend(1, cost).is_ok() && value.is_nearest(literal, is_single);
+        let cost = if literal == 0.0 { 10 } else { 1 };
+        let is_same = work.spend(cost, COMPARED).is_ok() && value.is_nearest(literal, is_single);
         self.known.borrow_mut().insert(key, is_same);
         is_same
     }

@@ -368,7 +368,11 @@ pub(crate) fn ranges(setting: &Setting, bodies: &[(usize, Vec<Body>)]) -> Result
                 let all = of.into_iter().flat_map(|own| &own.1);
                 return Ok(all.flat_map(|own| own.ranges()).collect());
             }
-            "armature" | "viscous" => [0.0, DRIVE],
+            "armature" | "viscous" => {
+                let twice = |x: &Exact| 2.0 * x.double().unwrap_or_default()[0];
+                let own = setting.file.defaults(name, &[])?;
+                return Ok(own.iter().map(|x| [0.0, DRIVE.max(twice(x))]).collect());
+            }
             _ => [-1.0, 1.0],
         };
         Ok(own.unwrap_or_else(|| vec![[low, high]; length(axis, sizes)]))

@@ -1,81 +1,63 @@
 //! The items by which a file says what its robot has in the place of arguments of `load`.
 
+use crate::compare::is_literal;
 use crate::file::{Found, between};
+use crate::identity::exact::Exact;
 
 /// An argument's name, and the robot's numbers.
-pub(crate) type Default = (&'static str, Vec<f64>);
+pub(crate) type Default = (&'static str, Vec<Exact>);
 
 /// True if an item is the constant, in C the function, of one of these, and has its numbers.
-pub(crate) fn is_default(item: &Found, is_c: bool, all: &[Default]) -> bool {
-    let lines = item
-        .text
-        .lines()
-        .map(str::trim)
-        .filter(|line| !line.is_empty());
+pub(crate) fn is_default(item: &Found, is_c: bool, is_single: bool, all: &[Default]) -> bool {
+    let lines = item.text.lines().map(str::trim);
+    let lines = lines.filter(|line| !line.is_empty());
     let text: String = lines.map(|line| format!("{line} ")).collect();
     all.iter().any(|(name, values)| {
-        let kinds = [false, true].into_iter();
-        kinds
-            .filter_map(|is_single| Some((numbers(&text, item, is_c, name, is_single)?, is_single)))
-            .any(|(numbers, is_single)| are_near(&numbers, values, is_single))
+        let list = match is_c {
+            true => c_numbers(&text, item, name, is_single),
+            false => rust_numbers(&text, name, is_single),
+        };
+        let is = |(own, value): (&&str, &Exact)| is_literal(own, value, is_single);
+        list.is_some_and(|all| all.len() == values.len() && all.iter().zip(values).all(is))
     })
 }
 
-/// Returns the numbers of an item with the head of such a constant.
-fn numbers(text: &str, item: &Found, is_c: bool, name: &str, is_single: bool) -> Option<Vec<f64>> {
-    if is_c {
-        return c_numbers(text, item, name, is_single);
+fn rust_numbers<'t>(text: &'t str, name: &str, is_single: bool) -> Option<Vec<&'t str>> {
+    if name == "bodies" {
+        let list = between(text, "pub const BODIES: Bodies = Bodies([ ", ", ]); ")?;
+        return Some(list.split(", ").collect());
     }
-    let (real, capitals) = (
-        if is_single { "f32" } else { "f64" },
+    let (kind, list) = text.split_once("] = [")?;
+    let list: Vec<&str> = list.strip_suffix("]; ")?.split(", ").collect();
+    let (name, real) = (
         name.to_ascii_uppercase(),
+        if is_single { "f32" } else { "f64" },
     );
-    let list = match name {
-        "bodies" => between(text, "pub const BODIES: Bodies = Bodies([ ", ", ]); ")?,
-        _ => {
-            let (kind, list) = text.split_once("] = [")?;
-            let count = list.split(',').count();
-            let is_head = kind == format!("pub const {capitals}: [{real}; {count}");
-            list.strip_suffix("]; ").filter(|_| is_head)?
-        }
-    };
-    list.split(", ").map(|own| own.parse().ok()).collect()
+    (kind == format!("pub const {name}: [{real}; {}", list.len())).then_some(list)
 }
 
-fn c_numbers(text: &str, item: &Found, name: &str, is_single: bool) -> Option<Vec<f64>> {
-    // Of bodies nothing in the text says which scalar's they are but the names.
+fn c_numbers<'t>(text: &'t str, item: &Found, name: &str, is_single: bool) -> Option<Vec<&'t str>> {
     let prefix = item.name.strip_suffix(&format!("_{name}"))?;
-    let macros = &item.symbols.macros;
-    let (real, suffix) = if is_single {
-        ("float", "F")
-    } else {
-        ("double", "")
-    };
     let (head, body) = text.split_once(" { ")?;
     let lines: Vec<&str> = body.strip_suffix("; } ")?.split("; ").collect();
-    let count = lines.len();
-    let (kind, entry) = match name {
-        "bodies" => (
-            format!("{prefix}_bodies_t into[{macros}_RESTRICT 1]"),
-            "into->bodies",
-        ),
-        _ => (format!("{real} into[{macros}_RESTRICT {count}]"), "into"),
+    let [real, end] = if is_single {
+        ["float", "F"]
+    } else {
+        ["double", ""]
     };
-    if head != format!("static inline void {prefix}_{name}({kind})") {
+    let (kind, entry, count) = match name {
+        "bodies" => (format!("{prefix}_bodies_t"), "into->bodies", 1),
+        _ => (real.to_owned(), "into", lines.len()),
+    };
+    let macros = &item.symbols.macros;
+    let parameter = format!("{kind} into[{macros}_RESTRICT {count}]");
+    if head != format!("static inline void {prefix}_{name}({parameter})") {
         return None;
     }
-    let number = |(place, line): (usize, &&str)| {
-        let number = between(line, &format!("{entry}[{place}] = "), suffix)?;
-        number.parse().ok()
+    let number = |(place, line): (usize, &&'t str)| -> Option<&'t str> {
+        between(line, &format!("{entry}[{place}] = "), end)
     };
     lines.iter().enumerate().map(number).collect()
-}
-
-/// Both are the nearest of the same decimals, or next to these.
-fn are_near(numbers: &[f64], values: &[f64], is_single: bool) -> bool {
-    let part = if is_single { 1.2e-7 } else { 4.5e-16 };
-    let is_near = |(own, value): (&f64, &f64)| (own - value).abs() <= part * value.abs();
-    numbers.len() == values.len() && numbers.iter().zip(values).all(is_near)
 }
 
 #[cfg(test)]
@@ -84,31 +66,52 @@ mod tests {
 
     #[test]
     fn constants_have_the_robots_numbers() {
-        let all = [("bodies", vec![0.0, 1.5]), ("armature", vec![0.1, 0.0])];
+        let exact = |text: &str| Exact::read(text).unwrap();
+        let all = [
+            ("bodies", vec![exact("0"), exact("1.5")]),
+            ("armature", vec![exact("0.1"), exact("0")]),
+        ];
         let item = |text: &str| Found {
             text: text.to_owned(),
             ..Found::default()
         };
-        let is = |text: &str| is_default(&item(text), false, &all);
-        assert!(is(
-            "pub const BODIES: Bodies = Bodies([\n    0.0,\n    1.5,\n]);\n"
-        ));
-        assert!(!is(
-            "pub const BODIES: Bodies = Bodies([\n    0.0,\n    1.6,\n]);\n"
-        ));
-        assert!(!is("pub const BODIES: Bodies = Bodies([\n    0.0,\n]);\n"));
-        assert!(is("pub const ARMATURE: [f64; 2] = [0.1, 0.0];\n"));
-        assert!(is("pub const ARMATURE: [f32; 2] = [0.1, 0.0];\n"));
-        assert!(!is("pub const ARMATURE: [f64; 2] = [0.1, 0.0000001];\n"));
-        assert!(!is("pub const VISCOUS: [f64; 2] = [0.1, 0.0];\n"));
+        let is = |text: &str, is_single| is_default(&item(text), false, is_single, &all);
+        let bodies = |list: &str| {
+            is(
+                &format!("pub const BODIES: Bodies = Bodies([\n{list}]);"),
+                false,
+            )
+        };
+        assert!(bodies("    0.0,\n    1.5,\n"));
+        assert!(!bodies("    0.0,\n    1.6,\n") && !bodies("    0.0,\n"));
+        let armature = |real: &str, number: &str, is_single| {
+            let text = format!("pub const ARMATURE: [{real}; 2] = [{number}, 0.0];\n");
+            is(&text, is_single)
+        };
+        assert!(armature("f64", "0.1", false) && armature("f32", "0.1", true));
+        assert!(!armature("f32", "0.1", false) && !armature("f64", "0.1", true));
+        let others = "0.10 00.1 +0.1 1e-1 -0.1 0.0 0.10000001 0.10000000000000002";
+        for other in others.split(' ') {
+            assert!(!armature("f64", other, false), "{other}");
+        }
+        assert!(!is("pub const VISCOUS: [f64; 2] = [0.1, 0.0];\n", false));
         let mut header = item(
             "static inline void arm_armature(double into[ARM_RESTRICT 2])\n{\n    into[0] = 0.1;\n    \
              into[1] = 0.0;\n}\n",
         );
         header.name = "arm_armature";
         header.symbols.macros = "ARM".to_owned();
-        assert!(is_default(&header, true, &all));
-        header.text = header.text.replace("0.1", "0.2");
-        assert!(!is_default(&header, true, &all));
+        assert!(is_default(&header, true, false, &all));
+        let all = [("armature", vec![exact("12"), exact("0")])];
+        for (number, is_it) in [
+            ("12.0", true),
+            ("012", false),
+            ("12", false),
+            ("13.0", false),
+        ] {
+            let mut other = header.clone();
+            other.text = header.text.replace("0.1", number);
+            assert_eq!(is_default(&other, true, false, &all), is_it, "{number}");
+        }
     }
 }

@@ -58,7 +58,8 @@ pub struct Sampler<'f> {
     leaves: Vec<Operand<f64>>,
     /// Each step's operation and the places of its operands: leaves first, then steps.
     code: Vec<(char, [usize; 2])>,
-    outputs: Vec<usize>,
+    /// Whether each result is negated, and its place.
+    outputs: Vec<(bool, usize)>,
     speeds: &'f [(usize, f64)],
     /// The errors of sines and cosines by polynomials.
     polynomials: Vec<[Option<f64>; 2]>,
@@ -90,7 +91,8 @@ impl<'f> Sampler<'f> {
         let steps = program.steps.iter();
         let code = steps.map(|(operation, both)| (*operation, both.each_ref().map(&mut place)));
         let code: Vec<_> = code.collect();
-        let outputs: Vec<_> = program.outputs.iter().map(|own| place(&own.1)).collect();
+        let outputs = program.outputs.iter();
+        let outputs: Vec<_> = outputs.map(|own| (own.0, place(&own.1))).collect();
         let first = leaves.len();
         let index = |own: Result<usize, usize>| own.unwrap_or_else(|step| first + step);
         let pair = |joint| [true, false].map(|own| rounding.polynomial(joint, own));
@@ -98,7 +100,10 @@ impl<'f> Sampler<'f> {
         Sampler {
             code: code.collect(),
             leaves,
-            outputs: outputs.into_iter().map(index).collect(),
+            outputs: outputs
+                .into_iter()
+                .map(|own| (own.0, index(own.1)))
+                .collect(),
             speeds: &function.speeds,
             polynomials: (0..joints).map(pair).collect(),
             scalar: rounding.scalar,
@@ -148,7 +153,11 @@ impl<'f> Sampler<'f> {
     }
 
     pub fn results<'v>(&'v self, values: &'v [Lanes]) -> impl Iterator<Item = Lanes> + 'v {
-        self.outputs.iter().map(|place| values[*place])
+        self.outputs.iter().map(|&(is_negative, place)| {
+            let own = values[place];
+            let value = own.value.map(|x| if is_negative { -x } else { x });
+            Lanes { value, ..own }
+        })
     }
 
     /// Returns the largest magnitude of each step.

@@ -144,3 +144,44 @@ fn variants_that_are_checked_in() {
         assert!(results.len() == 6 && are_shown, "{results:?}");
     }
 }
+
+/// Axes and bodies are those of the robot file, wherever the rows of a claim have their origins.
+#[test]
+fn rows_are_measured_by_the_robot_file() {
+    let cases = [
+        ("axis_slid_far", "place of joint 2"),
+        ("point_mass", "rounding of `load`"),
+    ];
+    for (name, words) in cases {
+        let (text, claim) = (
+            data(&format!("{name}.h")),
+            data(&format!("{name}.claim.json")),
+        );
+        let report = certify(&text, &claim, &data("placed.toml"), &Demand::default());
+        assert!(report.as_ref().is_ok_and(|own| !own.passes(false)) || report.is_err());
+        assert!(format!("{report:?}").contains(words), "{name}: {report:?}");
+    }
+}
+
+/// Whoever claims more bodies than the robot has links is told before any is looked at.
+#[test]
+fn bodies_that_are_too_many_are_refused_at_once() {
+    let claim = data("point_mass.claim.json");
+    let many = claim.replacen(
+        "\"bodies\": [",
+        &format!("\"bodies\": [{}", "1, ".repeat(100_000)),
+        1,
+    );
+    assert_ne!(many, claim);
+    let why = certify(
+        &data("point_mass.h"),
+        &many,
+        &data("placed.toml"),
+        &Demand::default(),
+    );
+    assert!(
+        why.unwrap_err()
+            .to_string()
+            .contains("more bodies than links")
+    );
+}

@@ -84,10 +84,18 @@ pub fn beside(path: &Path, suffix: &str) -> PathBuf {
     path.with_file_name(format!("{base}{suffix}.{ending}"))
 }
 
-/// Returns the items of a value, without the spaces in them and without empty ones.
+/// Returns the items of a value that are not empty, with spaces between words alone.
 pub fn items(value: &str) -> impl Iterator<Item = String> + '_ {
-    let items = value.split(',');
-    let items = items.map(|item| item.split_whitespace().collect::<String>());
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let items = value.split(',').map(move |item| {
+        item.split_whitespace()
+            .fold(String::new(), |mut text, part| {
+                if text.ends_with(is_word) && part.starts_with(is_word) {
+                    text.push(' ');
+                }
+                text + part
+            })
+    });
     items.filter(|item| !item.is_empty())
 }
 

@@ -243,8 +243,8 @@ pub fn check(file: &File, aligned: &File, scene: Option<&str>) -> Result<(), Str
     let (own, other) = (parts(file, given, true)?, parts(aligned, moved, false)?);
     let double = |own: &Fixed| (&own.0 >> (BITS - 64)).to_f64().unwrap_or(0.0) / 2f64.powi(64);
     for (own, other) in own.iter().zip(&other) {
-        let scale = (&own.scale).max(&other.scale);
-        let slack: BigInt = scale / BigInt::from(10).pow(DIGITS) + 1;
+        // Not of the claim, whose origins may stand anywhere along the axes.
+        let slack: BigInt = &own.scale / BigInt::from(10).pow(DIGITS) + 1;
         let mut pairs = own.values.iter().zip(&other.values);
         let is_near = pairs.all(|(own, other)| (&own.0 - &other.0).abs() <= slack);
         if own.name != other.name || !is_near {

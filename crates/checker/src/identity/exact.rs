@@ -351,12 +351,9 @@ impl Exact {
         // Printed code has no zero with a sign. A number that is not zero does not vanish: others
         // could be as large as it is small. A sum of sines may be zero, as 2 cos² π/4 − 1 is.
         if literal == 0.0 {
-            let is_zero = rounded.over.abs() <= rounded.slack;
-            let vanishes = || {
-                let point = Point::new(&[&format!("{:?}", self.0.terms)]);
-                !point.constant(self).is_nonzero()
-            };
-            return literal.is_sign_positive() && is_zero && (is_exact || vanishes());
+            let is_zero = literal.is_sign_positive() && rounded.over.abs() <= rounded.slack;
+            let point = || Point::new(&[&format!("{:?}", self.0.terms)]);
+            return is_zero && (is_exact || !point().constant(self).is_nonzero());
         }
         let own = literal as f32;
         if is_single && f64::from(own) != literal {
@@ -435,19 +432,18 @@ impl Point {
 
     /// Returns sine and cosine of a twenty-fourth of a turn, a twelfth or an eighth, by √2 and √3.
     fn part_of_turn(&self, angle: &Angle) -> Option<[Number; 2]> {
-        let Angle::Pi(multiple) = angle else {
-            return None;
-        };
-        let [one, half] = [1.into(), self.half()];
-        let [two, three] = [2, 3].map(|square| Number::new(square, self.prime).root());
-        let parts = multiple * BigInt::from(12);
-        let parts = parts.is_integer().then(|| parts.to_u8());
-        Some(match parts?? {
-            1 => [three - one, three + one].map(|x| x * two * half * half),
-            2 => [half, three * half],
-            3 => [two * half; 2],
+        let parts = match angle {
+            Angle::Pi(multiple) => multiple * BigInt::from(12),
             _ => return None,
-        })
+        };
+        let half = self.half();
+        let [two, three] = [2, 3].map(|square| Number::new(square, self.prime).root() * half);
+        match parts.is_integer().then(|| parts.to_u8())?? {
+            1 => Some([three * two - two * half, three * two + two * half]),
+            2 => Some([half, three]),
+            3 => Some([two, two]),
+            _ => None,
+        }
     }
 
     /// Returns sine and cosine of a constant angle: a point of the circle, which one angle up to an
@@ -455,10 +451,9 @@ impl Point {
     /// twenty-fourth of a turn have all their relations, other angles are drawn.
     pub fn angle(&self, angle: &Angle) -> [Number; 2] {
         let drawn = |angle: Angle| {
-            if let Some(known) = self.angles.borrow().get(&angle) {
-                return *known;
-            }
-            let pair = self.part_of_turn(&angle).unwrap_or_else(|| self.pair());
+            let known = self.angles.borrow().get(&angle).copied();
+            let known = known.or_else(|| self.part_of_turn(&angle));
+            let pair = known.unwrap_or_else(|| self.pair());
             self.angles.borrow_mut().insert(angle, pair);
             pair
         };

@@ -1,11 +1,12 @@
 //! Bodies of links, drives and a payload: the arguments of the function `load`.
 
-use num_traits::ToPrimitive;
+use num_rational::BigRational as Rational;
+use num_traits::{ToPrimitive, Zero};
 
 use super::arm::{Arm, Reading};
-use super::exact::{Point, number};
+use super::exact::{Exact, Point, number};
 use super::number::Number;
-use super::robot::{Bodies, File};
+use super::robot::{Bodies, File, number_of};
 use super::screw::{Body, Pose, Vector};
 use super::setting::Setting;
 use super::state::State;
@@ -20,12 +21,12 @@ const MOST: f64 = 1e9;
 const NOTHING: f64 = 1e-18;
 /// Those in whose place the robot file has numbers.
 pub const DEFAULTS: [&str; 3] = ["bodies", "armature", "viscous"];
-/// The largest mass of a link that weighs nothing in the file, kg, and how far its body reaches, m.
+/// Half the most mass, kg, of a link that has none in the file, and half of its reach, m.
 const LIGHT: (f64, f64) = (1.0, 0.3);
 
 impl Setting<'_> {
     /// Takes from a claim the arguments of `load` and the links whose bodies they are. The robot file has
-    /// these numbers in the place of bodies, of which those that are zero stay zero, if there are any.
+    /// these numbers in the place of bodies; those that are zero stay zero, if they are kept.
     ///
     /// # Errors
     /// Links that the robot has not, or not in order.
@@ -33,12 +34,17 @@ impl Setting<'_> {
         &mut self,
         arguments: &[String],
         links: &[usize],
-        kept: &[f64],
+        numbers: &[Exact],
+        keeps_zeros: bool,
     ) -> Result<(), String> {
         let places = arguments.iter().map(|name| argument(name));
         self.loading = places.flatten().collect();
         self.bodies = links.to_vec();
-        self.zeros = kept.iter().map(|x| x.abs() < NOTHING).collect();
+        let numbers = numbers.iter().map(|x| x.double().unwrap_or_default()[0]);
+        let numbers: Vec<f64> = numbers.collect();
+        self.numbers = numbers.as_chunks().0.to_vec();
+        let kept = numbers.iter().filter(|_| keeps_zeros);
+        self.zeros = kept.map(|x| *x == 0.0).collect();
         let (first, last) = (usize::from(!self.floats), self.links());
         let is_there = |link: &usize| (first..=last).contains(link);
         let are_in_order = self.bodies.is_sorted_by(|one, next| one < next);
@@ -80,25 +86,13 @@ impl Setting<'_> {
     /// # Errors
     /// A number of a link that is not one.
     pub fn body_ranges(&self) -> Result<Vec<payload::Body>, String> {
-        let of = |link: &usize| {
-            let limits = match link.checked_sub(1) {
-                Some(row) => self
-                    .file
-                    .joint
-                    .get(row)
-                    .and_then(|row| row.limits.body.as_ref()),
-                None => self
-                    .file
-                    .floating
-                    .as_ref()
-                    .and_then(|base| base.limits.body.as_ref()),
-            };
-            match limits {
-                Some(given) => given.read("body"),
-                None => Ok(around(self.file.body_of(*link)?)),
-            }
+        let of = |(link, numbers): (&usize, &[f64; 10])| {
+            let joint = |row: usize| self.file.joint.get(row)?.limits.body.as_ref();
+            let base = || self.file.floating.as_ref()?.limits.body.as_ref();
+            let given = link.checked_sub(1).map_or_else(base, joint);
+            given.map_or_else(|| Ok(around(*numbers)), |own| own.read("body"))
         };
-        self.bodies.iter().map(of).collect()
+        self.bodies.iter().zip(&self.numbers).map(of).collect()
     }
 }
 
@@ -109,13 +103,10 @@ fn around([mass, x, y, z, xx, yy, zz, ..]: [f64; 10]) -> payload::Body {
         false => 0.0,
     };
     let reach = (x * x + y * y + z * z).sqrt() + about.sqrt();
-    let (most, radius) = match mass > 0.0 && reach > 0.0 {
-        true => (mass, reach),
-        false => LIGHT,
-    };
+    let or = |x: f64, light: f64| if x > 0.0 { x } else { light };
     payload::Body {
-        mass: [0.5 * most, 2.0 * most],
-        radius: 2.0 * radius,
+        mass: [0.5 * mass, 2.0 * or(mass, LIGHT.0)],
+        radius: 2.0 * or(reach, LIGHT.1),
     }
 }
 
@@ -146,25 +137,21 @@ impl File {
     ///
     /// # Errors
     /// One that is not a number.
-    pub fn body_of(&self, link: usize) -> Result<[f64; 10], String> {
-        let base = self.floating.as_ref();
-        let (mass, com, inertia) = match link.checked_sub(1) {
-            Some(row) => {
-                let row = self.joint.get(row).ok_or("a link that is not there")?;
-                (&row.mass, &row.com, &row.inertia)
-            }
-            None => {
-                let base = base.ok_or("the body of a base that does not move")?;
-                (&base.mass, &base.com, &base.inertia)
-            }
+    pub fn body_of(&self, link: usize) -> Result<Vec<Exact>, String> {
+        let all = match link.checked_sub(1) {
+            Some(row) => (self.joint.get(row)).map(|own| (&own.mass, &own.com, &own.inertia)),
+            None => (self.floating.as_ref()).map(|own| (&own.mass, &own.com, &own.inertia)),
         };
+        let (mass, com, inertia) = all.ok_or("the body of a link that is not there")?;
         let com = com.iter().flatten();
         let inertia = inertia.iter().flatten();
-        let mut numbers = [0.0; 10];
+        let mut numbers = vec![Exact::from(Rational::zero()); 10];
         let texts = [(0, mass)].into_iter().filter(|(_, text)| !text.is_empty());
         let texts = texts.chain((1..).zip(com)).chain((4..).zip(inertia));
         for (place, text) in texts {
-            numbers[place] = double(text).map_err(|why| format!("link {link}: {why}"))?;
+            let number = number_of(Some(text)).map_err(|why| format!("link {link}: {why}"))?;
+            let is_nothing = number.to_f64().is_some_and(|x| x.abs() < NOTHING);
+            numbers[place] = Exact::from(if is_nothing { Rational::zero() } else { number });
         }
         Ok(numbers)
     }
@@ -173,9 +160,10 @@ impl File {
     ///
     /// # Errors
     /// One that is not a number.
-    pub fn defaults(&self, name: &str, links: &[usize]) -> Result<Vec<f64>, String> {
-        let read = |text: &Option<String>| text.as_ref().map_or(Ok(0.0), |text| double(text));
+    pub fn defaults(&self, name: &str, links: &[usize]) -> Result<Vec<Exact>, String> {
+        let read = |text: &Option<String>| number_of(text.as_ref()).map(Exact::from);
         match name {
+            "bodies" if links.len() > self.joint.len() + 1 => Err("more bodies than links".into()),
             "bodies" => {
                 let all = links.iter().map(|link| self.body_of(*link));
                 Ok(all.collect::<Result<Vec<_>, String>>()?.concat())
@@ -203,33 +191,28 @@ impl Arm {
         state: &State,
     ) -> Result<Arm, String> {
         // A payload is on what its link has.
-        let is_payload = |place: &usize| ARGUMENTS[*place].0 == "payload";
-        let (payloads, others): (Vec<usize>, Vec<usize>) =
-            setting.loading.iter().partition(|place| is_payload(place));
-        for place in others.into_iter().chain(payloads) {
+        let mut places = setting.loading.clone();
+        places.sort_by_key(|place| ARGUMENTS[*place].0 == "payload");
+        for place in places {
             let own = &state.given[place];
             match ARGUMENTS[place].0 {
                 "bodies" => {
-                    let mut numbers = own.clone();
-                    for (number, is_zero) in numbers.iter_mut().zip(&setting.zeros) {
-                        if *is_zero {
-                            *number = 0.into();
-                        }
-                    }
+                    let stays = |place| setting.zeros.get(place) == Some(&true);
+                    let numbers = own.iter().enumerate();
+                    let numbers = numbers.map(|(k, x)| if stays(k) { 0.into() } else { *x });
+                    let numbers: Vec<Number> = numbers.collect();
                     for (link, numbers) in setting.bodies.iter().zip(numbers.chunks(10)) {
                         self.take_body(*link, body(numbers)?)?;
                     }
                 }
-                "armature" => self
-                    .joints
-                    .iter_mut()
-                    .zip(own)
-                    .for_each(|(row, x)| row.armature = *x),
-                "viscous" => self
-                    .joints
-                    .iter_mut()
-                    .zip(own)
-                    .for_each(|(row, x)| row.viscous = *x),
+                "armature" => {
+                    let rows = self.joints.iter_mut().zip(own);
+                    rows.for_each(|(row, x)| row.armature = *x);
+                }
+                "viscous" => {
+                    let rows = self.joints.iter_mut().zip(own);
+                    rows.for_each(|(row, x)| row.viscous = *x);
+                }
                 _ => {
                     let frame = point.placement(setting.file.payload_frame.as_ref())?;
                     let row = setting.file.holder(None)?.unwrap_or_default();

@@ -4,12 +4,11 @@
 //! A difference is N/M with polynomials N and M in the inputs. N does not vanish at a random point
 //! of a field of more than 2¹²⁵ residues but with probability at most its degree over 2¹²⁵, unless
 //! the prime divides all its coefficients, and few primes divide a number. Each point has a prime
-//! of its own, of the form 24 k − 1: √2 and √3 are residues, by which multiples of 15° have all
-//! their relations. Constants count in the degree d, which is at most 2⁸⁰: so coefficients have at
-//! most d·2¹⁸ bits, their norms over the rationals d·2²⁰, and of the 2¹¹⁵ such primes of 126 bits
-//! at most d·2¹⁴ divide all of them. A wrong program passes one point with a probability of at most
-//! d·2⁻¹⁰⁰, and there are so many points that it passes all of them with at most 2⁻¹⁴⁰: two for a
-//! degree of 2³⁰, four for 2⁵⁶, seven for 2⁸⁰.
+//! of its own, of the form 24 k − 1, where √2 and √3 are residues: multiples of 15° have all their
+//! relations. Constants count in the degree d, which is at most 2⁸⁰: so coefficients have at most
+//! d·2¹⁸ bits, their norms d·2²⁰, and of the 2¹¹⁵ such primes of 126 bits at most d·2¹⁴ divide all
+//! of them. A wrong program passes one point with a probability of at most d·2⁻¹⁰⁰, and there are so
+//! many that it passes all with at most 2⁻¹⁴⁰: two for a degree of 2³⁰, four for 2⁵⁶, seven for 2⁸⁰.
 //!
 //! - `check`: the comparison, [`check`]; `residues`: the values of a program, and its degree
 //! - [`number`]: residues with slopes, and draws from a hash; [`exact`]: constants and angles

@@ -141,8 +141,10 @@ impl Number {
 
     /// Returns the square root of a residue that has one, modulo a prime of the form 4 k − 1.
     pub fn root(self) -> Number {
-        let exponent = self.prime.value.div_ceil(4);
-        let parts = [self.prime.power(self.parts[0], exponent), 0, 0, 0];
+        let power = self
+            .prime
+            .power(self.parts[0], self.prime.value.div_ceil(4));
+        let parts = [power, 0, 0, 0];
         Number { parts, ..self }
     }
 

@@ -23,7 +23,7 @@ const GRAVITY_SLACK: f64 = 1e-6;
 
 /// A robot in a scene, or by itself.
 pub struct Setting<'f> {
-    pub(super) file: &'f File,
+    pub(crate) file: &'f File,
     pub(super) scene: &'f Scene,
     pub(super) follows: Vec<Follows<'f>>,
     /// The rows whose joints move by themselves: joints are numbered by their places here.
@@ -39,7 +39,9 @@ pub struct Setting<'f> {
     pub loading: Vec<usize>,
     /// The links whose bodies are among them, from one; a base that floats is zero.
     pub bodies: Vec<usize>,
-    /// The numbers of these that stay zero; empty if any may be another.
+    /// The numbers of these in the robot file.
+    pub numbers: Vec<[f64; 10]>,
+    /// Those of them that stay zero; empty if any may be another.
     pub zeros: Vec<bool>,
 }
 
@@ -109,6 +111,7 @@ impl File {
             rows: rows.collect(),
             loading: Vec::new(),
             bodies: Vec::new(),
+            numbers: Vec::new(),
             zeros: Vec::new(),
         })
     }

@@ -23,8 +23,6 @@ pub(super) struct Reader<'r> {
     pub symbols: Option<&'r Symbols>,
     /// `true` where values are vectors, whose literals are `of.all(0.5)`.
     pub is_vectors: bool,
-    /// `true` once `of` is one of them.
-    pub has_of: bool,
     names: HashMap<&'r str, Operand<f64>>,
     pub order: Vec<&'r str>,
     pub function: Function,
@@ -50,7 +48,6 @@ impl<'r> Reader<'r> {
             head,
             symbols,
             is_vectors: false,
-            has_of: false,
             names: HashMap::new(),
             order: Vec::new(),
             function: Function::default(),
@@ -227,9 +224,6 @@ impl<'r> Reader<'r> {
     pub(super) fn literal(&mut self) -> Read<f64> {
         if self.is_vectors {
             self.expect_all("of.all(")?;
-            if !self.has_of {
-                return self.refuse("`of` is not there");
-            }
         }
         let is_negative = self.take("-");
         let is_float = self.symbols.is_some() && self.head.is_single;

@@ -10,7 +10,7 @@
 //! ```
 
 use super::reader::{Read, Reader, commas, joint_of};
-use super::{Function, Source};
+use super::{Argument, Function, Source};
 
 const TYPES: [(&str, &str); 4] = [
     ("g", "Gravity"),
@@ -18,6 +18,11 @@ const TYPES: [(&str, &str); 4] = [
     ("payload", "Payload"),
     ("bodies", "Bodies"),
 ];
+
+fn type_of(argument: &Argument) -> Option<&'static str> {
+    let own = TYPES.iter().find(|(name, _)| *name == argument.name);
+    own.map(|(_, kind)| *kind)
+}
 
 impl<'r> Reader<'r> {
     pub(super) fn rust(&mut self, has_columns: bool) -> Read<()> {
@@ -31,9 +36,8 @@ impl<'r> Reader<'r> {
     fn rust_head(&self) -> String {
         let (head, scalar) = (self.head, self.head.scalar());
         let arguments = head.arguments.iter().map(|argument| {
-            let own = TYPES.iter().find(|(name, _)| *name == argument.name);
             let array = || format!("[{scalar}; {}]", argument.length);
-            let kind = own.map_or_else(array, |(_, kind)| (*kind).to_owned());
+            let kind = type_of(argument).map_or_else(array, str::to_owned);
             format!("{}: &{kind}", argument.name)
         });
         let (name, arguments) = (head.name, commas(arguments));
@@ -207,47 +211,43 @@ impl<'r> Reader<'r> {
     }
 
     fn columns(&mut self) -> Read<()> {
-        let (head, scalar, n) = (self.head, self.head.scalar(), self.head.joints);
+        let (head, scalar) = (self.head, self.head.scalar());
         let single = std::mem::take(&mut self.function);
         let taken = single.sines.iter();
         let taken = taken.filter(|own| own.source == Source::Together);
         let taken: Vec<usize> = taken.map(|own| own.joint).collect();
-        let (count, k) = (head.arguments.len(), taken.len());
-        let entries = single.program.outputs.len();
+        let (results, k) = (single.program.outputs.len(), taken.len());
         let kind = format!("{}Batch", camel(head.name));
-        let names = commas(head.arguments.iter().map(|own| own.name.to_owned()));
-        let sizes = format!("{count}, {n}, {entries}, {k}");
-        let is_fused = single.program.steps.iter().any(|step| step.0 == '×') && k > 0;
-        let told = "const FUSED: bool = true;";
-        let fused = if is_fused { told } else { "" };
+        let is_fused = k > 0 && single.program.steps.iter().any(|step| step.0 == '×');
+        let fused = ["", "const FUSED: bool = true;"][usize::from(is_fused)];
+        let angles = commas(taken.iter().map(|joint| format!("entries[{joint}]")));
+        let (mut slices, mut begin) = (String::new(), 0);
+        for own in &head.arguments {
+            let end = begin + own.length;
+            slices += &format!("let {} = &entries[{begin}..{end}]; ", own.name);
+            begin = end;
+        }
+        let (given, sizes) = (begin, format!("{begin}, {results}, {k}"));
+        let method = "#[inline(always)] #[allow(unused_variables)] fn";
         self.expect_all(&format!(
             "#[derive(Clone, Copy, Debug)] pub struct {kind};
             impl dalembert_batch::Function<{sizes}> for {kind} {{
             type Scalar = {scalar}; {fused}
-            #[inline(always)] fn angles<V: dalembert_batch::Floats<{scalar}>>(["
+            {method} angles<V: dalembert_batch::Floats<{scalar}>>(entries: &[V; {given}])
+            -> [V; {k}] {{ [{angles}] }}
+            {method} vectors<V: dalembert_batch::Vector<{scalar}>>(entries: &[V; {given}], &"
         ))?;
-        self.expect_head(&names)?;
-        let list = commas(taken.iter().map(|joint| format!("q[{joint}]")));
-        self.expect_all(&format!(
-            "]: &[[V; {n}]; {count}]) -> [V; {k}] {{ [{list}] }}
-            #[inline(always)] fn vectors<V: dalembert_batch::Vector<{scalar}>>(["
-        ))?;
-        self.expect_head(&names)?;
         self.forget_names(0, &[])?;
-        self.expect_all(&format!("]: &[[V; {n}]; {count}], &"))?;
         let sines = self.listed()?;
         self.expect_all(&format!(": &[V; {k}], &"))?;
         let cosines = self.listed()?;
-        self.expect_all(&format!(": &[V; {k}]) -> [V; {entries}] {{"))?;
+        self.expect_all(&format!(
+            ": &[V; {k}]) -> [V; {results}] {{ let of = entries[0]; {slices}"
+        ))?;
         self.name_together(&taken, [&sines, &cosines])?;
         self.is_vectors = true;
-        if self.peek(1) == "of" {
-            let first = head.arguments.first().map_or("", |own| own.name);
-            self.expect_all(&format!("let of = {first}[0];"))?;
-            self.has_of = true;
-        }
         self.statements(false)?;
-        self.results(&array(&[entries]))?;
+        self.results(&array(&[results]))?;
         self.is_vectors = false;
         let sorted = |mut own: Function| {
             own.sines.sort_by_key(|sines| sines.joint);
@@ -258,13 +258,21 @@ impl<'r> Reader<'r> {
         if sorted(vectors) != sorted(single) {
             return self.refuse("other operations over vectors than of one state");
         }
-        let columns = head.arguments.iter();
-        let columns = columns.map(|own| format!("{}: &[&[{scalar}]; {n}], ", own.name));
-        let (name, columns) = (head.name, columns.collect::<String>());
+        let parameters = head.arguments.iter().map(|own| match type_of(own) {
+            Some(kind) => format!("{}: &[{kind}], ", own.name),
+            None => format!("{}: &[&[{scalar}]; {}], ", own.name, own.length),
+        });
+        let passed = head.arguments.iter().map(|own| match type_of(own) {
+            Some(_) => format!("dalembert_batch::Argument::Rows(&{})", own.name),
+            None => format!("dalembert_batch::Argument::Columns({})", own.name),
+        });
+        let (parameters, passed) = (parameters.collect::<String>(), commas(passed));
+        let rows = head.arguments.iter().filter(|own| type_of(own).is_some());
+        let (name, rows) = (head.name, rows.map(|own| own.length).sum::<usize>());
         self.expect_all(&format!(
-            "}} }} pub fn {name}_columns({columns}results: &mut [&mut [{scalar}]; {entries}])
-            -> Result<(), dalembert_batch::Unequal> {{
-            dalembert_batch::columns::<{kind}, {sizes}>([{names}], results) }}"
+            "}} }} pub fn {name}_columns({parameters}results: &mut [&mut [{scalar}]; {results}])
+            -> Result<(), dalembert_batch::Unequal> {{ let arguments = [{passed}];
+            dalembert_batch::columns::<{kind}, {sizes}, {rows}>(&arguments, results) }}"
         ))
     }
 }
