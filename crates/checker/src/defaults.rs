@@ -9,9 +9,8 @@ pub(crate) type Default = (&'static str, Vec<Exact>);
 
 /// True if an item is the constant, in C the function, of one of these, and has its numbers.
 pub(crate) fn is_default(item: &Found, is_c: bool, is_single: bool, all: &[Default]) -> bool {
-    let lines = item.text.lines().map(str::trim);
-    let lines = lines.filter(|line| !line.is_empty());
-    let text: String = lines.map(|line| format!("{line} ")).collect();
+    let words = item.text.split_whitespace();
+    let text: String = words.map(|word| format!("{word} ")).collect();
     all.iter().any(|(name, values)| {
         let list = match is_c {
             true => c_numbers(&text, item, name, is_single),

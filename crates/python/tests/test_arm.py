@@ -338,6 +338,22 @@ def test_bodies_are_those_of_pinocchio():
     assert_allclose(found, expected, rtol=0, atol=1e-13 * np.abs(expected).max())
 
 
+def test_wrenches_are_about_the_links_of_the_model():
+    """Forces and moments between links, about the origins of the URDF's links, from Pinocchio."""
+    path = urdf("panda")
+    golden = json.loads((path.parent / "wrenches.json").read_text())
+    # The finger slides.
+    finger = {"panda_finger_joint2": 0}
+    for name, tip, lock in (("panda", "panda_link8", "*"), ("panda_finger", "panda_leftfinger", finger)):
+        values = golden[name]
+        arm = dalembert.load(path, tip=tip, lock=lock, outputs="reaction_wrenches")
+        assert [joint for joint, _ in arm.joints] == values["joints"]
+        q, qd, qdd = np.moveaxis(np.array(values["states"]), 1, 0)
+        expected = np.array(values["wrenches"])
+        most = 1e-13 * np.abs(expected).max()
+        assert_allclose(arm.reaction_wrenches(q, qd, qdd), expected, rtol=0, atol=most)
+
+
 def test_links_that_branch():
     """A Panda with its hand: the second finger follows the first, on a limb of its own."""
     path = urdf("panda")

@@ -286,6 +286,7 @@ impl Arm {
             let drive = [&row.viscous, &row.coulomb, &row.armature];
             let [viscous, coulomb, armature] = point.list(drive.map(Option::as_ref))?;
             let (leader, line) = point.line(setting, index)?;
+            let shown = frame.then(&point.placement(row.frame.as_ref())?);
             joints.push(Joint {
                 parent,
                 turns,
@@ -296,11 +297,11 @@ impl Arm {
                     false => Screw(Vector::default(), along),
                 }),
                 origin: match convention {
-                    Some("standard") => (at.origin, false),
-                    _ => (frame.origin, true),
+                    Some("standard") if row.frame.is_none() => (at.origin, false),
+                    _ => (shown.origin, true),
                 },
                 link: frame,
-                shown: frame.then(&point.placement(row.frame.as_ref())?),
+                shown,
                 body: body.moved(&given.1),
                 given,
                 viscous,

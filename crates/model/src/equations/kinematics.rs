@@ -171,6 +171,34 @@ impl Formulation {
         let turned = |wrench: &Wrench<S>| wrench.in_axes(|v| base.rotate(v));
         wrenches.iter().map(turned).collect()
     }
+
+    /// Returns [`wrenches`](Formulation::wrenches), of a link with a frame of its own about the origin of
+    /// that frame: rows of placed joints have their origins anywhere on the axes.
+    pub fn reactions<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &At<S>,
+        [qd, qdd]: [&[S]; 2],
+    ) -> Vec<Wrench<S>> {
+        let mut wrenches = self.wrenches(arm, at, qd, qdd);
+        let poses = poses(arm, at);
+        for ((link, step), wrench) in arm.steps(at).enumerate().zip(&mut wrenches) {
+            let Some(own) = arm.frames.of_link(link) else {
+                continue;
+            };
+            let lever = match arm.convention {
+                Convention::Modified => poses[link].rotate(&own.origin),
+                Convention::Standard => {
+                    // The step's own origin is the lever: no difference of two large positions.
+                    let before = arm.carrier(link).map(|carrier| poses[carrier].axes.clone());
+                    let before = before.unwrap_or_else(|| arm.frame_0().axes);
+                    step.append(&Columns::turned(before)).then(own).origin
+                }
+            };
+            wrench.moment = difference(&wrench.moment, &cross(&lever, &wrench.force));
+        }
+        wrenches
+    }
 }
 
 /// Returns the wrenches in the axes of frame 0, as gravity is.

@@ -115,7 +115,7 @@ impl Formula for Wrench {
     const FACTS: Facts = Facts {
         field: "wrenches",
         letter: "w",
-        summary: "Force over moment at every joint, about the origin of the frame whose z is its axis.",
+        summary: "Force over moment at every joint in base axes, about the origin of the link's frame; of a DH row about that of the frame whose z is the axis.",
         arguments: &Argument::STATE,
         shape: Shape(&[Axis::Links, Axis::Fixed(6)]),
         unit: |at| match at {
@@ -132,7 +132,7 @@ impl Formula for Wrench {
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let (form, motion) = (at.formulation, at.motion);
-        let wrenches = form.wrenches(at.arm, at.at, &motion.qd, &motion.qdd);
+        let wrenches = form.reactions(at.arm, at.at, [&motion.qd, &motion.qdd]);
         let numbers = wrenches.into_iter().flat_map(|w| [w.force, w.moment]);
         numbers.flatten().collect()
     }

@@ -41,7 +41,7 @@ use num_traits::{One, Signed, Zero};
 use crate::equations::matrix::Columns;
 use crate::number::recover::{near, recovered};
 use crate::number::{Rational, Wide};
-use crate::robot::{Joint, Placed, Placement, Robot};
+use crate::robot::{Joint, JointKind, Placed, Placement, Robot};
 use crate::scalar::Scalar;
 
 pub use frame::Body;
@@ -110,7 +110,10 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
         let back = frame::inverse(&row.frame);
         let moved = frame::moved(&joint.body(), &back, &size);
         (joint.com, joint.inertia) = (moved.com, moved.inertia);
-        joint.frame = placed_in(&back, joint.frame.as_ref(), &size).unless_identity();
+        // Where the row's z is not at its origin it has one, too: moments are about this.
+        let is_there = joint.d.is_zero() && joint.kind == JointKind::Revolute;
+        let frame = placed_in(&back, joint.frame.as_ref(), &size);
+        joint.frame = Some(frame).filter(|own| !is_there || !own.is_identity());
         let fixed = robot.frames.iter_mut().filter(|frame| frame.row == Some(i));
         for frame in fixed {
             frame.placement = placed_in(&back, Some(&frame.placement), &size);
