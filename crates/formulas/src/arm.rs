@@ -9,7 +9,7 @@ use dalembert_model::scalar::{Scalar, SinCosPair};
 
 use crate::entries::Coefficients;
 use crate::error::FormulaError;
-use crate::naming::Naming;
+use crate::naming::SymbolTable;
 use crate::number::{Constants, Number};
 use crate::ring::{MAX_JOINTS, MAX_POWER, Polynomial, Symbols};
 use crate::symbol::{Definition, Symbol};
@@ -132,7 +132,7 @@ impl SymbolicArm {
             has_numeric_centres: false,
         };
         if symbolic == Symbolic::Everything {
-            let naming = Naming::new(&mut symbolic_arm.arm)?;
+            let naming = SymbolTable::new(&mut symbolic_arm.arm)?;
             symbolic_arm.has_numeric_centres = naming.has_numeric_centres;
             symbolic_arm.lengths = naming.lengths;
             symbolic_arm.parameters = naming.parameters;

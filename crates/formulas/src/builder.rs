@@ -185,7 +185,7 @@ impl<'a> Builder<'a> {
         for &quantity in &self.request.quantities {
             match quantity {
                 Quantity::Inertia | Quantity::Christoffel | Quantity::Gravity => {
-                    let (names, polynomials) = coefficients_of(&self.coefficients, quantity);
+                    let (names, polynomials) = named(&self.coefficients, quantity);
                     let source = self.source(quantity, names, polynomials, table);
                     source.moments = moments.clone();
                 }
@@ -260,7 +260,7 @@ impl<'a> Builder<'a> {
             true => (self.in_file(&chain)?, OF_FILE, None),
             false => self.in_base_parameters(&chain, mark)?,
         };
-        let (names, polynomials) = coefficients_of(&coefficients, quantity);
+        let (names, polynomials) = named(&coefficients, quantity);
         let source = self.source(quantity, names, polynomials, table);
         source.moments = moments;
         Ok(())
@@ -345,4 +345,14 @@ impl<'a> Builder<'a> {
             parameters: self.tables[table].parameters.clone(),
         }
     }
+}
+
+/// Lists the names and the polynomials of D, h or c.
+fn named(
+    coefficients: &Coefficients<Polynomial>,
+    quantity: Quantity,
+) -> (Vec<Symbol>, Vec<Polynomial>) {
+    let all = coefficients_of(coefficients, quantity).into_iter();
+    all.map(|(indices, own)| (quantity.entry(&indices), own.clone()))
+        .unzip()
 }

@@ -33,6 +33,7 @@ use crate::entries::Coefficients;
 use crate::error::FormulaError;
 use crate::expression::{Sum, with_numbers};
 use crate::legend::Frames;
+use crate::lists::coefficients_of;
 use crate::number::Number;
 use crate::quantity::Quantity;
 use crate::ring::Polynomial;
@@ -96,7 +97,7 @@ pub enum Reason {
 
 /// A coefficient that vanishes.
 #[derive(Clone, Debug)]
-pub struct Vanishing {
+pub struct ZeroEntry {
     /// The entry.
     pub entry: Entry,
     /// Its reason.
@@ -110,7 +111,7 @@ pub struct Vanishing {
 #[derive(Clone, Debug)]
 pub struct Couplings {
     /// Those that vanish: of D, then h, then c, symmetric ones once, in the order of their indices.
-    pub zeros: Vec<Vanishing>,
+    pub zeros: Vec<ZeroEntry>,
     /// The number of all.
     pub total: usize,
     /// Those that nearly vanish.
@@ -121,29 +122,12 @@ pub struct Couplings {
 
 /// Lists the entries with their values.
 pub(crate) fn entries<S>(coefficients: &Coefficients<S>) -> Vec<(Entry, &S)> {
-    let n = coefficients.gravity.len();
-    let entry = |quantity: Quantity, indices: &[usize]| Entry {
-        quantity,
-        indices: indices.to_vec(),
+    let quantities = [Quantity::Inertia, Quantity::Christoffel, Quantity::Gravity];
+    let of = |quantity| {
+        let all = coefficients_of(coefficients, quantity).into_iter();
+        all.map(move |(indices, value)| (Entry { quantity, indices }, value))
     };
-    let pairs = || (0..n).flat_map(move |i| (i..n).map(move |k| (i, k)));
-    let mut all = Vec::new();
-    for (i, k) in pairs() {
-        all.push((
-            entry(Quantity::Inertia, &[i, k]),
-            &coefficients.inertia[i][k],
-        ));
-    }
-    for i in 0..n {
-        for (k, m) in pairs() {
-            let value = &coefficients.christoffel[i][k][m];
-            all.push((entry(Quantity::Christoffel, &[i, k, m]), value));
-        }
-    }
-    for i in 0..n {
-        all.push((entry(Quantity::Gravity, &[i]), &coefficients.gravity[i]));
-    }
-    all
+    quantities.into_iter().flat_map(of).collect()
 }
 
 impl Couplings {
@@ -296,7 +280,7 @@ impl<'a> Finder<'a> {
         {
             let (_, part) = rotations[place];
             let is_split = entry.quantity != Quantity::Gravity && !part.is_zero();
-            zeros.push(Vanishing {
+            zeros.push(ZeroEntry {
                 rotation: is_split.then(|| self.written(part)),
                 reason: self.reason(&entry, symbolic[place].1),
                 entry,

@@ -3,35 +3,32 @@
 use crate::entries::Coefficients;
 use crate::line::List;
 use crate::quantity::Quantity;
-use crate::ring::Polynomial;
-use crate::symbol::Symbol;
 
 /// Lists the pairs i ≤ k.
 pub fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..n).flat_map(move |i| (i..n).map(move |k| (i, k)))
 }
 
-/// Lists the names and the polynomials of D, h or c, symmetric ones once.
-pub fn coefficients_of(
-    coefficients: &Coefficients<Polynomial>,
+/// Lists the indices of the coefficients of D, h or c, symmetric ones once, each with its value.
+pub fn coefficients_of<S>(
+    coefficients: &Coefficients<S>,
     quantity: Quantity,
-) -> (Vec<Symbol>, Vec<Polynomial>) {
+) -> Vec<(Vec<usize>, &S)> {
     let n = coefficients.gravity.len();
     match quantity {
         Quantity::Gravity => {
-            let names = (0..n).map(|i| quantity.entry(&[i]));
-            (names.collect(), coefficients.gravity.clone())
+            let all = coefficients.gravity.iter().enumerate();
+            all.map(|(i, value)| (vec![i], value)).collect()
         }
         Quantity::Inertia | Quantity::InertiaRotation | Quantity::InertiaTranslation => {
-            let names = pairs(n).map(|(i, k)| quantity.entry(&[i, k]));
-            let entries = pairs(n).map(|(i, k)| coefficients.inertia[i][k].clone());
-            (names.collect(), entries.collect())
+            let all = pairs(n).map(|(i, k)| (vec![i, k], &coefficients.inertia[i][k]));
+            all.collect()
         }
         _ => {
-            let all = || (0..n).flat_map(|i| pairs(n).map(move |(k, m)| (i, k, m)));
-            let names = all().map(|(i, k, m)| quantity.entry(&[i, k, m]));
-            let entries = all().map(|(i, k, m)| coefficients.christoffel[i][k][m].clone());
-            (names.collect(), entries.collect())
+            let all = (0..n).flat_map(|i| pairs(n).map(move |(k, m)| [i, k, m]));
+            let value = |[i, k, m]: [usize; 3]| &coefficients.christoffel[i][k][m];
+            all.map(|indices| (indices.to_vec(), value(indices)))
+                .collect()
         }
     }
 }
@@ -45,44 +42,33 @@ pub fn list(quantity: Quantity, n: usize) -> Option<List> {
         Quantity::Torque => "tau".to_owned(),
         _ => format!("{letters}{mark}"),
     };
-    let (entries, lengths): (Vec<Symbol>, Vec<usize>) = match quantity {
-        Quantity::Gravity | Quantity::Torque => {
-            ((0..n).map(|i| quantity.entry(&[i])).collect(), vec![n])
-        }
-        Quantity::Inertia | Quantity::InertiaRotation | Quantity::InertiaTranslation => {
-            let all = (0..n).flat_map(|i| (0..n).map(move |k| [i.min(k), i.max(k)]));
-            (
-                all.map(|indices| quantity.entry(&indices)).collect(),
-                vec![n, n],
-            )
-        }
+    let lengths = match quantity {
+        Quantity::Gravity | Quantity::Torque => vec![n],
+        Quantity::Inertia | Quantity::InertiaRotation | Quantity::InertiaTranslation => vec![n, n],
         Quantity::Christoffel
         | Quantity::ChristoffelRotation
-        | Quantity::ChristoffelTranslation => {
-            let all = (0..n).flat_map(move |i| {
-                (0..n).flat_map(move |k| (0..n).map(move |m| [i, k.min(m), k.max(m)]))
-            });
-            (
-                all.map(|indices| quantity.entry(&indices)).collect(),
-                vec![n, n, n],
-            )
-        }
-        Quantity::Pose => {
-            let all = (0..3).flat_map(|r| (0..3).map(move |c| [r, c]));
-            (
-                all.map(|indices| quantity.entry(&indices)).collect(),
-                vec![3, 3],
-            )
-        }
-        Quantity::Jacobian => {
-            let all = (0..6).flat_map(|r| (0..n).map(move |c| [r, c]));
-            (
-                all.map(|indices| quantity.entry(&indices)).collect(),
-                vec![6, n],
-            )
-        }
+        | Quantity::ChristoffelTranslation => vec![n, n, n],
+        Quantity::Pose => vec![3, 3],
+        Quantity::Jacobian => vec![6, n],
         Quantity::KineticEnergy | Quantity::PotentialEnergy => return None,
     };
+    let is_symmetric = !matches!(quantity, Quantity::Pose | Quantity::Jacobian);
+    let entry = |place: usize| {
+        let mut left = place;
+        let mut indices = vec![0; lengths.len()];
+        for (index, length) in indices.iter_mut().zip(&lengths).rev() {
+            (*index, left) = (left % length, left / length);
+        }
+        // Entries that are equal have one name: that with the last two indices in order.
+        if let [.., k, m] = indices.as_mut_slice()
+            && is_symmetric
+            && k > m
+        {
+            core::mem::swap(k, m);
+        }
+        quantity.entry(&indices)
+    };
+    let entries = (0..lengths.iter().product()).map(entry).collect();
     Some(List {
         name,
         entries,

@@ -10,7 +10,7 @@ use crate::symbol::{Definition, Symbol};
 
 /// The symbols of an arm.
 #[derive(Default)]
-pub struct Naming {
+pub struct SymbolTable {
     /// Lengths and gravity.
     pub lengths: Vec<Definition<Number>>,
     /// Masses and moments of inertia.
@@ -19,13 +19,13 @@ pub struct Naming {
     pub has_numeric_centres: bool,
 }
 
-impl Naming {
+impl SymbolTable {
     /// Replaces every number that is not zero, but for angles.
     ///
     /// # Errors
     /// There are too many lengths.
-    pub fn new(arm: &mut Arm<Polynomial>) -> Result<Naming, FormulaError> {
-        let mut naming = Naming::default();
+    pub fn new(arm: &mut Arm<Polynomial>) -> Result<SymbolTable, FormulaError> {
+        let mut naming = SymbolTable::default();
         naming.gravity(&mut arm.gravity);
         for (letter, pose) in [("b", &mut arm.base), ("t", &mut arm.tool)] {
             let origin = pose.iter_mut().flat_map(|pose| &mut pose.origin);

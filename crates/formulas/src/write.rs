@@ -13,7 +13,7 @@ use crate::number::Number;
 use crate::symbol::Symbol;
 
 pub(crate) use latex::Latex;
-pub(crate) use python::Python;
+pub(crate) use python::{Python, python_number};
 pub(crate) use text::Text;
 
 /// The parts of a formula in one format.
@@ -73,16 +73,8 @@ pub(crate) trait Format {
 
     /// Writes a sum whose terms all count alike.
     fn plain_sum(&self, sum: &[Term]) -> String {
-        let mut text = String::new();
-        for term in sum {
-            let product = self.term(term);
-            text += &match (text.is_empty(), term.is_negative) {
-                (true, true) => format!("{}{product}", Self::MINUS),
-                (true, false) => product,
-                (false, true) => format!(" {} {product}", Self::MINUS),
-                (false, false) => format!(" + {product}"),
-            };
-        }
+        let terms = sum.iter().map(|term| (term.is_negative, self.term(term)));
+        let text = signed_sum(terms, Self::MINUS);
         match text.is_empty() {
             true => "0".to_owned(),
             false => text,
@@ -162,4 +154,16 @@ fn angle(trig: &Trig, times: &str, minus: &str, joins: bool) -> (String, bool) {
         text += &joint.to_string();
     }
     (text, false)
+}
+
+/// Joins terms, each with its sign: `−a + b`.
+pub(crate) fn signed_sum(terms: impl Iterator<Item = (bool, String)>, minus: &str) -> String {
+    terms.fold(String::new(), |text, (is_negative, term)| {
+        match (text.is_empty(), is_negative) {
+            (true, true) => format!("{minus}{term}"),
+            (true, false) => term,
+            (false, true) => format!("{text} {minus} {term}"),
+            (false, false) => format!("{text} + {term}"),
+        }
+    })
 }

@@ -14,6 +14,7 @@ use dalembert_model::scalar::field::{Field, Points};
 use crate::bodies::{BaseMoments, MOMENTS, body_of};
 use crate::number::Number;
 use crate::ring::Polynomial;
+use crate::write::signed_sum;
 
 /// A linear condition on base parameters: the sum of each times its factor is zero. The last one has
 /// the factor one.
@@ -207,22 +208,15 @@ fn along_axis(
 }
 
 fn equation(condition: &Condition, moments: &BaseMoments, numbers: &[usize]) -> String {
-    let mut text = String::new();
-    for (&parameter, x) in condition {
+    let terms = condition.iter().map(|(&parameter, x)| {
         let (link, moment) = moments[parameter];
         let name = format!("{}{}", MOMENTS[moment], numbers[link]);
         let size = x.abs();
-        let factor = if size.is_one() {
-            String::new()
-        } else {
-            size.rounded(6) + "·"
+        let factor = match size.is_one() {
+            true => String::new(),
+            false => size.rounded(6) + "·",
         };
-        text += &match (text.is_empty(), x.is_negative()) {
-            (true, true) => format!("−{factor}{name}"),
-            (true, false) => format!("{factor}{name}"),
-            (false, true) => format!(" − {factor}{name}"),
-            (false, false) => format!(" + {factor}{name}"),
-        };
-    }
-    text + " = 0"
+        (x.is_negative(), factor + &name)
+    });
+    signed_sum(terms, "−") + " = 0"
 }

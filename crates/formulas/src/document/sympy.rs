@@ -1,7 +1,6 @@
 //! A module for SymPy: symbols, then every entry, then nested lists of them.
 
-use dalembert_model::number::parse::write_decimal;
-use dalembert_model::number::{Angle, Rational};
+use dalembert_model::number::Angle;
 use dalembert_model::robot::JointKind;
 
 use super::value;
@@ -9,7 +8,7 @@ use crate::arm::Offset;
 use crate::formulas::Formulas;
 use crate::legend::Entry;
 use crate::line::List;
-use crate::write::{Format, Python};
+use crate::write::{Format, Python, python_number};
 
 impl Formulas {
     pub(super) fn sympy(&self) -> String {
@@ -94,13 +93,6 @@ impl Formulas {
 fn declared(names: Vec<String>) -> String {
     let (left, right) = (names.join(", "), names.join(" "));
     format!("[{left}] = symbols('{right}', real=True, seq=True)\n")
-}
-
-fn python_number(value: &Rational) -> String {
-    match write_decimal(value) {
-        Some(decimal) => format!("R('{decimal}')"),
-        None => format!("R('{value}')"),
-    }
 }
 
 fn python_angle(angle: &Angle) -> String {

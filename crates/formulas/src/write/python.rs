@@ -21,13 +21,7 @@ impl Format for Python {
     /// A decimal that is exact is a rational of SymPy.
     fn number(&self, number: &Number) -> String {
         let exact = number.to_fraction();
-        match exact.as_ref().and_then(write_decimal) {
-            Some(decimal) => format!("R('{decimal}')"),
-            None => match exact {
-                Some(exact) => format!("R({}, {})", exact.numer(), exact.denom()),
-                None => number.digits(),
-            },
-        }
+        exact.map_or_else(|| number.digits(), |exact| python_number(&exact))
     }
 
     fn fraction(&self, fraction: &Rational) -> String {
@@ -61,5 +55,13 @@ impl Format for Python {
             angle += &format!("t{joint}");
         }
         format!("{function}({angle})")
+    }
+}
+
+/// Writes an exact number for SymPy.
+pub(crate) fn python_number(value: &Rational) -> String {
+    match write_decimal(value) {
+        Some(decimal) => format!("R('{decimal}')"),
+        None => format!("R({}, {})", value.numer(), value.denom()),
     }
 }
