@@ -7,7 +7,7 @@ use num_traits::Zero;
 use toml_span::Value;
 
 use super::table::Table;
-use super::value::{Context, bodies, placement};
+use super::value::{Context, bodies, link_frame, placement};
 use crate::number::{Angle, Rational};
 use crate::robot::Placed;
 use crate::robot::{FloatingBase, Joint, JointKind, Limits};
@@ -75,7 +75,7 @@ pub(super) fn read<'v>(cx: &mut Context, mut keys: Table<'v>) -> Read<'v> {
         coulomb: number(cx, own, "coulomb"),
         coulomb_width: number(cx, own, "coulomb_width"),
         armature: number(cx, own, "armature"),
-        frame: placement(cx, own, "frame"),
+        frame: link_frame(cx, own, "frame"),
         limits: limits(cx, own, kind),
     };
     let (mimic, span) = (own.get("mimic"), own.span.clone());

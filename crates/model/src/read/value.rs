@@ -40,9 +40,17 @@ pub(super) fn placement(
     keys: &mut Table,
     key: &'static str,
 ) -> Option<Placement> {
+    link_frame(cx, keys, key).and_then(Placement::unless_identity)
+}
+
+/// Reads a placement that says something even where nothing moves: a link has a frame of its own.
+pub(super) fn link_frame(
+    cx: &mut Context,
+    keys: &mut Table,
+    key: &'static str,
+) -> Option<Placement> {
     let help = format!("{key} = {{ xyz = [0, 0, 0.1], rpy = [0, \"pi/2\", 0] }}");
-    let placement = keys.table(cx, key, &help, Context::placement);
-    placement.and_then(Placement::unless_identity)
+    keys.table(cx, key, &help, Context::placement)
 }
 
 /// Reads the bodies that there may be of a payload or a link.
