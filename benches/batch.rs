@@ -55,7 +55,7 @@ fn numbers(states: usize) -> [[Vec<f64>; 6]; 3] {
     [(); 3].map(|()| [(); 6].map(|()| column()))
 }
 
-/// Returns what begins where a line of the cache does, in a vector that is longer by one.
+/// Returns the slice that begins at a line of the cache, in a vector that is longer by one line.
 fn aligned<T>(column: &mut [T], states: usize) -> &mut [T] {
     let start = column.as_ptr().align_offset(64);
     &mut column[start..start + states]

@@ -352,7 +352,7 @@ dalembert::dynamics! {
     batch: on;
 }
 
-/// Of a base that floats, velocities have six entries more than positions, and gravity is an argument.
+/// If the base floats, velocities have six entries more than positions, and gravity is an argument.
 #[test]
 fn bases_that_float_have_batches() {
     const COUNT: usize = 70;

@@ -1,7 +1,7 @@
 //! Numbers in documentation and messages: short, and rounded to the side on which what they
 //! say stays true.
 
-/// Where a figure may be, seen from the number: in units of its last digit.
+/// The distance that a figure may have from the number, in units of its last digit.
 const ABOVE: i64 = 1;
 const BELOW: i64 = -1;
 

@@ -83,7 +83,7 @@ impl RobotFile {
     }
 }
 
-/// Why there is no robot: every error by itself, those of the text with their line. Never empty.
+/// All errors of a robot file, those of the text with their line. Never empty.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RobotFileError {
     messages: Vec<String>,

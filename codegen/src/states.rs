@@ -82,7 +82,7 @@ impl JointState {
         }
     }
 
-    /// Returns whether all entries are finite.
+    /// True if all entries are finite.
     pub fn is_finite(&self) -> bool {
         let mut entries = Argument::ALL
             .iter()

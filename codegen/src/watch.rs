@@ -44,12 +44,12 @@ pub struct Progress {
     pub best: Option<Counts>,
 }
 
-/// Who waits for a search.
+/// An observer of a search.
 pub trait Observer: Send + Sync {
     /// Tells that the search has come this far.
     fn step(&self, progress: &Progress);
 
-    /// Returns whether the search should end. Once `true` it should stay so: functions that
+    /// True if the search should end. Once `true` it should stay so: functions that
     /// were not searched yet then get the quick search.
     fn stop(&self) -> bool;
 }
@@ -65,7 +65,7 @@ impl Watch {
         Watch(Some(observer))
     }
 
-    /// Returns whether the observer wants the search to end.
+    /// True if the observer wants the search to end.
     pub fn is_over(&self) -> bool {
         self.0.as_deref().is_some_and(Observer::stop)
     }
@@ -100,7 +100,7 @@ impl FunctionWatch<'_> {
         }
     }
 
-    /// Returns whether the observer wants the search to end.
+    /// True if the observer wants the search to end.
     pub fn is_over(&self) -> bool {
         self.0.is_some_and(|(watch, _)| watch.is_over())
     }

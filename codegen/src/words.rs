@@ -87,7 +87,7 @@ impl Word for bool {
 /// A mistake in a word, a line or a file, and the likely fix.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Complaint {
-    /// What is wrong.
+    /// The message: the fault, with the value.
     pub message: String,
     /// The likely fix; empty if none is known.
     pub help: String,

@@ -1,4 +1,4 @@
-//! What the workspace's other crates and the tests use of the generator besides what it
+//! Items of the generator that the workspace's other crates and the tests use besides those that it
 //! shows to everyone, in one list, so that the compiler finds what nobody uses.
 
 pub use crate::dag::{Dag, Edge, Fingerprint, Folding, Id, Leaves, Node, Points};

@@ -11,7 +11,7 @@ use serde_json::Value;
 use crate::certified::Certified;
 use crate::support::{Case, changes, read_robot, source};
 
-/// What is refused where the base floats, with a word of the reason.
+/// Outputs that are refused where the base floats, with a word of the reason.
 const REFUSED: [(&str, &str); 4] = [
     ("dynamic_coefficients", "coriolis_matrix"),
     ("dalembert_terms", "coriolis_matrix"),

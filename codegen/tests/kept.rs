@@ -1,4 +1,4 @@
-//! What a plan keeps is proved and printed as it was; a program of another request is not taken for
+//! A plan's programs are proved and printed as they were; a program of another request is not taken for
 //! it.
 
 use dalembert_codegen::workspace::{Entry, Node, keep, plan_file, price};

@@ -116,7 +116,7 @@ fn functions(text: &str) -> Vec<(&str, Vec<&str>)> {
     functions.collect()
 }
 
-/// Returns whether a word stands before a bracket; a product of CUDA is a macro.
+/// True if a word stands before a bracket; a product of CUDA is a macro.
 fn calls(line: &str) -> bool {
     let plain = line.replace("DALEMBERT_MUL(", "(");
     let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';

@@ -1,4 +1,4 @@
-//! What cannot be had is refused by name, with what to do.
+//! Requests that cannot be met are refused by name, with the fix.
 
 use dalembert_codegen::{Function, Language, Request, ScalarType, generate};
 use dalembert_model::scene::Scene;

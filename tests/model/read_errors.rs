@@ -1,4 +1,4 @@
-//! What is wrong with a file is said on the right line, in words that help,
+//! Errors of a file are on the right line, in words that help,
 //! and all at once. One row a case.
 
 use crate::support::{errors, has, only, replaced};

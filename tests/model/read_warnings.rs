@@ -1,4 +1,4 @@
-//! What is odd in a file and not wrong: a warning or a note on the right line, in words
+//! Oddities of a file that are not errors: a warning or a note on the right line, in words
 //! that help, which can be silenced.
 
 use std::collections::BTreeSet;
@@ -7,7 +7,7 @@ use crate::read_errors::GOOD;
 use crate::support::{errors, has, only, reading, replaced, rows};
 use dalembert_model::read::{Diagnostic, RobotWarning, Severity};
 
-/// What is replaced in a good file, by what, the line, and words of what is said.
+/// Replacements in a good file: the old text, the new text, the line, and words of the message.
 const ODD: &str = r#"
 inertia = [1, 1, 1, | inertia = [1, 1, 3, | 14 | exceeds the sum
 gravity = [0, 0, -9.81] | gravity = [0, 3, 9.81] | 3 | gravity points upwards, along the base's z
@@ -149,7 +149,7 @@ fn warnings_are_silenced_one_by_one() {
     assert!(help.ends_with("; allow = [\"large_mass\"] silences this"));
 }
 
-/// What of a file silences nothing, and what is said of that.
+/// Keys of a file that silence nothing, and words of the message.
 const ALLOW: &str = r#"
 ["large_mas"] | there is no warning `large_mas` | did you mean "large_mass"?
 ["everything"] | there is no warning `everything` | warnings are: impossible_inertia,

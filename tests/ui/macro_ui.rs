@@ -1,4 +1,4 @@
-//! What the compiler says to common mistakes in `dynamics!`, word for word,
+//! Messages of the compiler for common mistakes in `dynamics!`, word for word,
 //! and invocations that are right.
 //!
 //! `UI=overwrite` writes what is said now beside the cases.

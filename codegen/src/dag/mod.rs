@@ -232,7 +232,7 @@ impl<C, I> Dag<C, I> {
         })
     }
 
-    /// Returns whether every operation comes after its operands, and every output is a node.
+    /// True if every operation comes after its operands, and every output is a node.
     pub fn is_straight(&self) -> bool {
         let mut nodes = self.nodes.iter().zip(0..);
         let count = self.nodes.len();
@@ -301,7 +301,7 @@ impl Dag {
         }
     }
 
-    /// Returns the same outputs through another builder: folded, and merged by fingerprint if the
+    /// Rebuilds the outputs through another builder: folded, and merged by fingerprint if the
     /// builder does that. What no output needs is left behind.
     #[must_use]
     pub fn rebuild(&self, folding: Folding) -> Dag {

@@ -17,7 +17,7 @@ use crate::random::Random;
 const SEED: u64 = 0x7a1e;
 
 impl Dag {
-    /// Returns the same results without steps in vain, and with equal steps merged, both told by
+    /// Drops steps without effect on the results and merges equal ones, both told by
     /// fingerprints; the graph itself if it has neither.
     #[must_use]
     pub(crate) fn without_vain_steps(&self) -> Dag {

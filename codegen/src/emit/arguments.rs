@@ -1,4 +1,4 @@
-//! What a module says of parameters that are arguments: the types of a payload and
+//! The text of a module about parameters that are arguments: the types of a payload and
 //! of its load, and where gravity comes from.
 
 use dalembert_checker::payload as checked;

@@ -23,7 +23,7 @@ use crate::verify::exact::Proof;
 /// A generated and proved function.
 #[derive(Clone, Debug)]
 pub struct GeneratedFunction {
-    /// Which function.
+    /// The function.
     pub function: Function,
     /// The formulation that the search started from.
     pub source: Source,

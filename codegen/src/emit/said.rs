@@ -1,4 +1,4 @@
-//! What a function's documentation says of its sines, of Coulomb friction and of fused products:
+//! The documentation of a function about its sines, Coulomb friction and fused products:
 //! nothing where there are none.
 
 use super::{GeneratedFunction, say};

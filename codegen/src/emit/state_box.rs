@@ -1,4 +1,4 @@
-//! Where functions hold that do not hold everywhere: those that a tolerance was
+//! The box of states in which functions hold that do not hold everywhere: those that a tolerance was
 //! applied to, and those whose sines are polynomials.
 //!
 //! The module says it in numbers, `BOX`, and asks for a caller whether a state

@@ -1,4 +1,4 @@
-//! What a tolerance left of a function, in the words of its documentation.
+//! The documentation of a function that was reduced under a tolerance.
 
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scale;

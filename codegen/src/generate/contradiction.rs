@@ -1,4 +1,4 @@
-//! What was proved, tried: programs are run before they are handed out.
+//! Runs each generated program at random states, as a test of the proof.
 //!
 //! A proof in a prime field may miss, with a chance that nobody will see, and whoever writes it may
 //! err. Two states of the robot tell: the program with its exact constants, in 256 bits, against

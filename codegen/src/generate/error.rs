@@ -1,4 +1,4 @@
-//! Why nothing was generated.
+//! The reasons for which nothing is generated.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use crate::verify::exact::Disproof;
 use crate::words::{Complaint, complaint};
 use dalembert_model::scene::Scene;
 
-/// Why nothing was generated.
+/// The reasons for which nothing is generated.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum GenerateError {

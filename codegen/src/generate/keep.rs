@@ -19,7 +19,7 @@ use crate::words::Complaint;
 #[derive(Clone, Debug)]
 pub struct Kept {
     pub plan: Plan,
-    /// Where the plan keeps its own program: a search that was ended early had
+    /// Functions for which the plan keeps its program: a search that was ended early had
     /// found none that is cheaper.
     pub own: Vec<(Function, ScalarType)>,
 }

@@ -55,11 +55,11 @@ pub struct Generated {
     pub texts: Vec<String>,
     /// The functions as the source says them, scalar by scalar.
     pub emitted: Vec<Emitted>,
-    /// What a user should know, such as constants that round to subnormals.
+    /// Warnings, such as constants that round to subnormals.
     pub warnings: Vec<String>,
-    /// Why there is no f32, where nobody chose a scalar and both are the default.
+    /// The reason for which there is no f32, where nobody chose a scalar and both are the default.
     pub without_single: Option<String>,
-    /// Whether the observer wanted an end before a thorough search was through:
+    /// True if the observer wanted an end before a thorough search was through:
     /// no function is dearer than the quick search's, but more might be found.
     pub ended: bool,
 }

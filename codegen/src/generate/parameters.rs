@@ -1,4 +1,4 @@
-//! Which parameters can be arguments, and of what.
+//! Checks that parameters can be arguments of the functions asked for.
 
 use dalembert_model::outputs::{PayloadDependence, RuntimeParameter};
 

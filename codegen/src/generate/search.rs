@@ -68,7 +68,7 @@ pub struct Found {
     pub tuned: Option<Tuned>,
     pub seeds: Vec<Seed>,
     pub searched: Searched,
-    /// What would be cheaper, but for its rounding error.
+    /// A cheaper program that was refused for its rounding error.
     pub refused: Option<Refused>,
 }
 

@@ -1,4 +1,4 @@
-//! How a language writes the lines of a function: one table, by which they are printed.
+//! A table by which each language prints the lines of a function.
 
 use std::collections::HashMap;
 

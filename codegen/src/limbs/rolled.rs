@@ -154,7 +154,7 @@ impl<'d> Rolled<'d> {
         self.members[id as usize]
     }
 
-    /// Returns of each row its numbers, one a lane, where they follow from constants alone.
+    /// Returns the numbers of each row, one a lane, where they follow from constants alone.
     pub(super) fn constants(&self, limbs: &Limbs) -> Vec<Option<Vec<Exact>>> {
         let mut constants: Vec<Option<Vec<Exact>>> = Vec::with_capacity(self.rows.len());
         for row in &self.rows {

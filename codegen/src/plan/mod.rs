@@ -32,7 +32,7 @@ pub struct Entry {
     /// The formulation that was asked for.
     pub start: Start,
     pub scalar: ScalarType,
-    /// Where the search started.
+    /// The start of the search.
     pub source: Source,
     /// Counts after each step of the search.
     pub passes: Vec<Pass>,

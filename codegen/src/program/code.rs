@@ -18,7 +18,7 @@ use crate::states::{JointState, State};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Code {
     pub scalar: ScalarType,
-    /// Who computes the sines that are called; libm where none is.
+    /// The library that computes the sines that are called; libm where none is.
     pub library: Library,
     pub pairs: Vec<Pair>,
     /// The joints of which r = 1/√(q̇² + w²) is read, ascending.

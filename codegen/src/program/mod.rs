@@ -175,7 +175,7 @@ impl Program {
         }
     }
 
-    /// Returns of each node the loop, or the part between two, that it is in, its lane, and its row.
+    /// Lists for each node the loop, or the part between two, that it is in, its lane and its row.
     fn cells(&self) -> Vec<(usize, usize, usize)> {
         let mut cells = vec![(0, 0, 0); self.dag.nodes.len()];
         for (place, (id, ..)) in self.dag.operations().enumerate() {
@@ -282,12 +282,12 @@ impl Program {
         sizes
     }
 
-    /// Returns whether the program divides.
+    /// True if the program divides.
     pub fn divides(&self) -> bool {
         self.has(Operation::Div)
     }
 
-    /// Returns whether the program has fused products.
+    /// True if the program has fused products.
     pub fn fuses(&self) -> bool {
         self.has(Operation::Fused)
     }

@@ -171,7 +171,7 @@ impl<'a> Extraction<'a> {
         self.order.sort(|id| Self::reads(steps, chosen, id));
     }
 
-    /// Returns whether a class may take a way: nothing that it reads depends on the class.
+    /// True if a class may take a way: nothing that it reads depends on the class.
     fn admits(&mut self, id: u32, way: u32) -> bool {
         let (steps, chosen) = (&self.steps, &self.chosen);
         let reads = |id| Self::reads(steps, chosen, id);

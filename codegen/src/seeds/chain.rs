@@ -128,7 +128,7 @@ pub fn skeleton(setup: &Setup) -> Skeleton<Exact> {
     with_columns(setup, &[])
 }
 
-/// Returns the same for a function: if it is a regressor, with its columns; if it takes a
+/// Builds the skeleton of a function: of a regressor with its columns; of one that takes a
 /// load, with parameters that are unknown.
 pub fn skeleton_for(task: Task<'_>) -> Skeleton<Exact> {
     let Task { setup, function } = task;

@@ -240,12 +240,12 @@ impl Setup {
         full
     }
 
-    /// Returns whether a parameter is an argument.
+    /// True if a parameter is an argument.
     pub fn has(&self, parameter: RuntimeParameter) -> bool {
         self.parameters.contains(&parameter)
     }
 
-    /// Returns whether a function takes a parameter as an argument.
+    /// True if a function takes a parameter as an argument.
     pub fn takes(&self, function: Function, parameter: RuntimeParameter) -> bool {
         self.has(parameter) && function.depends_on(parameter)
     }
@@ -263,7 +263,7 @@ impl Setup {
         all.any(|parameter| self.takes(function, parameter))
     }
 
-    /// Returns whether a function takes any parameter as an argument.
+    /// True if a function takes any parameter as an argument.
     pub fn takes_any(&self, function: Function) -> bool {
         let mut all = RuntimeParameter::ALL.into_iter();
         function == Function::Load || all.any(|parameter| self.takes(function, parameter))

@@ -24,7 +24,7 @@ const MAX_DEGREE: usize = 27;
 
 const MAX_UNREDUCED: f64 = 16.0;
 
-/// How much better than its estimate a form is given the chance to be: sums
+/// The factor by which a form may turn out better than its estimate: sums
 /// of bounds are larger than bounds of sums.
 const HOPE: f64 = 0.2;
 

@@ -22,7 +22,7 @@ use crate::dag::{Edge, Node};
 use crate::program::kernel::{Kernel, KernelWriter, Need};
 use crate::program::{Literal, Operation, ScalarType};
 
-/// Where a polynomial's variable is zero.
+/// The angle at which a polynomial's variable is zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Centre {
     /// At this multiple of π/2.
@@ -33,7 +33,7 @@ pub enum Centre {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Form {
-    /// Whether whole turns are taken off first.
+    /// True if whole turns are taken off first.
     pub reduced: bool,
     pub centre: Centre,
     pub halvings: u32,

@@ -83,7 +83,7 @@ impl Interval {
         self.high - self.low
     }
 
-    /// Returns whether a number lies inside.
+    /// True if a number lies inside.
     pub fn contains(self, x: f64) -> bool {
         self.low <= x && x <= self.high
     }

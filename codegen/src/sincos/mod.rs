@@ -62,9 +62,9 @@ impl SinCos {
 #[derive(Clone, Debug, PartialEq)]
 pub struct AngleKernel {
     pub joint: usize,
-    /// Where the errors hold: every float of the scalar in it.
+    /// The range in which the errors hold, for every float of the scalar.
     pub range: Interval,
-    /// What kind of polynomials, in words.
+    /// The kind of polynomials, in words.
     pub form: String,
     pub kernel: Kernel,
     pub errors: Errors,

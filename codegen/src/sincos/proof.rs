@@ -1,4 +1,4 @@
-//! How far a kernel is from sine and cosine: proved from its operations alone.
+//! Bounds the distance of a kernel from sine and cosine, from its operations alone.
 //!
 //! **Approximation.** With exact arithmetic a kernel is a polynomial whose coefficients are
 //! integers over powers of two. Its difference from Taylor's polynomial is written in Chebyshev

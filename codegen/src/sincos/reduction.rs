@@ -16,7 +16,7 @@ use crate::sincos::interval::Interval;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rest {
     pub range: Interval,
-    /// How far it is from the angle less whole turns.
+    /// Its distance from the angle less whole turns.
     pub error: f64,
 }
 

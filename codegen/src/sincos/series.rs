@@ -27,7 +27,7 @@ pub enum Wave {
 pub(crate) struct Taylor {
     pub waves: [Poly; 2],
     pub factorial: BigInt,
-    /// What either leaves out at most, before the factor n!.
+    /// A bound of the terms that either leaves out, before the factor n!.
     pub remainder: f64,
 }
 

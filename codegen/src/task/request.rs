@@ -1,4 +1,4 @@
-//! What somebody wants generated.
+//! The request: robot-independent options of one generation.
 
 use dalembert_model::outputs::{PayloadDependence, RuntimeParameter};
 use dalembert_model::robot::Robot;
@@ -56,7 +56,7 @@ pub struct Request {
     /// is [`SinCos::ERROR`], or the least error of two digits that each scalar can have. A scene's
     /// tolerance says it by itself.
     pub sincos_error: Option<f64>,
-    /// Whose sines are called where `sincos` leaves the choice open.
+    /// The library whose sines are called where `sincos` leaves the choice open.
     pub auto: Library,
     /// `true` for functions of any number of states beside those of one.
     pub batch: bool,
@@ -69,7 +69,7 @@ pub struct Request {
     pub renewed: Option<Plan>,
     /// `true` if a plan beside the robot file is not used.
     pub has_no_plan: bool,
-    /// Who waits, if anybody does.
+    /// The observer of a long search, if there is one.
     pub watch: Watch,
     /// The name that functions begin with in C; the robot's and the scene's if `None`.
     pub module: Option<String>,

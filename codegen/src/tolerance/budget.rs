@@ -43,7 +43,7 @@ pub struct Budget<'a> {
     pub setup: &'a Setup,
     /// The exact program.
     pub exact: &'a Program,
-    /// Where bounds hold.
+    /// The box in which bounds hold.
     pub limits: InputBox,
     /// T of each result, or just below.
     pub scales: Vec<f64>,

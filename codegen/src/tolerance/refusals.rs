@@ -1,4 +1,4 @@
-//! Why a tolerance is not met, or polynomials are not to be had.
+//! The reasons for which a tolerance, or an error of polynomials, cannot be met.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use crate::function::{Argument, Columns, Function};
 use crate::program::Program;
 use crate::words::{Complaint, complaint};
 
-/// Why no variant meets a tolerance.
+/// The reasons for which no variant meets a tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ToleranceError {
     /// Errors of such a function have no bound, a limit that it needs is missing, or the actuators

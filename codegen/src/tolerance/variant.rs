@@ -20,7 +20,7 @@ use crate::verify::exact::prove_same;
 pub struct Variant {
     /// The scalar of the emitted code.
     pub scalar: ScalarType,
-    /// Where the bounds hold.
+    /// The box in which the bounds hold.
     pub limits: InputBox,
     /// The meaning of T.
     pub relative_to: Scale,

@@ -1,4 +1,4 @@
-//! What a batch is given: numbers in columns, or rows of them.
+//! Arguments of a batch: numbers in columns, or in rows.
 
 use core::array::from_fn;
 use core::ops::{Deref, Range};
@@ -35,7 +35,7 @@ where
     }
 }
 
-/// Where an entry's numbers are: in a slice, or in a place of the rows of a state.
+/// The place of an entry's numbers: a slice, or a place in the row of each state.
 #[derive(Clone, Copy)]
 enum Source<'a, T> {
     Column(&'a [T]),

@@ -33,7 +33,7 @@ impl Vectors {
         found.unwrap_or(Vectors::Portable)
     }
 
-    /// Returns whether the processor has them; without the feature `std` nobody asks it.
+    /// True if the processor has them; without the feature `std` nobody asks it.
     #[must_use]
     pub fn are_there(self) -> bool {
         match self {

@@ -59,7 +59,7 @@ where
     Ok(())
 }
 
-/// Whole blocks of states, each of so many bytes; `None` where the states are not worth a second
+/// Returns the states of a task, whole blocks of them; `None` where all are not worth a second
 /// thread, or there is none.
 fn task(states: usize, bytes: usize) -> Option<usize> {
     let is_much = states.saturating_mul(bytes) >= LEAST && rayon::current_num_threads() > 1;

@@ -1,4 +1,4 @@
-//! What a build script tells cargo: what to watch, and what is odd.
+//! Lines that a build script prints for cargo: files to watch, and warnings.
 
 use std::env;
 use std::fs;

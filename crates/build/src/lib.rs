@@ -76,7 +76,7 @@ pub struct Generator {
     unknown: Vec<String>,
 }
 
-/// Why nothing was written: each mistake, with the likely fix.
+/// The mistakes for which nothing was written, each with the likely fix.
 pub struct BuildError(pub Vec<String>);
 
 impl fmt::Display for BuildError {

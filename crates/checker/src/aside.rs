@@ -37,7 +37,7 @@ type Ends = [Option<Vec<Option<[f64; 2]>>>; 3];
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Held {
     pub polynomials: HashSet<usize>,
-    /// Which of q, q̇ and q̈ are bounded, by the functions under a tolerance.
+    /// For q, q̇ and q̈: true if functions under a tolerance bound it.
     pub bounded: [bool; 3],
 }
 

@@ -153,7 +153,7 @@ pub struct Tolerated {
     /// The meaning of T: `actuator`, the limits of the actuators, or `range`, a size that the result
     /// reaches.
     pub relative_to: String,
-    /// Where T is the range: a state for each result at which it is reached, q, q̇ and q̈ in a row.
+    /// If T is the range: a state for each result at which it is reached, q, q̇ and q̈ in a row.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub reached: Vec<Vec<f64>>,
 }

@@ -69,7 +69,7 @@ pub struct Cost {
     /// The largest error relative to the largest value seen of the entry, of a matrix of its row or
     /// its column; NaN where that is above one.
     pub rounding: f64,
-    /// The same in halves of an ulp of that value.
+    /// The error in halves of an ulp of that value.
     pub units: f64,
     /// `true` if errors are relative to the largest entry of the whole result.
     pub is_of_whole: bool,

@@ -39,7 +39,7 @@ pub enum Variable {
     Acceleration,
     /// The error of a sine or cosine, even.
     EvenError,
-    /// The same, odd.
+    /// The error of an odd one.
     OddError,
     /// An entry of the load.
     Load,
@@ -55,7 +55,7 @@ const WORDS: usize = 4;
 const WIDTH: usize = 9;
 /// The joints of a word.
 const JOINTS: usize = 7;
-/// Where the exponents of sin, cos and q̇ start, and how many bits they have.
+/// The first bit of the exponents of sin, cos and q̇, and their largest values.
 const FIELDS: [(usize, u64); 3] = [(0, 3), (2, 15), (6, 7)];
 /// The first bit of every joint: a geometric series.
 const EACH: u64 = ((1 << (WIDTH * JOINTS)) - 1) / ((1 << WIDTH) - 1);

@@ -96,7 +96,7 @@ impl<'f> Rounding<'f> {
         self.polynomials.get(&(joint, is_sine)).copied()
     }
 
-    /// Where sizes of all values are known, one a step, the exact value is that of polynomials for
+    /// If sizes of all values are known, one a step, the exact value is that of polynomials for
     /// sines, whose error is none of rounding.
     pub fn bounds(&self, ranges: &Ranges, sizes: Option<&[f64]>) -> Bounds {
         let steps = &self.function.program.steps;

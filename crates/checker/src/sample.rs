@@ -58,7 +58,7 @@ pub struct Sampler<'f> {
     leaves: Vec<Operand<f64>>,
     /// Each step's operation and the places of its operands: leaves first, then steps.
     code: Vec<(char, [usize; 2])>,
-    /// Whether each result is negated, and its place.
+    /// For each result: true if it is negated, and its place.
     outputs: Vec<(bool, usize)>,
     speeds: &'f [(usize, f64)],
     /// The errors of sines and cosines by polynomials.

@@ -14,7 +14,7 @@ pub struct Scalar {
     pub unit: f64,
     /// The cost beside that where results underflow.
     pub least: f64,
-    /// Where results are too near to overflow: states a little outside of the box would.
+    /// The size beyond which results are too near to overflow: states a little outside would.
     pub most: f64,
     /// The largest angle of which whole turns are taken off, rad.
     pub far: f64,

@@ -162,7 +162,7 @@ fn rows_are_measured_by_the_robot_file() {
     }
 }
 
-/// Whoever claims more bodies than the robot has links is told before any is looked at.
+/// More bodies than the robot has links are refused before any is looked at.
 #[test]
 fn bodies_that_are_too_many_are_refused_at_once() {
     let claim = data("point_mass.claim.json");

@@ -1,4 +1,4 @@
-//! How many lines there are to be read.
+//! Counts the lines that have to be trusted.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -37,7 +37,7 @@ fn trusted_lines_are_named_and_counted() {
     assert!(all <= MOST, "{all}");
 }
 
-/// What is checked must not check itself: no crate of this project, nor any but these.
+/// The checker must not depend on code that it checks: no crate of this project, nor any but these.
 #[test]
 fn dependencies_are_named() {
     let manifest = file("crates/checker/Cargo.toml");

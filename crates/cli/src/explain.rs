@@ -49,7 +49,7 @@ const STATES: usize = 200;
 pub struct Explanation {
     /// The robot, in its scene.
     pub setup: Setup,
-    /// Which function.
+    /// The function.
     pub function: Function,
     /// The steps, in their order; the last is what is generated.
     pub rows: Vec<Row>,

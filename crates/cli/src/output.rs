@@ -50,7 +50,7 @@ impl From<GenerateError> for Failure {
 pub struct Done {
     /// The report to print.
     pub report: Report,
-    /// Whether the report's text goes to standard error, because a file may go to standard output.
+    /// True if the report's text goes to standard error, because a file may go to standard output.
     pub is_aside: bool,
     /// The files to write: all or none.
     pub files: Vec<(Target, String)>,

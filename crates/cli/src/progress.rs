@@ -21,7 +21,7 @@ pub struct Session(Arc<Seen>);
 struct Seen {
     functions: Vec<Function>,
     stop: AtomicBool,
-    /// Whether no search is left that Ctrl-C could end early.
+    /// True if no search is left that Ctrl-C could end early.
     over: AtomicBool,
 }
 

@@ -23,7 +23,7 @@ pub struct Source {
     /// The text of the file, and the text of the robot as a robot file.
     pub text: String,
     pub robot_file: String,
-    /// Whether the file is a URDF or an MJCF.
+    /// True if the file is a URDF or an MJCF.
     pub is_model: bool,
     chain: ChainArgs,
 }

@@ -17,7 +17,7 @@ use crate::triangle::Triangle;
 const MAGIC: &[u8; 6] = b"DLBFIT";
 const VERSION: u16 = 1;
 
-/// What is kept of any number of states.
+/// The sums over any number of states.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accumulator {
     fingerprint: [u8; 32],

@@ -34,7 +34,7 @@ use crate::model::{Column, Model, place};
 use crate::triangle::Triangle;
 use barrier::Barrier;
 
-/// What is left of the barrier at the end: what it adds to the squared distance is below
+/// The factor of the barrier at the end: its part of the squared distance is below
 /// 2 μ times four a link and one a drive's parameter.
 const LAST: f64 = 5e-9;
 /// The least part of the squared distance that is left of the barrier: it then adds a thousand
@@ -66,7 +66,7 @@ pub struct Bodies {
     pub viscous: Vec<f64>,
     /// Coulomb friction, as well.
     pub coulomb: Vec<f64>,
-    /// Offsets of the torques; zero where they are not identified.
+    /// The offsets of the torques; zero where they are not identified.
     pub offset: Vec<f64>,
     /// π of these bodies, an entry a column of the model.
     pub parameters: Vec<f64>,

@@ -1,8 +1,8 @@
-//! What can be wrong with what is given.
+//! The errors of inputs.
 
 use std::fmt;
 
-/// Why something could not be computed.
+/// The errors of this crate.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Error {
     /// The robot has no base parameters that could be written down; the generator's reason.

@@ -26,7 +26,7 @@ use search::Search;
 /// p of the smooth condition.
 const POWER: i32 = 3;
 
-/// How long to look, and for what.
+/// The work of a search for a motion, and its measure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effort {
     /// Sines and cosines of each joint.
@@ -35,11 +35,11 @@ pub struct Effort {
     pub samples: usize,
     /// Random trajectories that the search begins with.
     pub starts: usize,
-    /// How many of them, the best first, are improved.
+    /// The number of them, the best first, that are improved.
     pub descents: usize,
     /// Steps from each of these.
     pub steps: usize,
-    /// What the starts are drawn from.
+    /// The seed of the starts.
     pub seed: u64,
 }
 

@@ -37,11 +37,11 @@ pub struct Fit {
     pub noise: Vec<f64>,
     /// Root mean square of each joint's residual with the robot file's parameters.
     pub before: Vec<f64>,
-    /// The same with the identified ones, on the same states.
+    /// The residuals of the identified parameters, on the same states.
     pub after: Vec<f64>,
     /// Condition of the weighted regressor, columns of length one; infinite if these are dependent.
     pub condition: f64,
-    /// What the data do not excite.
+    /// The parameters that the data do not excite.
     pub unexcited: Vec<Unexcited>,
     /// Number of states.
     pub states: u64,

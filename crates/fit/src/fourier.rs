@@ -16,7 +16,7 @@ use crate::limits::Limits;
 pub struct Trajectory {
     /// Its period, s.
     pub period: f64,
-    /// Of each joint, the position about which it swings, rad or m.
+    /// The position about which each joint swings, rad or m.
     pub middle: Vec<f64>,
     /// a_il, rad/s or m/s.
     pub cosines: Vec<Vec<f64>>,

@@ -1,4 +1,4 @@
-//! How far and how fast joints move.
+//! Limits of positions and rates of joints.
 
 use dalembert_model::number::{Rational, Rounded};
 use dalembert_model::robot::{JointKind, Position, Robot};

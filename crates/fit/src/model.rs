@@ -29,7 +29,7 @@ use derive::candidates;
 /// Width w of Coulomb friction, rad/s or m/s, of joints of which the file has none.
 const COULOMB_WIDTH: f64 = 0.01;
 
-/// What a column of the regressor is the torque of.
+/// The parameter of which a column of the regressor is the torque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Column {
     /// A base parameter, its place among them.
@@ -190,7 +190,7 @@ impl Model {
         [q, qd, qdd]
     }
 
-    /// Returns what each column of Y, and each entry of π, is of.
+    /// Returns the parameter of each column of Y and each entry of π.
     pub fn columns(&self) -> &[Column] {
         &self.columns
     }
@@ -215,7 +215,7 @@ impl Model {
         &self.parameters
     }
 
-    /// Returns what tells models of which the columns differ apart.
+    /// Returns a hash of the columns.
     pub fn fingerprint(&self) -> &[u8; 32] {
         &self.fingerprint
     }

@@ -8,7 +8,7 @@ use crate::model::Model;
 use crate::random::{Random, normal};
 pub use controlled::{Collision, Controlled, control};
 
-/// How an arm is logged.
+/// The settings of a simulated log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
     /// Time between two states, s.
@@ -19,7 +19,7 @@ pub struct Recording {
     pub noise: Vec<f64>,
     /// The encoders' step, rad or m; zero for exact positions.
     pub resolution: f64,
-    /// What the noise is drawn from.
+    /// The seed of the noise.
     pub seed: u64,
 }
 

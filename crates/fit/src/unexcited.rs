@@ -18,11 +18,11 @@ const NOTHING: f64 = 1e-6;
 pub struct Unexcited {
     /// Columns of the model with their factors, from the largest contribution down to a hundredth.
     pub combination: Vec<(usize, f64)>,
-    /// The same in words.
+    /// The parameter in words.
     pub name: String,
     /// Torque in the data per torque in the reference motion.
     pub excitation: f64,
-    /// What would excite it.
+    /// A motion that would excite it.
     pub motion: Motion,
 }
 

@@ -84,7 +84,7 @@ fn encoder_bias(seeds: u64) -> [f64; 2] {
     [(square / away.len() as f64).sqrt(), largest]
 }
 
-/// Of two logs the noise of the torques alone gives 0.7 standard errors.
+/// In two logs the noise of the torques alone gives 0.7 standard errors.
 #[test]
 fn quantised_encoders_leave_the_noise_of_the_torques() {
     let [bias, largest] = encoder_bias(2);

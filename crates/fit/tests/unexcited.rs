@@ -1,4 +1,4 @@
-//! What data do not tell is named, with a motion that tells it.
+//! Parameters that data do not tell are named, with a motion that tells them.
 
 use dalembert_fit::random::{Random, normal};
 use dalembert_fit::unexcited::Motion;

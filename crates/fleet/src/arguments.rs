@@ -136,7 +136,7 @@ pub(crate) struct Arguments {
     joints: usize,
     pub(crate) rows: usize,
     time: Option<ArrayRef>,
-    /// Of each quantity n columns, or one list.
+    /// For each quantity: n columns, or one list.
     sources: Vec<Vec<ArrayRef>>,
     pub(crate) nulls: Option<NullBuffer>,
 }

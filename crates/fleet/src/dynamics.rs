@@ -1,4 +1,4 @@
-//! What the functions ask of a robot: torques and rows of the regressor, for many states.
+//! The dynamics that functions ask of a robot: torques and rows of the regressor, for many states.
 //!
 //! States lie in columns: entry i of state s at `i * states + s`.
 
@@ -155,7 +155,7 @@ impl Loaded {
         self.arm.robot()
     }
 
-    /// Returns what a user should know of the robot.
+    /// Returns the notes about the robot.
     pub fn notes(&self) -> &[String] {
         self.arm.notes()
     }

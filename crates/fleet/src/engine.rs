@@ -20,7 +20,7 @@ use crate::logs::block::per;
 use crate::logs::{Log, Source, states};
 use crate::progress::Going;
 
-/// What a query may use.
+/// The resources that a query may use.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// Bytes: of what readers hold, and of the engine's pool.
@@ -33,7 +33,7 @@ pub struct Limits {
 const BATCH: usize = 8192;
 const PARTITION: u64 = 32 << 20;
 
-/// Where queries run.
+/// The place where queries run.
 pub struct Engine {
     context: SessionContext,
     functions: Functions,

@@ -1,10 +1,10 @@
-//! What went wrong, in a sentence.
+//! Errors, each in a sentence.
 
 use std::fmt;
 
 use datafusion::error::DataFusionError;
 
-/// What went wrong.
+/// An error of a command.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error(String);
 
@@ -14,7 +14,7 @@ impl Error {
         Error(text.to_string().trim_end().to_owned())
     }
 
-    /// Returns the same error with where it happened before it.
+    /// Puts the place where it happened before the message.
     #[must_use]
     pub fn at(self, place: impl fmt::Display) -> Error {
         Error(format!("{place}: {}", self.0))

@@ -1,4 +1,4 @@
-//! What the commands over logs have in common: a robot, logs that were looked at, an engine.
+//! The parts that commands over logs have in common: a robot, logs that were looked at, an engine.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -115,11 +115,11 @@ impl RobotArgs {
 pub struct Job {
     /// The robot, which counts what it evaluates.
     pub robot: Arc<Loaded>,
-    /// Where queries run.
+    /// The place where queries run.
     pub engine: Engine,
     /// The logs, in order.
     pub logs: Vec<Log>,
-    /// How far it is.
+    /// The progress.
     pub progress: Arc<Progress>,
     /// The signal by which it goes on, or ends.
     pub going: Going,
@@ -192,7 +192,7 @@ impl Job {
         }
     }
 
-    /// Returns what was found of good files; names the bad ones.
+    /// Returns the findings about good files; names the bad ones.
     pub fn good<T>(&self, found: Vec<Result<T, Error>>) -> Result<Vec<T>, Error> {
         let all = found.len();
         let skipped = if self.skip_bad { "left out: " } else { "" };

@@ -57,7 +57,7 @@ pub fn expand(patterns: &[String]) -> Result<Vec<PathBuf>, Error> {
     Ok(all)
 }
 
-/// Returns whether a file is a recording of ROS 2, by its name.
+/// True if a file is a recording of ROS 2, by its name.
 pub fn is_mcap(path: &Path) -> bool {
     let extension = path.extension();
     extension.is_some_and(|extension| extension.eq_ignore_ascii_case("mcap"))

@@ -1,4 +1,4 @@
-//! What is written: whole or not at all.
+//! Output files, written whole or not at all.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -14,7 +14,7 @@ pub struct Curves {
     rows: u64,
     seen: u64,
     time: [f64; 2],
-    /// Of each joint, least and largest value of each column.
+    /// For each joint: the least and the largest value of each column.
     ranges: Vec<Vec<[f64; 2]>>,
 }
 

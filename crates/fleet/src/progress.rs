@@ -1,4 +1,4 @@
-//! How far a command is, and whether it is to end.
+//! The progress of a command, and the request that it end.
 
 use std::fmt;
 use std::io::{IsTerminal, Write};
@@ -62,7 +62,7 @@ impl Going {
     }
 }
 
-/// What a command that was ended says.
+/// The message of a command that was ended.
 pub const INTERRUPTED: &str = "interrupted: nothing was written";
 
 /// Counts states, and tells on the terminal how many they are, how fast, and for how long.

@@ -45,7 +45,7 @@ impl Function {
         self.native.program().scalar
     }
 
-    /// Returns what the lengths of its results follow from.
+    /// Returns the sizes from which the lengths of its results follow.
     pub fn sizes(&self) -> Sizes {
         self.sizes
     }
@@ -55,7 +55,7 @@ impl Function {
         self.native.program().counts()
     }
 
-    /// Returns what was proved of it, in a sentence.
+    /// Returns its proof, in a sentence.
     pub fn proof(&self) -> &str {
         &self.proved.proof
     }
@@ -331,7 +331,7 @@ impl Arm {
         setup.map_err(|why| LoadError::Generate(why.into()))
     }
 
-    /// Returns what a user should know of the robot and its functions.
+    /// Returns the notes about the robot and its functions.
     pub fn notes(&self) -> &[String] {
         &self.entry.notes
     }

@@ -6,7 +6,7 @@ use crate::compile::Signature;
 use crate::error::{CallError, CompileError};
 use crate::rows::Place;
 
-/// How many states are compared.
+/// The number of states that are compared.
 pub const STATES: usize = 64;
 
 /// Values that have branches, or no number.

@@ -13,7 +13,7 @@ use crate::emit::{Emitter, number, vector};
 use crate::error::CompileError;
 use crate::program;
 
-/// What a program reads and returns.
+/// The arguments and results of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Signature {
     /// The arguments in order, each with its number of entries.

@@ -1,10 +1,10 @@
-//! Why there is no machine code, or it was not run.
+//! The errors of compiling and of calling.
 
 use std::fmt;
 
 use dalembert_codegen::{GenerateError, ScalarType};
 
-/// Why a program was not compiled.
+/// The reasons for which a program is not compiled.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CompileError {
@@ -12,18 +12,18 @@ pub enum CompileError {
     Program,
     /// The program returns another number of results than its signature says.
     Results {
-        /// Of the signature.
+        /// The signature's number of results.
         expected: usize,
-        /// Of the program.
+        /// The program's number of results.
         found: usize,
     },
     /// Cranelift refuses: an unknown processor, or no memory.
     Cranelift(String),
     /// At a state, the code computes another number than the program.
     Differs {
-        /// Which of the states of the check.
+        /// The number of the state among those of the check.
         state: usize,
-        /// Which result.
+        /// The number of the result.
         result: usize,
     },
 }
@@ -57,7 +57,7 @@ impl fmt::Display for CompileError {
 
 impl std::error::Error for CompileError {}
 
-/// Why a function was not called.
+/// The reasons for which a function is not called.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CallError {
@@ -144,7 +144,7 @@ impl fmt::Display for CallError {
 
 impl std::error::Error for CallError {}
 
-/// Why there is no arm.
+/// The reasons for which no arm is loaded.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum LoadError {

@@ -1,4 +1,4 @@
-//! What is generated for a robot: read, searched for, proved and printed.
+//! Generates the functions of a robot: reads it, searches, proves and prints.
 
 use std::path::Path;
 

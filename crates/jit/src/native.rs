@@ -154,7 +154,7 @@ impl Native {
         &self.program
     }
 
-    /// Returns what it reads and returns.
+    /// Returns its arguments and results.
     pub fn signature(&self) -> &Signature {
         &self.signature
     }

@@ -1,4 +1,4 @@
-//! What to make of a robot.
+//! The request for a robot's functions.
 
 use std::path::PathBuf;
 
@@ -7,7 +7,7 @@ use dalembert_model::read::Reading;
 
 use crate::error::LoadError;
 
-/// Where plans and compiled requests are kept.
+/// The place where plans and compiled requests are kept.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Cache {
     /// In the user's folder for caches, or in that of `DALEMBERT_CACHE`.
@@ -29,9 +29,9 @@ pub struct Load {
     /// and sines are those of `dalembert-sines` unless a scene has a tolerance. With fused products
     /// results are not those of other machines.
     pub asked: Asked,
-    /// Where the work is kept.
+    /// The place where the work is kept.
     pub cache: Cache,
-    /// Who waits for a long search.
+    /// The observer of a long search.
     pub watch: Watch,
 }
 

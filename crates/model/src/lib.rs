@@ -1,4 +1,4 @@
-//! What a robot is, with exact parameters, and its dynamics written once over any scalar.
+//! Robots with exact parameters, and their dynamics written once over any scalar.
 //!
 //! - [`number`]: exact rationals, angles and the constants made of them
 //! - [`robot`]: the description: DH rows, masses, centres of mass, inertias, limits

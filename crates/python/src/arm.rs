@@ -1,4 +1,4 @@
-//! What is known of an arm.
+//! An arm and its functions.
 
 use std::sync::Arc;
 
@@ -162,19 +162,19 @@ impl Arm {
         self.0.limbs().map_err(|error| raised(&error))
     }
 
-    /// Returns what there is to know of the robot and its functions.
+    /// Returns the notes about the robot and its functions.
     #[getter]
     fn notes(&self) -> Vec<String> {
         self.0.notes().to_vec()
     }
 
-    /// Returns whether nothing was searched for, since it was kept.
+    /// True if nothing was searched for, since it was kept.
     #[getter]
     fn is_from_cache(&self) -> bool {
         self.0.is_from_cache()
     }
 
-    /// Returns whether the search was ended early.
+    /// True if the search was ended early.
     #[getter]
     fn has_ended_early(&self) -> bool {
         self.0.has_ended_early()

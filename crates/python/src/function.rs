@@ -43,11 +43,11 @@ use crate::xla;
 #[pyclass(frozen, module = "dalembert")]
 pub struct Function {
     arm: Arc<dalembert_jit::Arm>,
-    /// Where it is among the arm's functions, in each scalar that it is compiled in.
+    /// Its places among the arm's functions, in each scalar that it is compiled in.
     places: Vec<usize>,
     arguments: Vec<&'static str>,
     quantities: Vec<Quantity>,
-    /// What several results are returned in.
+    /// The structure in which several results are returned.
     structure: Option<Py<PyAny>>,
     refuses_nan: bool,
     /// The numbers of bodies that stay zero.

@@ -18,7 +18,7 @@ use pyo3::types::PyDict;
 use crate::arm::Arm;
 use crate::convert::raised;
 
-/// How often a waiting interpreter looks for signals.
+/// The time between two looks of a waiting interpreter for signals.
 const PATIENCE: Duration = Duration::from_millis(50);
 
 /// Deep expressions of large arms.

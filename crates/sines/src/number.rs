@@ -120,7 +120,7 @@ pub trait Floats<T>:
     fn power(self, exponent: usize) -> Self::Bits;
     /// Shifts the last two bits of every lane to its first two places.
     fn raised(bits: Self::Bits) -> Self::Bits;
-    /// Returns whether every lane is at most `largest` in magnitude, and a number.
+    /// True if every lane is at most `largest` in magnitude, and a number.
     fn are_within(self, largest: T) -> bool;
 }
 

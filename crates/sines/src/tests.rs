@@ -77,7 +77,7 @@ fn error(polynomial: &[f64], first: u64, power: usize, reach: f64) -> f64 {
     bits(&(largest(&difference, &top, 64) + rest))
 }
 
-/// Of the sine, r²·Δp over sin r/r ≥ 0.9003 is the relative error; of the cosine
+/// For the sine, r²·Δp over sin r/r ≥ 0.9003 is the relative error; for the cosine
 /// r⁴·Δp is the absolute one.
 #[test]
 fn polynomials_are_as_near_as_stated() {

@@ -17,14 +17,14 @@ dalembert::dynamics! {
 }
 
 dalembert::dynamics! {
-    /// The same arm with a kilogram in its hand.
+    /// The arm with a kilogram in its hand.
     pub mod with_a_kilogram = "robots/arm.toml";
     scene: kilo;
     scalar: f64;
 }
 
 dalembert::dynamics! {
-    /// The same arm with payload and gravity as arguments.
+    /// The arm with payload and gravity as arguments.
     pub mod carrying = "robots/arm.toml";
     outputs: inverse_dynamics, gravity;
     scalar: f64;

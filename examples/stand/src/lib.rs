@@ -43,7 +43,7 @@ pub const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 /// The robot's motion.
 #[derive(Clone, Copy, Debug)]
 pub struct State {
-    /// Where the base is.
+    /// The pose of the base.
     pub pose: Pose<f64>,
     /// Positions of the joints, rad.
     pub q: Joints,

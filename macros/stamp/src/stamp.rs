@@ -285,7 +285,7 @@ fn series(version: &str) -> &str {
     parts.map_or(version, |(series, _)| series)
 }
 
-/// Why a generated file may not be used.
+/// The reasons for which a generated file may not be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Stale {
     /// There is no such file.

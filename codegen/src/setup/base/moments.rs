@@ -77,7 +77,7 @@ pub(super) fn kept(kind: JointKind) -> &'static [Moment] {
     }
 }
 
-/// What each link keeps of a body, and a base that floats.
+/// The part of a body that each link, and a base that floats, keeps.
 pub(super) struct Parts {
     base: Body<Exact>,
     links: Vec<Body<Exact>>,

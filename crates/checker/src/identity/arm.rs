@@ -23,7 +23,7 @@ pub struct Joint {
     pub(super) axis: Screw,
     /// The joint that moves it, and how many times as far: itself, but for one that follows.
     pub leader: (usize, Number),
-    /// How often a joint that turns counts, and sine and cosine, or the length, that is added.
+    /// The multiple of the leader's angle, and the sine and cosine, or the length, that is added.
     line: (i64, [Number; 2], Number),
     /// The origin of the frame whose z the axis is, and whether the joint moves it.
     pub(super) origin: (Vector, bool),

@@ -19,7 +19,7 @@ pub(super) struct At<'a> {
     /// That of a base that floats.
     pub(super) base: Option<Body>,
     pub(super) bodies: Vec<Body>,
-    /// What the base has moved by, and then each link.
+    /// The motion of the base, and then of each link.
     poses: Vec<Pose>,
 }
 

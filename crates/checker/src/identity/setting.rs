@@ -178,7 +178,7 @@ impl Setting<'_> {
         self.movers.len()
     }
 
-    /// Returns what generated code calls the places of joints, if the robot is a tree.
+    /// Returns the names of joints' places in generated code, if the robot is a tree.
     pub(crate) fn places(&self) -> Option<Places> {
         let names = self
             .movers

@@ -68,9 +68,9 @@ pub(super) struct Search {
     /// A bound of terms left out, and of what sums and sines lose in doubles.
     pub(super) slack: f64,
     pub(super) angles: Vec<f64>,
-    /// Where the last climb ended.
+    /// The point at which the last climb ended.
     pub(super) top: Vec<f64>,
-    /// Where F was last above a B.
+    /// The last point at which F was above a B.
     pub(super) above: Vec<f64>,
     pub(super) steps: u64,
     pub(super) corner: Vec<f64>,

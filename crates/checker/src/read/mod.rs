@@ -112,7 +112,7 @@ impl Head<'_> {
     }
 }
 
-/// Who computes the sine and the cosine of an angle.
+/// The library, or polynomial, that computes the sine and the cosine of an angle.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Source {
     /// libm, or the C library.
@@ -130,7 +130,7 @@ pub struct Sines {
     pub joint: usize,
     /// `true` for the sine, and for the cosine, if it has a name.
     pub needs: [bool; 2],
-    /// Who computes them.
+    /// The source that computes them.
     pub source: Source,
 }
 

@@ -36,7 +36,7 @@ struct Scene<'r> {
     robot: &'r Robot,
     first: Columns<f64>,
     frames: Vec<Columns<f64>>,
-    /// Where the links have one end.
+    /// The hand, if the links have one end.
     hand: Option<Columns<f64>>,
     bodies: Vec<Body>,
 }

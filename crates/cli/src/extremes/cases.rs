@@ -45,7 +45,7 @@ pub enum Change {
     Repeated(usize),
 }
 
-/// Where the joints are and how they move.
+/// Positions and rates of the joints.
 #[derive(Clone, Copy, Debug)]
 pub enum Motion {
     /// Inside the limits.

@@ -20,7 +20,7 @@ pub(super) struct Barrier {
 enum Drive {
     /// Positive, at a place of θ, with what it is in the file.
     Positive(usize, f64),
-    /// Of either sign, with the size that it may well have.
+    /// A number of either sign, with its typical size.
     Free(usize, f64),
 }
 

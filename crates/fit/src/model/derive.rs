@@ -1,4 +1,4 @@
-//! Which columns a model has, and what tells its columns from others'.
+//! The columns of a model, and a hash of them.
 
 use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::robot::{FloatingBase, Robot};

@@ -14,9 +14,9 @@ use crate::random::Random;
 pub struct Controlled {
     /// The arm from each time on, s, in order; the first is the arm from the beginning.
     pub arms: Vec<(f64, Robot)>,
-    /// What the controller takes for it.
+    /// The controller's model of it.
     pub controller: Robot,
-    /// How fast the controller corrects errors of position, rad/s.
+    /// The bandwidth at which the controller corrects errors of position, rad/s.
     pub bandwidth: f64,
     /// Contacts with something.
     pub collisions: Vec<Collision>,
@@ -27,7 +27,7 @@ pub struct Controlled {
 pub struct Collision {
     /// When it begins, s.
     pub start: f64,
-    /// How long it takes, s.
+    /// The duration, s.
     pub duration: f64,
     /// The torque on each joint at its peak, N·m or N.
     pub torque: Vec<f64>,

@@ -17,7 +17,7 @@ const LEAST: i32 = -20;
 /// To 2²⁰ N·m, with all above in the last bin.
 const BINS: usize = 40 * OCTAVE;
 
-/// What is kept of a joint's residuals.
+/// The sums over a joint's residuals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     squares: Sum,
@@ -28,7 +28,7 @@ pub struct Joint {
     bins: Vec<u64>,
 }
 
-/// What is kept of the residuals of any number of states.
+/// The sums over residuals of any number of states.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Residuals {
     states: u64,
@@ -82,7 +82,7 @@ impl Joint {
 }
 
 impl Residuals {
-    /// Returns what is kept of no states.
+    /// Returns the sums over no states.
     pub fn new(joints: usize) -> Residuals {
         Residuals {
             states: 0,
@@ -102,7 +102,7 @@ impl Residuals {
         self.not_finite
     }
 
-    /// Returns what is kept of each joint.
+    /// Returns the sums of each joint.
     pub fn joints(&self) -> &[Joint] {
         &self.joints
     }
@@ -112,7 +112,7 @@ impl Residuals {
         libm::sqrt(self.joints[joint].squares.total() / self.states as f64)
     }
 
-    /// Returns what so much of a joint's |residuals| are below, within 0.8 %.
+    /// Returns the size that a share of a joint's residuals is below, within 0.8 %.
     pub fn quantile(&self, joint: usize, part: f64) -> f64 {
         let joint = &self.joints[joint];
         let wanted = part * self.states as f64;

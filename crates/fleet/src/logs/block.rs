@@ -36,7 +36,7 @@ impl Block {
         self.time.len()
     }
 
-    /// Returns whether there are none.
+    /// True if there are none.
     pub fn is_empty(&self) -> bool {
         self.time.is_empty()
     }

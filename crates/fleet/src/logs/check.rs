@@ -1,4 +1,4 @@
-//! What is in a file, and what is wrong with it: which row, and why.
+//! The content of a file, and its faults: each with its row and reason.
 
 use std::path::{Path, PathBuf};
 
@@ -21,7 +21,7 @@ pub struct Log {
     pub path: PathBuf,
     /// Number of rows.
     pub rows: u64,
-    /// Where the quantities are in it.
+    /// The columns of the quantities in it.
     pub layout: Layout,
     /// Columns and units of the file to read.
     pub columns: Columns,

@@ -1,4 +1,4 @@
-//! Which columns of a log are what, and their units: flags, or a small file.
+//! The quantities of a log's columns, and their units: flags, or a small file.
 
 use std::path::{Path, PathBuf};
 
@@ -76,7 +76,7 @@ pub enum TimeUnit {
     Ns,
 }
 
-/// Where a quantity is in a log.
+/// The place of a quantity in a log.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Source {
     /// A column a joint.
@@ -108,14 +108,14 @@ pub struct Columns {
     /// Seconds a unit.
     pub(crate) time_factor: f64,
     patterns: [String; 4],
-    /// Of each quantity SI units per unit, an entry a joint.
+    /// For each quantity: SI units per unit, an entry a joint.
     pub(crate) factors: [Vec<f64>; 4],
     pub(crate) motion_frequency: f64,
     pub(crate) topic: Option<String>,
     pub(crate) joint_names: Vec<String>,
 }
 
-/// Where positions, velocities, accelerations and torques of one log are; rates may be missing.
+/// The places of positions, velocities, accelerations and torques in a log; rates may be missing.
 pub type Layout = [Option<Source>; 4];
 
 impl Mapping {

@@ -22,7 +22,7 @@ pub(super) struct Rates {
     rows: Vec<u64>,
     time: Vec<f64>,
     states: Vec<[Vec<f64>; 4]>,
-    /// Of each joint the squares of the positions' rates, and of the measured velocities less these.
+    /// For each joint: the squares of the positions' rates, and of the measured velocities less these.
     squares: Vec<[f64; 2]>,
 }
 

@@ -119,7 +119,7 @@ fn logs(folder: &Folder, files: u64, states: usize) {
     }
 }
 
-/// The same bits where sums are of integers, and to 1e-12 where they are not.
+/// Results have equal bits where sums are of integers, and agree to 1e-12 where they are not.
 #[test]
 fn a_cluster_returns_what_one_process_returns() {
     let folder = Folder::new();

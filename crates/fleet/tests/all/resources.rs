@@ -1,4 +1,4 @@
-//! What a command tells of its progress, and the memory that it takes.
+//! The progress that a command shows, and the memory that it takes.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! What is kept.
+//! The cache: its entries and their ends.
 
 use std::fs;
 use std::path::PathBuf;

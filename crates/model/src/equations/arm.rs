@@ -172,7 +172,7 @@ impl<S: Scalar> Arm<S> {
         self.tool.clone().unwrap_or_else(Columns::identity)
     }
 
-    /// Returns the same arm where gravity is this, in base axes.
+    /// Replaces gravity, in base axes.
     #[must_use]
     pub fn with_gravity(mut self, gravity: &Vector<S>) -> Arm<S> {
         self.gravity = match &self.base {
@@ -189,7 +189,7 @@ impl<S: Scalar> Arm<S> {
         }
     }
 
-    /// Returns the same arm without friction.
+    /// Leaves out the friction of all joints.
     #[must_use]
     pub fn without_friction(mut self) -> Arm<S> {
         for link in &mut self.links {

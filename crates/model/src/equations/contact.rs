@@ -1,4 +1,4 @@
-//! What a wrench that acts on the hand is to the joints, and the other way round.
+//! Torques of a wrench that acts on the hand, and wrenches of torques.
 //!
 //! A wrench is the force and the moment that something else exerts on the hand, about the
 //! point and in the axes of the arm's [`Axes`]: that in which J has the velocity. It does

@@ -220,8 +220,8 @@ impl Formulation {
     }
 }
 
-/// What the second derivatives of λᵀq̈ are made of besides those of μᵀτ, D μ = λ: X, and which
-/// joints move. What is held does not: its rows and columns are zero.
+/// The parts of the second derivatives of λᵀq̈ besides those of μᵀτ, D μ = λ: X, and the
+/// joints that move. Rows and columns of those that are held are zero.
 #[derive(Clone, Debug)]
 pub struct OfAccelerations<'a, S> {
     /// X_ki, zero unless joints k and i move.

@@ -25,7 +25,7 @@ pub struct Following<S> {
     pub leader: usize,
     /// Its motion for a unit of the leader's.
     pub multiplier: S,
-    /// The same of a joint that turns, as a whole number.
+    /// The multiple of a joint that turns, as a whole number.
     pub turns: i32,
 }
 
@@ -54,7 +54,7 @@ impl<S> Following<S> {
 }
 
 impl<S: Clone> Following<S> {
-    /// Returns the same among these rows alone, by their places there; none if it is not one.
+    /// Returns the follower among these rows alone, by their places there; none if it is not one.
     pub fn among(&self, rows: &[usize]) -> Option<Following<S>> {
         let place = |row: usize| rows.iter().position(|own| *own == row);
         Some(Following {

@@ -109,7 +109,7 @@ pub struct View {
     pub frame: &'static str,
     /// In which axes.
     pub axes: Axes,
-    /// Which components.
+    /// The components.
     pub rows: Rows,
 }
 

@@ -1,4 +1,4 @@
-//! What a drive takes of torque while its joint moves.
+//! The friction of a drive: the torque that it takes while its joint moves.
 //!
 //! ```text
 //! τ_i ∋ b_i q̇_i + F_i q̇_i r_i,   r_i = 1/√(q̇_i² + w_i²)
@@ -75,7 +75,7 @@ impl<S: Scalar> Friction<S> {
         }
     }
 
-    /// Returns what the slope grows by: −3 q̇ r² times that of Coulomb friction, as r by −q̇ r³.
+    /// Returns the growth of the slope: −3 q̇ r² times that of Coulomb friction, as r grows by −q̇ r³.
     pub fn curvature(&self, qd: &S) -> S {
         let Some(coulomb) = &self.coulomb else {
             return S::zero();
@@ -128,7 +128,7 @@ impl<S: Scalar> Coulomb<S> {
         times(&self.damping(), qd)
     }
 
-    /// Returns what it grows by with the velocity, F r (w r)².
+    /// Returns its growth with the velocity, F r (w r)².
     pub fn slope(&self) -> S {
         let part = times(&self.width, &self.per_speed);
         times(&self.damping(), &times(&part, &part))

@@ -222,7 +222,7 @@ fn inverse(turn: &Columns<Exact>) -> Columns<Exact> {
 }
 
 impl<S: Scalar + PartialEq> Arm<S> {
-    /// Returns the same dynamics without the lengths that have no effect on it.
+    /// Drops the lengths that have no effect on the dynamics.
     ///
     /// While the links only slide, nothing turns: where the later links are cannot matter. While
     /// they turn about parallel axes alone, a shift of all that follows *along* these axes changes

@@ -1,4 +1,4 @@
-//! Where things are, how they move with the joints, and what the joints carry.
+//! Poses, velocities and loads of links.
 //!
 //! Lagrange–Euler takes rates of the poses themselves, by dual numbers; the
 //! other formulations use axes and levers. Nothing is shared but eq. 2.1.
@@ -151,7 +151,7 @@ impl Formulation {
         [linear, angular(&hand).map(|omega| omega.rate)]
     }
 
-    /// Returns what link i−1 exerts on link i, gravity included, in base axes;
+    /// Returns the wrench of link i−1 on link i, gravity included, in base axes;
     /// the moment about the origin of frame i−1, or of frame i in modified DH.
     pub fn wrenches<S: Scalar>(
         self,

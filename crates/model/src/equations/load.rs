@@ -21,7 +21,7 @@ pub const BODY: usize = 10;
 /// the parameters that are arguments adds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadRow<S> {
-    /// Where all of them are zero.
+    /// The number where all arguments are zero.
     pub own: S,
     /// The places of parameters that change it among [`Loading::parameters`], each with its factor.
     pub of: Vec<(usize, S)>,

@@ -28,7 +28,7 @@ use super::matrix::*;
 use super::{Arm, At, Formulation};
 use crate::scalar::{Divide, Scalar};
 
-/// What follows from J and D alone.
+/// The quantities that follow from J and D alone.
 #[derive(Clone, Debug)]
 pub struct TaskSpace<S> {
     /// J, m×n.
@@ -194,12 +194,12 @@ impl Formulation {
         arm.frames.rows.pick(&self.jacobian(arm, at))
     }
 
-    /// Returns the same gathered at the leaders of joints that follow.
+    /// Returns the Jacobian gathered at the leaders of joints that follow.
     pub fn gathered_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
         gathered_rows(&arm.following, self.task_jacobian(arm, at))
     }
 
-    /// Returns what follows from J and D.
+    /// Returns the quantities that follow from J and D.
     pub fn task_space<S: Divide>(self, arm: &Arm<S>, at: &At<S>, moves: &[bool]) -> TaskSpace<S> {
         let inverse = self.inertia_inverse(arm, at, moves);
         TaskSpace::by_inverse(self.gathered_jacobian(arm, at), &inverse)

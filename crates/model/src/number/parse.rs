@@ -22,7 +22,7 @@ pub const MAX_DIGITS: usize = 800;
 /// in size, so that it and its reciprocal are ordinary doubles.
 pub const MAX_EXPONENT: i64 = 300;
 
-/// Why a text is no number.
+/// The reasons for which a text is not a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NumberError {
     /// Not of the form digits, point, digits, exponent.
@@ -123,7 +123,7 @@ pub(super) fn parse_integer(text: &str) -> Result<BigInt, NumberError> {
     integer(digits(text)?)
 }
 
-/// Returns whether a number is zero or of a size from 1e-300 to 1e300.
+/// True if a number is zero or of a size from 1e-300 to 1e300.
 pub fn in_range(value: &Rational) -> bool {
     // Bits first: the exact comparison would build the huge power anyway, but
     // should not multiply it with a numerator a thousand times as long.

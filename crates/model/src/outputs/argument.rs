@@ -1,4 +1,4 @@
-//! What functions read: joint vectors, and parameters that are arguments where somebody asks
+//! Arguments of functions: joint vectors, and parameters that are arguments where somebody asks
 //! for that.
 
 use super::Sizes;

@@ -31,7 +31,7 @@ const OWN: [&str; 7] = [
 ];
 
 impl Function {
-    /// Returns what all of these return, in their order, by this name; bundles are their parts.
+    /// Makes a bundle of functions by a name, in their order; bundles among them are their parts.
     ///
     /// ```
     /// use dalembert_model::outputs::Function;
@@ -109,7 +109,7 @@ impl Function {
         }
     }
 
-    /// Returns what [`Function::parse`] reads, without spaces: `servo=inverse_dynamics+jacobian`.
+    /// Writes the text that [`Function::parse`] reads: `servo=inverse_dynamics+jacobian`.
     pub fn text(self) -> String {
         match self {
             Function::Bundle(bundle) => joined(self.name(), bundle.0.parts),
@@ -227,7 +227,7 @@ pub(super) fn kept(text: String) -> &'static str {
     Box::leak(text.into_boxed_str())
 }
 
-/// Why there is no such bundle.
+/// The reason for which a bundle cannot be.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct BundleError {

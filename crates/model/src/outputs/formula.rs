@@ -1,4 +1,4 @@
-//! What a quantity's file says, and what its formulas are given.
+//! The facts of a quantity, and the arguments of its formulas.
 
 use alloc::vec::Vec;
 use core::cell::OnceCell;
@@ -161,11 +161,11 @@ impl<S: Scalar> Motion<S> {
 /// An arm in motion, and the formulation that is asked.
 #[derive(Clone, Copy, Debug)]
 pub struct Written<'a, S> {
-    /// Which of the textbook's.
+    /// The textbook's formulation.
     pub formulation: Formulation,
     /// The arm.
     pub arm: &'a Arm<S>,
-    /// Where it is.
+    /// The position.
     pub at: &'a At<S>,
     /// The motion of the arm.
     pub motion: &'a Motion<S>,
@@ -178,7 +178,7 @@ pub struct Written<'a, S> {
 pub struct Regrouped<'a, S> {
     /// The chain at its position.
     pub chain: &'a Chain<S>,
-    /// Where its joints are.
+    /// The positions of its joints.
     pub at: &'a [Displacement<S>],
     /// Its composite bodies.
     pub composite: Composite<'a, S>,

@@ -1,4 +1,4 @@
-//! What a generated function is.
+//! A generated function.
 
 use alloc::boxed::Box;
 use alloc::string::String;
@@ -83,7 +83,7 @@ impl Made {
     }
 }
 
-/// Which columns of a regressor a function's results are over.
+/// The columns of a regressor that a function's results are over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Columns {
     /// None: it is no regressor.
@@ -128,7 +128,7 @@ impl Function {
         self.definition().summary
     }
 
-    /// Returns what it reads: all that its results depend on.
+    /// Lists its arguments: all that its results depend on.
     pub fn arguments(self) -> Vec<Argument> {
         let read = |argument: &Argument| {
             let mut results = self.quantities().iter();
@@ -161,14 +161,14 @@ impl Function {
         !quantities.any(|quantity| quantity.facts().on_floating_base)
     }
 
-    /// Returns what it has to do with a payload: as much as any of its results.
+    /// Returns its dependence on a payload: the strongest of its results.
     pub fn payload_dependence(self) -> PayloadDependence {
         let all = self.quantities().iter();
         let most = all.map(|q| q.facts().payload_dependence).max();
         most.unwrap_or(PayloadDependence::None)
     }
 
-    /// Returns whether it depends on a parameter that can be an argument.
+    /// True if it depends on a parameter that can be an argument.
     pub fn depends_on(self, parameter: RuntimeParameter) -> bool {
         match parameter {
             RuntimeParameter::Gravity => self.quantities().iter().any(|q| q.facts().gravity),
@@ -176,7 +176,7 @@ impl Function {
         }
     }
 
-    /// Returns what it returns.
+    /// Returns its results.
     pub fn quantities(self) -> &'static [Quantity] {
         self.definition().results
     }
@@ -224,7 +224,7 @@ impl Function {
         results.flat_map(|own| own.written(&written)).collect()
     }
 
-    /// Returns what vanishes if these results over all joints solve their equations.
+    /// Returns the residuals of the equations that these results over all joints solve.
     pub fn residual<S: Divide>(
         self,
         formulation: Formulation,
@@ -250,7 +250,7 @@ impl Function {
         residual
     }
 
-    /// Returns whether it exists only where D has an inverse.
+    /// True if it exists only where D has an inverse.
     pub fn inverts_inertia(self) -> bool {
         self.quantities().iter().any(|q| q.facts().inverts_inertia)
     }

@@ -1,4 +1,4 @@
-//! Where links and hand are, how they move, and what they exert on each other.
+//! Outputs of kinematics: poses, Jacobians and wrenches between links.
 
 use alloc::vec::Vec;
 

@@ -1,4 +1,4 @@
-//! What can be asked about an arm: an output is a row of the list below, and a file has
+//! The outputs of an arm: each is a row of the list below, and a file has
 //! the formulas of those that belong together.
 //!
 //! - `registry`: the macro that makes [`Function`] and [`Quantity`] of the list below

@@ -1,4 +1,4 @@
-//! What a result is.
+//! A result.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -12,7 +12,7 @@ use crate::equations::regressor::LinkParameter;
 use crate::robot::Robot;
 use crate::scalar::Scalar;
 
-/// What may be chosen of an output's frame; each choice includes those before it.
+/// The choices of an output's frame; each includes those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) enum FrameChoice {
     None,
@@ -177,7 +177,7 @@ impl Quantity {
         self.shape().len(sizes)
     }
 
-    /// Returns what it depends on.
+    /// Returns the arguments that it depends on.
     pub fn arguments(self) -> &'static [Argument] {
         self.facts().arguments
     }
@@ -192,12 +192,12 @@ impl Quantity {
         self.facts().symbol()
     }
 
-    /// Returns whether the chain formulas give it.
+    /// True if the chain formulas give it.
     pub fn is_regrouped(self) -> bool {
         self.facts().choices.is_some()
     }
 
-    /// Returns whether it can be had at any frame.
+    /// True if it can be had at any frame.
     pub fn is_of_frame(self) -> bool {
         self.facts().frame != FrameChoice::None
     }

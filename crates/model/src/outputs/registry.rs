@@ -70,7 +70,7 @@ macro_rules! registry {
             /// Every quantity of a function that can be asked for, in the order of these.
             pub const ALL: &[Quantity] = &[$($($(Quantity::$quantity,)+)?)*];
 
-            /// Returns what it says of itself, beside its formulas.
+            /// Returns its facts.
             pub fn facts(self) -> &'static quantity::Facts {
                 match self {
                     $($($(Quantity::$quantity => &$file::$quantity::FACTS,)+)?)*
@@ -106,7 +106,7 @@ macro_rules! registry {
                 }
             }
 
-            /// Returns what vanishes if these entries over all joints solve its equation, if any.
+            /// Returns the residuals of the equation that these entries over all joints solve, if any.
             pub fn residual<S: Divide>(self, at: &Written<'_, S>, values: &[S]) -> Vec<S> {
                 match self {
                     $($($(Quantity::$quantity => $file::$quantity::residual(at, values),)+)?)*

@@ -1,4 +1,4 @@
-//! How the numbers of a result are arranged.
+//! The shape of a result's numbers.
 
 use alloc::vec::Vec;
 
@@ -103,7 +103,7 @@ impl Sizes {
         self.floating + self.joints
     }
 
-    /// Returns the same over these coordinates.
+    /// Returns the sizes over these coordinates.
     #[must_use]
     pub fn over(self, rows: &[usize]) -> Sizes {
         Sizes {

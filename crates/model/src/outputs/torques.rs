@@ -300,7 +300,7 @@ impl Formula for TranslationCoriolis {
 }
 
 impl Quantity {
-    /// Returns what given states have of it, at these velocities: instead of h_ikm they have h.
+    /// Returns the quantity that given states have in its place, at these velocities: h for h_ikm.
     pub fn as_given(self, values: &[f64], qd: &[f64]) -> (Quantity, Vec<f64>) {
         match self {
             Quantity::Christoffel => (Quantity::Coriolis, contract(values, qd)),

@@ -1,4 +1,4 @@
-//! Which inertia tensors a body can have, decided exactly.
+//! Decides exactly if a body can have an inertia tensor.
 //!
 //! For a body of density ρ, ½ tr(I)·1 − I = ∫ρ x xᵀ, which is positive
 //! semidefinite; conversely every such matrix is that of some body. In

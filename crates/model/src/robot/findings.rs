@@ -110,7 +110,7 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// Returns whether it is an error, not a warning.
+    /// True if it is an error, not a warning.
     pub fn is_error(&self) -> bool {
         self.warning.is_none()
     }

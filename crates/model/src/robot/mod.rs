@@ -49,7 +49,7 @@ pub(crate) use validate::{ENDINGS, WORDS, is_plain, is_snake};
 pub use validate::{HAND, is_frame_name, suggested_name};
 pub use write::{write, write_frame};
 
-/// Which of the two DH conventions the table is written in.
+/// The DH convention of the table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Convention {
     /// A_i = Rz(θ_i) Tz(d_i) Tx(a_i) Rx(α_i): joint i acts along z_{i−1} (eq. 2.1).
@@ -238,7 +238,7 @@ pub struct Joint {
     pub parent: Option<Parent>,
     /// Revolute or prismatic.
     pub kind: JointKind,
-    /// Where it is on the link that carries it, with an axis of length one: of every joint of a
+    /// The placement on the link that carries it, with an axis of length one: of every joint of a
     /// robot whose links branch, and then its row is zero; of no other.
     pub place: Option<Placed>,
     /// Twist α_i.
@@ -279,7 +279,7 @@ pub struct Joint {
 }
 
 impl Joint {
-    /// Returns whether it has Coulomb friction.
+    /// True if it has Coulomb friction.
     pub fn has_coulomb(&self) -> bool {
         !self.coulomb.is_zero()
     }

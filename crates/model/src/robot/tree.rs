@@ -1,4 +1,4 @@
-//! Which link carries which: rows are a tree, of which a serial arm is the case with one end.
+//! The tree of rows: each says which link carries it; a serial arm has one end.
 
 use alloc::format;
 use alloc::vec::Vec;
@@ -18,7 +18,7 @@ pub enum Parent {
     Row(usize),
 }
 
-/// Where a joint's link is, and what it moves about or along.
+/// The placement of a joint's link, and the axis that it moves about or along.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Placed {
     /// The link's frame at q = 0, in that of the link before; of the first

@@ -4,7 +4,7 @@ use core::cell::Cell;
 
 use super::Scalar;
 
-/// Where the operations of one evaluation are counted.
+/// A counter of the operations of one evaluation.
 #[derive(Debug, Default)]
 pub struct Counter {
     multiplications: Cell<u64>,

@@ -41,14 +41,14 @@ pub trait Scalar: Clone {
     /// Returns `self / 2`, exact in every scalar (floats: but for underflow).
     fn half(&self) -> Self;
 
-    /// Returns whether the value is zero *by structure*, whatever the state is.
+    /// True if the value is zero *by structure*, whatever the state is.
     ///
     /// Floats answer `false` even for 0.0: skipping `0 · x` would lose a NaN
     /// or an infinity in `x`, and would put a branch into the runtime.
     fn is_zero(&self) -> bool {
         false
     }
-    /// Returns whether the value is one by structure.
+    /// True if the value is one by structure.
     fn is_one(&self) -> bool {
         false
     }

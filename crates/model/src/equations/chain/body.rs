@@ -71,7 +71,7 @@ impl<S: Scalar> Body<S> {
         }
     }
 
-    /// Returns whether turning it about z changes nothing, by structure.
+    /// True if turning it about z changes nothing, by structure.
     pub fn is_axisymmetric(&self) -> bool {
         let ([x, y, _], second) = (&self.first, &self.second);
         let across = minus(&second.xx, &second.yy);
@@ -90,7 +90,7 @@ impl<S: Scalar> Body<S> {
         }
     }
 
-    /// Returns the same body with the opposite sign.
+    /// Returns the body with the opposite sign.
     pub fn negated(&self) -> Self {
         self.map(negative)
     }

@@ -11,7 +11,7 @@ use crate::equations::screws::{Twist, Wrench};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
-/// Which way the products for D travel; the values are the same.
+/// The direction in which the products for D travel; the values are equal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CompositeOrder {
     /// Joint twists go out to the composite bodies.

@@ -89,7 +89,7 @@ impl<S: Scalar> Composite<'_, S> {
         self.own_slopes_to(qd, qdd).0
     }
 
-    /// Returns the same, and the flow of all bodies where it arrives at the base. That a base moves
+    /// Returns the slopes, and the flow of all bodies where it arrives at the base. That a base moves
     /// along has no effect but on its acceleration: velocities are those of one that only turns.
     fn own_slopes_to(&self, qd: &[S], qdd: &[S]) -> (Vec<Joint<S>>, Flow<S>) {
         let chain = self.chain;

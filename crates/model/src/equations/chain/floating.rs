@@ -173,7 +173,7 @@ impl<S: Scalar> Composite<'_, S> {
         acting
     }
 
-    /// Returns what the base and the joints do to each other: `felt` has the wrenches on the base by
+    /// Returns the coupling of base and joints: `felt` has the wrenches on the base by
     /// each joint, and by unit twists of the base `base` returns that on itself, `to_joint` the load
     /// of a joint.
     fn borders(

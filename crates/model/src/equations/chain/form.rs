@@ -13,7 +13,7 @@ pub struct Form {
     pub spin: AccelerationForm,
     /// The form of a link's own moment.
     pub couple: MomentForm,
-    /// Which way D and c travel.
+    /// The direction in which D and c travel.
     pub travel: CompositeOrder,
     /// True if h comes from composite bodies, or from the recursion.
     pub composite_h: bool,

@@ -143,7 +143,7 @@ impl<S: Scalar> Chain<S> {
         (entries, arrived.pop().flatten())
     }
 
-    /// Returns the same chain without friction.
+    /// Leaves out the friction of all joints.
     #[must_use]
     pub fn without_friction(mut self) -> Chain<S> {
         for link in &mut self.links {

@@ -102,7 +102,7 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
-    /// Of a base that floats C v has ω × v of the linear velocity wished for, and ω × ν / 2 beside
+    /// If the base floats, C v has ω × v of the linear velocity wished for, and ω × ν / 2 beside
     /// the symmetric products.
     fn mixed_base(&self, [qd, halves, v, a]: [&[S]; 4]) -> Mixed<S> {
         let rates: Vec<S> = match self.base_coordinates() {

@@ -11,7 +11,7 @@ use crate::scalar::Scalar;
 /// The regrouping of one link, in metres and kilograms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkRegrouping<S> {
-    /// Where the frame's origin lies, from the end of the step before the joint, in the axes of the
+    /// The frame's origin from the end of the step before the joint, in the axes of the
     /// frame: on the axis for a revolute joint, anywhere for a prismatic one.
     pub origin: Vector<S>,
     /// The mass that a revolute link keeps.
@@ -238,7 +238,8 @@ impl<S: Scalar> ChainLink<S> {
         }
     }
 
-    /// Returns what the link keeps of a body where all moves that can, and what arrives before it.
+    /// Splits a body into the part that the link keeps where all moves that can, and the part that
+    /// arrives before it.
     pub fn split_base(&self, body: &Body<S>) -> (Body<S>, Body<S>) {
         let moving = self.moving(body, &LinkRegrouping::base(zero_vector()));
         (body.with(&moving.negated()), self.arriving(&moving))

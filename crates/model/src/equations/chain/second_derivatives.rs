@@ -26,8 +26,8 @@ pub struct SecondDerivatives<S> {
 /// Δ, Δ′, Δ̇ and Δ̈ of a joint: the twists that wrenches of later joints have power on.
 type Earlier<S> = [Twist<S>; 4];
 
-/// What turning and driving a joint changes of its composite body: of the force ∫ a dm, of the
-/// momentum ∫ ℓ dm of Λ, of the force as the joint's velocity grows and as its acceleration does;
+/// The change of a joint's composite body as the joint turns and is driven: of the force ∫ a dm, of
+/// the momentum ∫ ℓ dm of Λ, of the force as the joint's velocity grows and as its acceleration does;
 /// of 2 ∫ v × ℓ dm, and of the same as its velocity grows.
 type Later<S> = Acting<S, 4, 2>;
 

@@ -24,7 +24,7 @@ const FEWEST: usize = 3;
 const BEYOND: usize = 2;
 
 impl<S: Scalar> Chain<S> {
-    /// Returns whether three axes or more meet at the base, by structure, with two joints beyond.
+    /// True if three axes or more meet at the base, by structure, with two joints beyond.
     pub fn has_shoulder(&self) -> bool {
         self.shoulder().is_some()
     }

@@ -177,7 +177,7 @@ impl<S: Scalar> Skeleton<S> {
     }
 }
 
-/// Where the frame of a row is: in the frame of the segment that carries it, or of the base, and
+/// The frame of a row in the frame of the segment that carries it, or of the base, and
 /// whether rows that are locked lie between.
 #[derive(Clone)]
 struct Held<S> {

@@ -90,7 +90,7 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         (0..last).map(along).collect()
     }
 
-    /// Returns what the joint before exerts besides on the last link, in the axes that
+    /// Returns the rest of the couple of the joint before on the last link, in the axes that
     /// this turns from, and e: of the frame before ω′, of the joint its rate and what of
     /// its torque friction leaves.
     fn couple(&self, [x, y, z]: &Vector<S>, rate: &S, left: &S) -> (Vector<S>, S) {

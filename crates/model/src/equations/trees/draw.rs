@@ -146,7 +146,7 @@ impl Draw {
         }
     }
 
-    /// The same on a base that floats, with a frame on that or on a link.
+    /// Draws an arm on a base that floats, with a frame on that or on a link.
     pub(super) fn floating(&mut self, count: usize) -> Arm<S> {
         let limbs = self.arm(count);
         let trunk = Link {
@@ -188,7 +188,7 @@ impl Draw {
         arm
     }
 
-    /// Where an arm's joints are: those of a base that floats at zero.
+    /// Draws positions of an arm's joints; those of a base that floats are zero.
     pub(super) fn position_of(&mut self, arm: &Arm<S>) -> Position {
         let (base, joints) = arm.links.split_at(arm.base_joints());
         let zero = base_position::<S>().into_iter().take(base.len());

@@ -1,4 +1,4 @@
-//! Whole numbers of 256 bits in limbs of 64, the least first: what a significand is.
+//! Integers of 256 bits in limbs of 64, the least first: significands.
 
 use core::cmp::Ordering;
 

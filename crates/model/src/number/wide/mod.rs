@@ -126,7 +126,7 @@ impl Wide {
         Some(Wide::cut(&quotient, exponent.saturating_sub(shift as i64)))
     }
 
-    /// Returns whether it is below zero.
+    /// True if it is below zero.
     pub fn is_negative(&self) -> bool {
         self.negative
     }
