@@ -262,7 +262,7 @@ fn all_cores_have_the_same_bits() {
     }
 }
 
-/// States, bodies, payloads and directions of gravity, each its own.
+/// Compares batches with single calls: each state has its body, payload and gravity.
 macro_rules! loads {
     ($module:ident, $scalar:ty, $count:expr) => {{
         let count: usize = $count;

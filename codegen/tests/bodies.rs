@@ -303,7 +303,8 @@ fn bodies_have_ranges() {
     );
 }
 
-/// The ranges around the robot's bodies and drives hold these, also of links without mass and of points.
+/// Ranges around the robot's bodies and drives contain them, also for links without mass and for point
+/// masses.
 #[test]
 fn ranges_hold_the_robots_numbers() {
     let point = "mass = 900\ncom = [0, 1e-19, 0]\ninertia = [0, 0, 0, 0, 0, 0]\nviscous = 12";
@@ -325,8 +326,8 @@ fn ranges_hold_the_robots_numbers() {
     assert_eq!(ranges, [([450.0, 1800.0], 0.6), ([0.0, 2.0], 0.6)]);
 }
 
-/// Some of the load's numbers are printed with a minus: with others, bodies are none that there are, and
-/// no bound holds where D has to be inverted.
+/// Some of the load's numbers are printed with a minus. Without it they are of no body, and D need not
+/// have an inverse.
 #[test]
 fn loads_that_are_measured_have_their_signs() {
     for name in ["swimmer", "diver", "crawler", "otter"] {

@@ -18,7 +18,7 @@ const SEED: u64 = 0x7a1e;
 
 impl Dag {
     /// Drops steps without effect on the results and merges equal ones, both told by
-    /// fingerprints; the graph itself if it has neither.
+    /// fingerprints; returns the graph itself if it has neither.
     #[must_use]
     pub(crate) fn without_vain_steps(&self) -> Dag {
         let results = self.result_prints();

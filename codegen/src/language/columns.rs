@@ -31,7 +31,7 @@ use crate::program::{Code, Literal, Program};
 /// In u; the documentation of `dalembert-sines` proves it.
 const FUSED_ERROR: f64 = 0.83;
 
-/// Tells if a function has a second one for batches: in Rust a load is a call for each row of it.
+/// True if a function has a second one for batches. In Rust `load` has none: each row is one call.
 pub(crate) fn are_there(function: Function, language: Language) -> bool {
     language != Language::Rust || function != Function::Load
 }
@@ -84,7 +84,7 @@ pub(crate) fn columns(program: &Program, code: &Code) -> String {
     let rows = program.arguments.iter().filter(|own| in_rows(own));
     let rows: usize = rows.map(|own| own.length(program.sizes())).sum();
     let of_rows = if rows > 0 {
-        "\n/// Arguments with a type are one a state, or one for all states."
+        "\n/// Slices of `Load` or `Gravity` have one element a state, or one for all states."
     } else {
         ""
     };
@@ -148,7 +148,7 @@ fn write_vectors(text: &mut String, program: &Program, code: &Code) {
     *text += &format!("        [{results}]\n    }}\n");
 }
 
-/// The entries that a function takes depend on the robot.
+/// A function may read some of the entries only.
 const METHOD: &str = "    #[inline(always)]\n    #[allow(unused_variables)]\n    fn";
 
 /// Positions are the first entries.

@@ -1,4 +1,4 @@
-//! The request: robot-independent options of one generation.
+//! A request: the functions to generate, and the options.
 
 use dalembert_model::outputs::{PayloadDependence, RuntimeParameter};
 use dalembert_model::robot::Robot;

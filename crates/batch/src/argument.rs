@@ -42,7 +42,7 @@ enum Source<'a, T> {
     Row(usize),
 }
 
-/// All entries of all arguments, E of them, of which at most R come in rows.
+/// All entries of all arguments, E of them, of which R come in rows.
 #[derive(Clone, Copy)]
 pub(crate) struct Entries<'a, T, const E: usize, const R: usize> {
     sources: [Source<'a, T>; E],
@@ -83,19 +83,15 @@ impl<'a, T: Copy, const E: usize, const R: usize> Entries<'a, T, E, R> {
                 }
             }
         }
-        let is_whole = states == 0 || count == E && rows <= R;
-        match is_whole {
-            true => Ok(Entries {
-                sources,
-                arguments,
-                first: 0,
-            }),
-            false => Err(Unequal {
-                slice: Slice::Arguments,
-                found: count,
-                expected: E,
-            }),
+        if states > 0 {
+            Unequal::check(Slice::Arguments, count, E)?;
+            Unequal::check(Slice::InRows, rows, R)?;
         }
+        Ok(Entries {
+            sources,
+            arguments,
+            first: 0,
+        })
     }
 
     /// Returns the entries at some of the states.
@@ -153,7 +149,7 @@ impl<'a, T: Copy, const E: usize, const R: usize> Entries<'a, T, E, R> {
     where
         'a: 'b,
     {
-        let source = |entry: usize| match self.sources[entry] {
+        let source = |entry: usize| match *self.sources.get(entry)? {
             Source::Column(column) => column.get(begin..)?.first_chunk(),
             Source::Row(place) => rows.get(place),
         };

@@ -48,7 +48,7 @@ impl Vectors {
     }
 }
 
-/// Computes the function at every state, whose numbers stand in columns.
+/// Computes the function at every state: of its E entries R come in rows, the others in columns.
 ///
 /// # Errors
 /// [`Unequal`]; then nothing is computed.

@@ -9,8 +9,10 @@ pub enum Slice {
     Entry(usize, usize),
     /// An argument in rows, counted from one.
     Rows(usize),
-    /// All arguments: not their states, but their entries are counted.
+    /// All arguments; the numbers are of entries, not of states.
     Arguments,
+    /// Those in rows; the numbers are of entries, not of states.
+    InRows,
     /// The column of a number of the result, counted from one.
     Result(usize),
 }
@@ -54,6 +56,10 @@ impl fmt::Display for Unequal {
             Slice::Arguments => write!(
                 f,
                 "the arguments have {found} entries, and the function takes {expected}"
+            ),
+            Slice::InRows => write!(
+                f,
+                "{found} entries come in rows, and the call is for {expected}"
             ),
             Slice::Result(k) => write!(
                 f,

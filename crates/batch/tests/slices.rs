@@ -273,6 +273,10 @@ fn arguments_of_other_lengths_are_refused() {
             "the arguments have 6 entries, and the function takes 4",
         ),
         (
+            vec![two, two],
+            "0 entries come in rows, and the call is for 2",
+        ),
+        (
             vec![Columns(&short)],
             "entry 1 of argument 1 has 3 states, the results have 5",
         ),

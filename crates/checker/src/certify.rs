@@ -207,11 +207,13 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
             lines.push(line(item, name.to_owned(), Err(why)));
         }
     }
-    let ranges_of_bodies = setting.body_ranges().map_err(of_robot)?;
+    let are_of_links = |own: &&(usize, Vec<Body>)| argument("bodies") == Some(own.0);
+    let of_links = whole.bodies.iter().filter(are_of_links);
+    let ranges = of_links.flat_map(|own| own.1.iter().copied());
     Ok(Report {
         lines,
         is_unlimited: setting.is_unlimited(),
-        bodies: (setting.bodies.iter().copied().zip(ranges_of_bodies)).collect(),
+        bodies: setting.bodies.iter().copied().zip(ranges).collect(),
         payloads: takes_payload.then(|| (given.unwrap_or_default(), given.is_none())),
     })
 }

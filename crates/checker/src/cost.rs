@@ -369,9 +369,9 @@ pub(crate) fn ranges(setting: &Setting, bodies: &[(usize, Vec<Body>)]) -> Result
                 return Ok(all.flat_map(|own| own.ranges()).collect());
             }
             "armature" | "viscous" => {
-                let twice = |x: &Exact| 2.0 * x.double().unwrap_or_default()[0];
                 let own = setting.file.defaults(name, &[])?;
-                return Ok(own.iter().map(|x| [0.0, DRIVE.max(twice(x))]).collect());
+                let most = |x: &Exact| DRIVE.max(2.0 * x.nearest());
+                return Ok(own.iter().map(|x| [0.0, most(x)]).collect());
             }
             _ => [-1.0, 1.0],
         };

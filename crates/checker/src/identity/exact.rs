@@ -312,6 +312,11 @@ impl Exact {
         })
     }
 
+    /// Returns the nearest double; zero for an angle that is too far.
+    pub fn nearest(&self) -> f64 {
+        self.double().unwrap_or_default()[0]
+    }
+
     /// Returns a number that clones of this object share, and no other object of the same value.
     pub(crate) fn address(&self) -> usize {
         Arc::as_ptr(&self.0) as usize

@@ -37,11 +37,9 @@ impl Setting<'_> {
         numbers: &[Exact],
         keeps_zeros: bool,
     ) -> Result<(), String> {
-        let places = arguments.iter().map(|name| argument(name));
-        self.loading = places.flatten().collect();
+        self.loading = arguments.iter().filter_map(|name| argument(name)).collect();
         self.bodies = links.to_vec();
-        let numbers = numbers.iter().map(|x| x.double().unwrap_or_default()[0]);
-        let numbers: Vec<f64> = numbers.collect();
+        let numbers: Vec<f64> = numbers.iter().map(Exact::nearest).collect();
         self.numbers = numbers.as_chunks().0.to_vec();
         let kept = numbers.iter().filter(|_| keeps_zeros);
         self.zeros = kept.map(|x| *x == 0.0).collect();
@@ -85,7 +83,7 @@ impl Setting<'_> {
     ///
     /// # Errors
     /// A number of a link that is not one.
-    pub fn body_ranges(&self) -> Result<Vec<payload::Body>, String> {
+    fn body_ranges(&self) -> Result<Vec<payload::Body>, String> {
         let of = |(link, numbers): (&usize, &[f64; 10])| {
             let joint = |row: usize| self.file.joint.get(row)?.limits.body.as_ref();
             let base = || self.file.floating.as_ref()?.limits.body.as_ref();
@@ -110,19 +108,15 @@ fn around([mass, x, y, z, xx, yy, zz, ..]: [f64; 10]) -> payload::Body {
     }
 }
 
-fn double(text: &str) -> Result<f64, String> {
-    let value = number(text).and_then(|own| own.to_f64());
-    value.ok_or_else(|| format!("`{text}` is not a number"))
-}
-
 impl Bodies {
-    /// Returns the range that it is; `key` is its own.
+    /// Reads the range; `key` is the one that it stands at.
     ///
     /// # Errors
-    /// It is not one.
+    /// It is empty, or not of numbers.
     pub(super) fn read(&self, key: &str) -> Result<payload::Body, String> {
         let read = |[low, high]: &[String; 2]| {
-            let [low, high, radius] = [low, high, &self.radius].map(|text| double(text).ok());
+            let double = |text: &String| number(text)?.to_f64();
+            let [low, high, radius] = [low, high, &self.radius].map(double);
             let (mass, radius) = ([low?, high?], radius?);
             let is_range = 0.0 <= mass[0] && mass[0] <= mass[1] && 0.0 <= radius;
             (is_range && mass[1].max(radius) <= MOST).then_some(payload::Body { mass, radius })

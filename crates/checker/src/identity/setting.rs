@@ -16,7 +16,6 @@ use crate::program::{ARGUMENTS, Operand};
 const MOST_JOINTS: usize = 64;
 /// The most turns of a joint that follows, for one of its leader's.
 const MOST_TURNS: i64 = 16;
-/// Neither masses nor lengths are so large.
 /// The rounding of gravity as it is turned into the axes of a base makes it longer, in f32 by less than
 /// this part.
 const GRAVITY_SLACK: f64 = 1e-6;

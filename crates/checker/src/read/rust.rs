@@ -213,9 +213,9 @@ impl<'r> Reader<'r> {
     fn columns(&mut self) -> Read<()> {
         let (head, scalar) = (self.head, self.head.scalar());
         let single = std::mem::take(&mut self.function);
-        let taken = single.sines.iter();
-        let taken = taken.filter(|own| own.source == Source::Together);
-        let taken: Vec<usize> = taken.map(|own| own.joint).collect();
+        let sines = single.sines.iter();
+        let together = sines.filter(|own| own.source == Source::Together);
+        let taken: Vec<usize> = together.map(|own| own.joint).collect();
         let (results, k) = (single.program.outputs.len(), taken.len());
         let kind = format!("{}Batch", camel(head.name));
         let is_fused = k > 0 && single.program.steps.iter().any(|step| step.0 == '×');

@@ -172,8 +172,8 @@ impl Formulation {
         wrenches.iter().map(turned).collect()
     }
 
-    /// Returns [`wrenches`](Formulation::wrenches), of a link with a frame of its own about the origin of
-    /// that frame: rows of placed joints have their origins anywhere on the axes.
+    /// Returns [`wrenches`](Formulation::wrenches), but where a link has a frame of its own the moment is
+    /// about the origin of that: rows of placed joints have their origins anywhere on the axes.
     pub fn reactions<S: Scalar>(
         self,
         arm: &Arm<S>,
@@ -181,6 +181,9 @@ impl Formulation {
         [qd, qdd]: [&[S]; 2],
     ) -> Vec<Wrench<S>> {
         let mut wrenches = self.wrenches(arm, at, qd, qdd);
+        if (0..wrenches.len()).all(|link| arm.frames.of_link(link).is_none()) {
+            return wrenches;
+        }
         let poses = poses(arm, at);
         for ((link, step), wrench) in arm.steps(at).enumerate().zip(&mut wrenches) {
             let Some(own) = arm.frames.of_link(link) else {

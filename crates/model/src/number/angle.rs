@@ -64,7 +64,7 @@ impl Angle {
         }
     }
 
-    /// Tests for π/4 itself, whose sine and cosine are both √½.
+    /// True for π/4, whose sine and cosine are both √½.
     pub fn is_eighth(&self) -> bool {
         match self {
             Angle::PiTimes(multiple) => {

@@ -110,10 +110,13 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
         let back = frame::inverse(&row.frame);
         let moved = frame::moved(&joint.body(), &back, &size);
         (joint.com, joint.inertia) = (moved.com, moved.inertia);
-        // Where the row's z is not at its origin it has one, too: moments are about this.
-        let is_there = joint.d.is_zero() && joint.kind == JointKind::Revolute;
+        // Moments are about the origin of the link's frame. Without one they are about that of the frame
+        // before the joint, which is the same point if the row has no length along its axis.
         let frame = placed_in(&back, joint.frame.as_ref(), &size);
-        joint.frame = Some(frame).filter(|own| !is_there || !own.is_identity());
+        joint.frame = match joint.d.is_zero() && joint.kind == JointKind::Revolute {
+            true => frame.unless_identity(),
+            false => Some(frame),
+        };
         let fixed = robot.frames.iter_mut().filter(|frame| frame.row == Some(i));
         for frame in fixed {
             frame.placement = placed_in(&back, Some(&frame.placement), &size);

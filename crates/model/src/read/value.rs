@@ -43,7 +43,7 @@ pub(super) fn placement(
     link_frame(cx, keys, key).and_then(Placement::unless_identity)
 }
 
-/// Reads a placement that says something even where nothing moves: a link has a frame of its own.
+/// Reads the frame of a link, also one that is its row's: moments are about its origin.
 pub(super) fn link_frame(
     cx: &mut Context,
     keys: &mut Table,

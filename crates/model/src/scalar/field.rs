@@ -87,9 +87,11 @@ impl<const PRIME: u64> Modulo<PRIME> {
         (sin, cos)
     }
 
-    /// Returns sine and cosine of a constant angle as exact numbers have them: both √½ for an eighth
-    /// of a turn, which is a residue for a prime of the form 8k − 1, and any other point of the
-    /// circle for another angle.
+    /// Returns sine and cosine of a constant angle, with the relations that [`Exact`] knows: for π/4
+    /// both are √½, a residue since the prime is of the form 8k − 1; other angles have the point of
+    /// the circle that `other` draws.
+    ///
+    /// [`Exact`]: crate::number::Exact
     pub fn of_angle(angle: &Angle, other: impl FnOnce() -> (Self, Self)) -> SinCosPair<Self> {
         let (sin, cos) = if angle.is_eighth() {
             let root = Self::ONE.half().pow(PRIME.div_ceil(4));
