@@ -1,6 +1,6 @@
 //! The law of the house: each stage of the generator uses those before it, never those after.
 //!
-//! The order of the stages is that of the table in `CONTRIBUTING.md`, which `rustc` knows nothing of:
+//! The order of the stages is that of the table in `docs/architecture.md`, which `rustc` knows nothing of:
 //! within a crate it lets every module use every other.
 
 use std::collections::BTreeSet;
@@ -11,7 +11,7 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const STAGES: &str = "codegen/src/";
 
 fn table() -> Vec<[Vec<String>; 2]> {
-    let text = fs::read_to_string(format!("{ROOT}/CONTRIBUTING.md")).unwrap();
+    let text = fs::read_to_string(format!("{ROOT}/docs/architecture.md")).unwrap();
     let (_, table) = text.split_once("| folder | phase |").unwrap();
     let rows = table.lines().skip(2).take_while(|line| !line.is_empty());
     let names = |cell: &str| -> Vec<String> {
@@ -81,7 +81,7 @@ fn no_stage_uses_a_later_one() {
         Some(line.strip_prefix("mod ")?.strip_suffix(';')?.to_owned())
     });
     let listed = BTreeSet::from_iter(stages.clone());
-    let what = "the table in CONTRIBUTING.md has every module";
+    let what = "the table in docs/architecture.md has every module";
     assert_eq!(listed, modules.collect(), "{what}");
     let place = |name: &str| stages.iter().position(|stage| stage == name);
     let mut uses = 0;
@@ -102,13 +102,16 @@ fn the_table_names_folders_and_types_that_exist() {
         let mut text = String::new();
         for folder in &folders {
             let module = code(&format!("{beside}{}", folder.trim_start_matches(STAGES)));
-            assert!(!module.is_empty(), "CONTRIBUTING.md names `{folder}`");
+            assert!(!module.is_empty(), "docs/architecture.md names `{folder}`");
             text += &module;
         }
         for name in types {
             let declared = ["struct", "enum", "trait"].map(|kind| format!("{kind} {name}"));
             let is_there = declared.iter().any(|words| text.contains(words));
-            assert!(is_there, "CONTRIBUTING.md: `{name}` is not in {folders:?}");
+            assert!(
+                is_there,
+                "docs/architecture.md: `{name}` is not in {folders:?}"
+            );
         }
     }
 }

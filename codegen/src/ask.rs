@@ -4,7 +4,7 @@
 use dalembert_model::robot::Severity;
 use dalembert_stamp::Asked;
 
-use crate::generate::{GenerateError, Generated, generate_anew};
+use crate::generate::{GenerateError, GeneratedCode, generate_anew};
 use crate::language::Language;
 use crate::robot_file::RobotFile;
 use crate::task::Request;
@@ -13,11 +13,11 @@ use crate::words::complaint;
 
 /// The code that was asked of a robot file.
 #[derive(Clone, Debug)]
-pub struct Made {
+pub struct AskedCode {
     /// The request that was read.
     pub request: Request,
     /// The code.
-    pub generated: Generated,
+    pub generated: GeneratedCode,
     /// Warnings about the robot and its code: a sentence each, and a line with the likely fix.
     pub warnings: Vec<String>,
 }
@@ -32,7 +32,7 @@ pub fn ask(
     asked: &Asked,
     language: Language,
     shown: &str,
-) -> Result<Made, Vec<Problem>> {
+) -> Result<AskedCode, Vec<Problem>> {
     let scalars = language.scalars();
     let mut request = Request::parse(asked, scalars, &file.robot, &file.outputs, &file.scenes)?;
     request.language = language;
@@ -53,7 +53,7 @@ pub fn ask(
         .collect();
     let rounding = generated.warnings.iter();
     warnings.extend(rounding.map(|said| format!("{shown}: {said}")));
-    Ok(Made {
+    Ok(AskedCode {
         request,
         generated,
         warnings,

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use dalembert_checker::claim::{Claim, Claimed, VERSION};
+use dalembert_checker::claim::{Claim, FunctionClaim, VERSION};
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 
@@ -11,12 +11,12 @@ use crate::program::{Operand, Program, Steps};
 use crate::setup::Setup;
 
 #[derive(Default)]
-pub(crate) struct Written {
+pub(crate) struct ConstantTable {
     texts: Vec<String>,
     places: HashMap<String, usize>,
 }
 
-impl Written {
+impl ConstantTable {
     fn place(&mut self, constant: &Exact) -> usize {
         let text = constant.to_string();
         *self.places.entry(text).or_insert_with_key(|text| {
@@ -25,7 +25,7 @@ impl Written {
         })
     }
 
-    pub(crate) fn document(self, functions: Vec<Claimed>) -> Claim {
+    pub(crate) fn document(self, functions: Vec<FunctionClaim>) -> Claim {
         Claim {
             claim: VERSION,
             constants: self.texts,
@@ -43,7 +43,7 @@ impl Written {
     }
 }
 
-pub(crate) fn code(program: &Program, constants: &mut Written) -> [String; 2] {
+pub(crate) fn code(program: &Program, constants: &mut ConstantTable) -> [String; 2] {
     let Steps { steps, outputs } = program.dag.steps();
     let steps = steps.iter().map(|step| {
         let [left, right] = [&step.left, &step.right].map(|own| constants.word(own));
@@ -58,7 +58,11 @@ pub(crate) fn code(program: &Program, constants: &mut Written) -> [String; 2] {
     [steps, returns].map(|words| words.join(" "))
 }
 
-pub(crate) fn of_setup(own: &Program, setup: &Setup, constants: &mut Written) -> Claimed {
+pub(crate) fn of_setup(
+    own: &Program,
+    setup: &Setup,
+    constants: &mut ConstantTable,
+) -> FunctionClaim {
     let scene = setup.scene().map(|scene| &*scene.name);
     let claimed = claimed(own, scene, constants);
     let base = setup.base_of(own.function).ok().flatten();
@@ -76,7 +80,7 @@ pub(crate) fn of_setup(own: &Program, setup: &Setup, constants: &mut Written) ->
     let values = values
         .iter()
         .map(|own| format!("#{}", constants.place(own)));
-    Claimed {
+    FunctionClaim {
         values: values.collect::<Vec<String>>().join(" "),
         base: terms,
         bodies: match own.arguments.contains(&Argument::Bodies) {
@@ -88,18 +92,22 @@ pub(crate) fn of_setup(own: &Program, setup: &Setup, constants: &mut Written) ->
     }
 }
 
-pub(crate) fn claimed(own: &Program, scene: Option<&str>, constants: &mut Written) -> Claimed {
+pub(crate) fn claimed(
+    own: &Program,
+    scene: Option<&str>,
+    constants: &mut ConstantTable,
+) -> FunctionClaim {
     let [steps, returns] = code(own, constants);
     let arguments = own.arguments.iter().map(|own| own.name().to_owned());
     let results = own.function.quantities().iter().map(|own| result(*own));
-    Claimed {
+    FunctionClaim {
         function: own.function.name().to_owned(),
         scene: scene.map(str::to_owned),
         arguments: arguments.collect(),
         results: results.collect(),
         steps,
         returns,
-        ..Claimed::default()
+        ..FunctionClaim::default()
     }
 }
 

@@ -3,8 +3,8 @@
 //!
 //! [`generate()`] does a [`Request`] for a robot. The items below are for users of the generator as a
 //! library; the other crates of the workspace, and the tests, use more by one door, `workspace`. The
-//! table in CONTRIBUTING.md has the modules in the order of the stages: each uses those above it, never
-//! those below.
+//! table in docs/architecture.md has the modules in the order of the stages: each uses those above
+//! it, never those below.
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg), doc(auto_cfg))]
 #![warn(unreachable_pub)]
@@ -38,13 +38,13 @@ mod words;
 #[doc(hidden)]
 pub mod workspace;
 
-pub use ask::{Made, ask};
+pub use ask::{AskedCode, ask};
 #[doc(inline)]
 pub use dalembert_stamp::Asked;
 pub use emit::GeneratedFunction;
 #[doc(inline)]
 pub use function::Function;
-pub use generate::{GenerateError, Generated, generate};
+pub use generate::{GenerateError, GeneratedCode, generate};
 pub use language::Language;
 pub use limbs::LimbLayout;
 pub use plan::Plan;

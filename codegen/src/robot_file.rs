@@ -96,7 +96,7 @@ impl RobotFileError {
             ErrorKind::NotFound => {
                 let help = meant(path, shown).map(|meant| format!("did you mean `{meant}`?"));
                 let help = help.map_or_else(String::new, |help| format!("\n  = help: {help}"));
-                format!("there is no file `{shown}`{help}")
+                format!("`{shown}` does not exist{help}")
             }
             _ => format!("cannot read `{shown}`: {error}"),
         })

@@ -9,7 +9,7 @@ pub use crate::generate::{
     contradiction::exact as run_exactly,
     generate_anew,
     keep::{claim, keep},
-    search::{Found, replay, search},
+    search::{SearchResult, replay, search},
     tolerate::admitted,
 };
 pub use crate::language::{
@@ -20,7 +20,7 @@ pub use crate::language::{
 pub use crate::parallel::each;
 pub use crate::plan::{Entry, file as plan_file};
 pub use crate::program::{
-    Code, Input, Library, Literal, Loop, Need, Operand, Operation, Output, Pair, Step, Steps,
+    Code, Input, Library, Literal, Loop, Operand, Operation, Output, Pair, SinCosUse, Step, Steps,
     kernel::{Angle, Kernel},
     machine::Machine,
 };
@@ -29,7 +29,7 @@ pub use crate::scalar::true_value::TrueValue;
 pub use crate::search::{Limits, Pass, Schedule, cost, price, search as search_graphs};
 pub use crate::seeds::{Source, skeleton, skeleton_for, trace, trace_chain};
 pub use crate::setup::{
-    Posed, SceneKey, Setup, Task,
+    SceneKey, Setup, Task, TaskArm,
     base::{BaseParameters, Parameter},
     input_hash,
 };
@@ -39,16 +39,16 @@ pub use crate::states::{JointState, SEED, STATES, State, positions, seeded};
 pub use crate::task::Job;
 pub use crate::tolerance::{
     attempt::{Attempt, attempt},
-    budget::{Allowed, Budget},
+    budget::{Budget, Tolerances},
     claim::claim_of,
     input_box::InputBox,
     sample::{climb, draw},
     search::SearchEffort,
-    variant::{Admitted, Variant},
+    variant::{Variant, VariantSet},
 };
 pub use crate::verify::{
     exact::{Disproof, Proof, prove, prove_same},
-    measure::{Emitted, Granted, LEAST_PART, Runtime},
+    measure::{ConditionAllowance, LEAST_PART, RunnableCode, Runtime},
     parameters::prove_base,
     rounding::Rounding,
     truth::Reference,
@@ -62,5 +62,5 @@ pub mod scale {
     pub use crate::tolerance::scale::{actuator, range};
 }
 pub mod tune {
-    pub use crate::seeds::tune::{Tuned, start};
+    pub use crate::seeds::tune::{ChainChoice, start};
 }

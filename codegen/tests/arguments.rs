@@ -1,8 +1,8 @@
 //! Parameters of the robot that are arguments: a payload by its load, gravity. What
 //! is generated gives what the robot file with that payload, or that gravity, gives.
 
-use dalembert_codegen::workspace::{Emitted, JointState, Runtime};
-use dalembert_codegen::{Function, Generated, Request};
+use dalembert_codegen::workspace::{JointState, RunnableCode, Runtime};
+use dalembert_codegen::{Function, GeneratedCode, Request};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Inertia, Robot};
 use dalembert_model::scene::{Payload, Scene};
@@ -29,7 +29,7 @@ fn in_the_file(robot: &Robot, state: &JointState) -> Robot {
     scene.apply(robot)
 }
 
-fn run(generated: &Generated, emitted: &Emitted, state: &JointState) -> Vec<f64> {
+fn run(generated: &GeneratedCode, emitted: &RunnableCode, state: &JointState) -> Vec<f64> {
     let mut state = state.clone();
     let mut all = generated.emitted.iter();
     let load = all.find(|e| e.function == Function::Load && e.scalar == emitted.scalar);

@@ -2,14 +2,14 @@
 //! gives, and the checker shows it.
 
 use dalembert_checker::certify::{Demand, Line, Report, certify};
-use dalembert_codegen::workspace::{Emitted, JointState, Runtime, claim, keep};
-use dalembert_codegen::{Function, Generated, Request};
+use dalembert_codegen::workspace::{JointState, RunnableCode, Runtime, claim, keep};
+use dalembert_codegen::{Function, GeneratedCode, Request};
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::write;
 
 use crate::support::{self, Case, daily_and_campaign, hold, read, read_robot};
 
-fn run(generated: &Generated, emitted: &Emitted, state: &JointState) -> Vec<f64> {
+fn run(generated: &GeneratedCode, emitted: &RunnableCode, state: &JointState) -> Vec<f64> {
     let mut state = state.clone();
     let mut all = generated.emitted.iter();
     let load = all.find(|own| own.function == Function::Load && own.scalar == emitted.scalar);
@@ -72,7 +72,7 @@ fn with_bodies(source: &str, state: &JointState, links: &[usize]) -> String {
 
 /// Compares with the runtime of robot files that have these bodies, and has the checker show all.
 #[track_caller]
-fn check(source: &str, asked: &str, count: usize) -> Generated {
+fn check(source: &str, asked: &str, count: usize) -> GeneratedCode {
     let case = Case::read(source, asked);
     let name = &case.robot().name;
     let generated = case.rounds_well(count, name);
@@ -155,7 +155,7 @@ fn some_links_alone_have_other_bodies() {
         4,
     );
     let all = check(&source, &format!("{MOST}; parameters: bodies"), 4);
-    let load = |own: &Generated| own.functions[0].program.load;
+    let load = |own: &GeneratedCode| own.functions[0].program.load;
     assert!(load(&some) < load(&all));
 }
 
@@ -366,7 +366,7 @@ fn plans_tell_loads_apart() {
         None,
     )
     .plan;
-    let is_planned = |own: &Generated| own.functions[1].planned;
+    let is_planned = |own: &GeneratedCode| own.functions[1].planned;
     assert!(is_planned(&armature.by(&plan)) && !is_planned(&case("viscous").by(&plan)));
 }
 

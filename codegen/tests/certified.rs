@@ -1,9 +1,9 @@
 //! Generated files and their claims, shown by the checker; and none that says something else.
 
 use dalembert_checker::Fault;
-use dalembert_checker::certify::{Bounded, Demand, Report, Shown, certify};
+use dalembert_checker::certify::{Demand, Findings, Report, ResultBound, certify};
 use dalembert_codegen::workspace::{Setup, Variant, claim, claim_of, keep};
-use dalembert_codegen::{Generated, Plan};
+use dalembert_codegen::{GeneratedCode, Plan};
 
 use crate::support::{
     self, Case, all_but_one_in, changes, every_line_counts, every_output, in_scene, one_in, path,
@@ -40,7 +40,7 @@ impl Certified {
 
     fn of_generated(
         case: &Case,
-        generated: &Generated,
+        generated: &GeneratedCode,
         robot: &str,
         scene: Option<&str>,
     ) -> Vec<Certified> {
@@ -104,14 +104,14 @@ impl Certified {
             Ok(report) => report.lines,
         };
         if lines.is_empty() {
-            return Some("there is no function".into());
+            return Some("the function is not in the file".into());
         }
         let fault = lines.into_iter().find_map(|line| line.result.err());
         fault.map(|fault| fault.to_string())
     }
 
     #[track_caller]
-    fn shown(&self, what: &str) -> Vec<Shown> {
+    fn shown(&self, what: &str) -> Vec<Findings> {
         let report = self.report();
         let report = report.unwrap_or_else(|fault| panic!("{what}: {fault}"));
         let shown = report.lines.into_iter().map(|line| {
@@ -129,9 +129,12 @@ impl Certified {
     #[track_caller]
     fn holds(&self, count: usize, what: &str) {
         let results = self.shown(what).into_iter().flat_map(|own| own.results);
-        let results: Vec<Bounded> = results.collect();
+        let results: Vec<ResultBound> = results.collect();
         assert_eq!(results.len(), count, "{what}");
-        assert!(results.iter().all(Bounded::is_shown), "{what}: {results:?}");
+        assert!(
+            results.iter().all(ResultBound::is_shown),
+            "{what}: {results:?}"
+        );
     }
 
     #[track_caller]

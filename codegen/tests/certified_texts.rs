@@ -236,7 +236,7 @@ NONE := nothing is claimed of `gravity`
 /functions | [] | NONE
 /functions/0/function | "inertia" | NONE
 /functions/0/scene | "other" | NONE
-/functions/0/function | "x{}pub mod libm{}pub struct Y" | is no name of a function
+/functions/0/function | "x{}pub mod libm{}pub struct Y" | is not the name of a function
 /functions/0/results | ["gravity.c", "gravity.c"] | is there twice
 /functions/0/results | ["inertia.d"] | `gravity` has other results
 /functions/0/results | ["gravity.c@eye"] | there is no result `gravity.c@eye`

@@ -7,11 +7,11 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::LazyLock;
 
-use dalembert_checker::certify::Bounded;
+use dalembert_checker::certify::ResultBound;
 use dalembert_codegen::workspace::{
     InputBox, Interval, JointState, Library, Node, Random, Runtime, Setup, Variant, keep,
 };
-use dalembert_codegen::{Function, Generated, Plan, generate};
+use dalembert_codegen::{Function, GeneratedCode, Plan, generate};
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::read::parse;
 use dalembert_model::scalar::Scalar;
@@ -60,7 +60,7 @@ scalar = "f64"
 tolerance = { value = 5e-2, relative_to = "actuator" }
 "#;
 
-fn variant(generated: &Generated) -> &Variant {
+fn variant(generated: &GeneratedCode) -> &Variant {
     let admitted = generated.functions[0].admitted.as_ref().unwrap();
     &admitted.variants[0]
 }
@@ -152,12 +152,12 @@ fn execute(text: &str, state: &JointState) -> Option<Vec<f64>> {
     None
 }
 
-fn shown(own: &Certified) -> Option<Vec<Bounded>> {
+fn shown(own: &Certified) -> Option<Vec<ResultBound>> {
     let [line]: [_; 1] = own.report().ok()?.lines.try_into().ok()?;
     Some(line.result.ok()?.results)
 }
 
-fn is_true(own: &Certified, results: &[Bounded]) -> bool {
+fn is_true(own: &Certified, results: &[ResultBound]) -> bool {
     let robot = read(&own.robot);
     let setup = Setup::in_scene(&robot.robot, Some(&robot.scenes[0])).unwrap();
     let limits = InputBox::within(&setup, Function::InverseDynamics).unwrap();
@@ -260,7 +260,7 @@ fn places(value: &Value, path: &str, pick: &impl Fn(&str, &Value) -> bool) -> Ve
 fn honest_variants_are_shown_and_the_judge_can_tell() {
     for own in variants() {
         let results = shown(&own).unwrap();
-        assert!(results.iter().all(Bounded::is_shown), "{results:?}");
+        assert!(results.iter().all(ResultBound::is_shown), "{results:?}");
         assert!(is_true(&own, &results));
         let mut lie = results.clone();
         for own in &mut lie {

@@ -2,9 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use dalembert_checker::claim::{Claim, Claimed};
+use dalembert_checker::claim::{Claim, FunctionClaim};
 use dalembert_codegen::workspace::keep;
-use dalembert_codegen::{GenerateError, Generated, Plan, Request, generate};
+use dalembert_codegen::{GenerateError, GeneratedCode, Plan, Request, generate};
 use dalembert_model::number::{Exact, Rational};
 
 use crate::support::Case;
@@ -23,7 +23,7 @@ tolerance = { value = 0.15, relative_to = "range" }
 scalar = "f64"
 "#;
 
-fn planned(scene: &str) -> (Case, Generated, String) {
+fn planned(scene: &str) -> (Case, GeneratedCode, String) {
     let mut case = Case::new("planar3r", SCENES, &format!("scene: {scene}"));
     if scene == "push" {
         // Rotors, beside which D can bear that something is left out.
@@ -36,7 +36,7 @@ fn planned(scene: &str) -> (Case, Generated, String) {
     (case, generated, plan.write())
 }
 
-fn by(case: &Case, plan: &str) -> Result<Generated, GenerateError> {
+fn by(case: &Case, plan: &str) -> Result<GeneratedCode, GenerateError> {
     let request = Request {
         plan: Some(Plan::parse(plan).unwrap()),
         ..case.request.clone()
@@ -62,7 +62,7 @@ fn bounds_are_found_anew() {
     }
 }
 
-fn changed(plan: &str, change: impl FnOnce(&mut Claimed)) -> String {
+fn changed(plan: &str, change: impl FnOnce(&mut FunctionClaim)) -> String {
     let mut claim = Claim::read(plan).unwrap();
     assert!(claim.functions[0].tolerated.is_some());
     change(&mut claim.functions[0]);

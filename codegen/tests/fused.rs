@@ -5,7 +5,7 @@
 use dalembert_codegen::workspace::{
     Argument, Code, JointState, Library, Rounding, Setup, Signature, Sizes, Variant, keep,
 };
-use dalembert_codegen::{Function, Generated, ScalarType};
+use dalembert_codegen::{Function, GeneratedCode, ScalarType};
 
 use crate::certified::Certified;
 use crate::support::{self, Case};
@@ -94,7 +94,7 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
     assert!(twice > 5, "{twice}");
 }
 
-fn variants(generated: &Generated) -> &[Variant] {
+fn variants(generated: &GeneratedCode) -> &[Variant] {
     let admitted = generated.functions[0].admitted.as_ref();
     &admitted.unwrap().variants
 }
@@ -118,7 +118,7 @@ fn bounds_are_of_one_rounding() {
         assert!(smaller > 0);
         Certified::variant(&support::source("puma560", scene), variant).is_shown(1, "fused");
     }
-    let kept = |case: &Case, own: &Generated| keep(case.robot(), &case.request, own, None).plan;
+    let kept = |case: &Case, own: &GeneratedCode| keep(case.robot(), &case.request, own, None).plan;
     assert_eq!(kept(&on, &found).write(), kept(&off, &plain).write());
 }
 

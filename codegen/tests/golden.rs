@@ -5,7 +5,7 @@
 use std::collections::HashMap;
 
 use dalembert_codegen::workspace::{Quantity, Runtime, Sizes};
-use dalembert_codegen::{Function, Generated};
+use dalembert_codegen::{Function, GeneratedCode};
 use serde_json::Value;
 
 use crate::support::{self, Case, all_but_one_in, given, largest, numbers, one_in};
@@ -58,7 +58,7 @@ fn compare(
     let plain = Case::new(name, "", "outputs: gravity");
     let runtime = Runtime::new(plain.robot());
     let sizes = Sizes::whole(plain.robot().joints.len());
-    let mut codes: HashMap<String, Generated> = HashMap::new();
+    let mut codes: HashMap<String, GeneratedCode> = HashMap::new();
     let keys = states[0].as_object().unwrap().keys();
     let asked: Vec<_> = keys.filter_map(|key| Some((key, asked(key)?))).collect();
     let mut compared = [asked.len(), 0];

@@ -13,14 +13,14 @@ use dalembert_model::robot::Robot;
 use crate::certified::Certified;
 use crate::support::{all_but_one_in, daily_and_campaign, every_output, one_in, source};
 
-struct Shown {
+struct Findings {
     source: String,
     function: Function,
     program: Straight<Exact>,
     base: Base,
 }
 
-impl Shown {
+impl Findings {
     fn check(&self, program: &Straight<Exact>) -> Result<(), String> {
         let file = robot::read(&self.source)?;
         let setting = file.setting(None)?;
@@ -35,10 +35,10 @@ impl Shown {
     }
 }
 
-fn shown(file: &Certified) -> Vec<Shown> {
+fn shown(file: &Certified) -> Vec<Findings> {
     let claim = Claim::read(&file.claim).unwrap();
     let constants = claim.constants(&Work::default()).unwrap();
-    let shown = claim.functions.iter().map(|own| Shown {
+    let shown = claim.functions.iter().map(|own| Findings {
         // Axes of length one, where those of the file are not.
         source: claim.aligned.clone().unwrap_or_else(|| file.robot.clone()),
         function: Function::named(&own.function, &own.arguments, &own.results).unwrap(),
@@ -48,7 +48,7 @@ fn shown(file: &Certified) -> Vec<Shown> {
     shown.collect()
 }
 
-fn of_trees(robots: &[&str], functions: &str) -> Vec<Shown> {
+fn of_trees(robots: &[&str], functions: &str) -> Vec<Findings> {
     let asked = format!("outputs: {functions}; scalar: f64; prefer: operations");
     let files = robots
         .iter()
@@ -110,7 +110,7 @@ fn another_order_of_coordinates_is_refused() {
 const TORQUES: &str = "inverse_dynamics, inertia";
 const DYNAMICS: &str = "inverse_dynamics, gravity, coriolis, inertia, forward_dynamics";
 
-fn every_changed_sign_of_a_tree_is_refused(shown: &[Shown], each: usize, least: usize) {
+fn every_changed_sign_of_a_tree_is_refused(shown: &[Findings], each: usize, least: usize) {
     for own in shown {
         assert_eq!(own.check(&own.program), Ok(()), "{}", own.function.name);
     }
@@ -119,7 +119,7 @@ fn every_changed_sign_of_a_tree_is_refused(shown: &[Shown], each: usize, least: 
 }
 
 fn refused_mutants(
-    shown: &[Shown],
+    shown: &[Findings],
     each: usize,
     kinds: Range<usize>,
     is_tried: fn(usize) -> bool,

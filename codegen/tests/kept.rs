@@ -2,7 +2,7 @@
 //! it.
 
 use dalembert_codegen::workspace::{Entry, Node, keep, plan_file, price};
-use dalembert_codegen::{Generated, Plan};
+use dalembert_codegen::{GeneratedCode, Plan};
 
 use crate::support::{self, Case, rows};
 
@@ -175,7 +175,7 @@ fn scenes_are_told_apart() {
 fn renewed_programs_are_no_dearer() {
     let plan = beside("stanford");
     let mut case = Case::new("stanford", "", "outputs: inertia; scalar: f64");
-    let operations = |generated: Generated| generated.functions[0].counts().operations();
+    let operations = |generated: GeneratedCode| generated.functions[0].counts().operations();
     let (searched, kept) = (operations(case.searched()), operations(case.by(&plan)));
     assert!(kept < searched, "{kept} {searched}: nothing to renew");
     case.request.renewed = Some(plan.clone());

@@ -4,7 +4,7 @@
 use std::fs;
 
 use dalembert_codegen::workspace::{Names, keep};
-use dalembert_codegen::{Generated, Language, LimbLayout, Plan, ScalarType, generate};
+use dalembert_codegen::{GeneratedCode, Language, LimbLayout, Plan, ScalarType, generate};
 
 use serde_json::{Value, json};
 
@@ -76,7 +76,7 @@ const OUTPUTS: [&str; 6] = [
     "inertia_blocks",
 ];
 
-fn loops(generated: &Generated) -> Vec<Vec<usize>> {
+fn loops(generated: &GeneratedCode) -> Vec<Vec<usize>> {
     let functions = generated.functions.iter();
     let lanes = functions.map(|own| own.program.loops.iter().map(|own| own.lanes).collect());
     lanes.collect()

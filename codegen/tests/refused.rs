@@ -42,8 +42,8 @@ planar2r | | servo = gravity + gravity | `gravity` is in it twice … leave one 
 planar2r | | servo = inertia + manipulator_equation | both return D
 planar2r | | servo = gravity | two parts at least … ask for `gravity` by itself
 planar2r | | servo = gravity + | expected an output
-planar2r | | gravity + jacobian | `gravity+jacobian` has no name … write NAME = gravity+jacobian
-planar2r | | Servo = gravity + jacobian | no name of a function … small letters
+planar2r | | gravity + jacobian | `gravity+jacobian` needs a name … write NAME = gravity+jacobian
+planar2r | | Servo = gravity + jacobian | is not the name of a function … small letters
 planar2r | | gravity = inertia + jacobian | is an output by itself
 planar2r | | a = gravity + jacobian, a = inertia + jacobian | is given twice
 planar2r | | a = gravty + jacobian, b = inertja + gravity | `gravty` … `inertja`

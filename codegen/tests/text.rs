@@ -4,7 +4,7 @@
 use dalembert_codegen::workspace::{
     Argument, Code, JointState, Library, Names, Signature, Sizes, Text,
 };
-use dalembert_codegen::{Function, Generated, Language, ScalarType};
+use dalembert_codegen::{Function, GeneratedCode, Language, ScalarType};
 
 use crate::support::{Case, changes, every_line_counts, rows};
 
@@ -221,7 +221,7 @@ fn unfused(line: &str) -> Vec<String> {
     ]
 }
 
-fn passes(case: &Case, generated: &Generated, scalar: ScalarType, text: &str) -> bool {
+fn passes(case: &Case, generated: &GeneratedCode, scalar: ScalarType, text: &str) -> bool {
     let (function, request) = (&generated.functions[0], &case.request);
     let code = function.code(scalar, request.library());
     let signature = Signature::of(&function.program, scalar);

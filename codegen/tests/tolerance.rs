@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use dalembert_codegen::workspace::{
-    Admitted, Budget, JointState, Node, Random, SearchEffort, Setup, ToleranceError, Variant,
+    Budget, JointState, Node, Random, SearchEffort, Setup, ToleranceError, Variant, VariantSet,
     attempt, draw, stated,
 };
 use dalembert_codegen::{Function, GenerateError, Program, Request, ScalarType, generate};
@@ -49,7 +49,7 @@ impl Subject {
         budget.shown(program, scalar, &[], &allowed).unwrap()
     }
 
-    fn chosen(&self, tolerance: f64, scalars: &[ScalarType], effort: &SearchEffort) -> Admitted {
+    fn chosen(&self, tolerance: f64, scalars: &[ScalarType], effort: &SearchEffort) -> VariantSet {
         let budget = self.budget();
         let allowed = budget.all_allowed(tolerance);
         let exact = budget.unedited(scalars, &allowed).unwrap();

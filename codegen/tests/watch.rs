@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use dalembert_codegen::workspace::{Observer, Part, Progress, price};
-use dalembert_codegen::{Effort, Function, Generated, Watch};
+use dalembert_codegen::{Effort, Function, GeneratedCode, Watch};
 
 use crate::support::{Case, daily_and_campaign};
 
@@ -27,7 +27,7 @@ impl Observer for Clerk {
     }
 }
 
-fn watched(mut case: Case, effort: Effort, until: Until) -> (Generated, Vec<Progress>) {
+fn watched(mut case: Case, effort: Effort, until: Until) -> (GeneratedCode, Vec<Progress>) {
     let seen = Mutex::default();
     let clerk = Arc::new(Clerk { until, seen });
     (case.request.effort, case.request.watch) = (effort, Watch::new(clerk.clone()));
@@ -103,7 +103,7 @@ fn a_tolerance_is_watched(late: Until) {
     let admitted = ended.functions[0].admitted.as_ref().unwrap();
     let bounds = &admitted.variants[0].bounds;
     assert!(!bounds.is_empty() && bounds.iter().all(|bound| bound.total() <= 0.3));
-    let operations = |own: &Generated| own.functions[0].counts().operations();
+    let operations = |own: &GeneratedCode| own.functions[0].counts().operations();
     assert!(late.is_some() || operations(&ended) >= operations(&generated));
 }
 
@@ -113,7 +113,7 @@ fn an_early_end_is_no_worse_than_the_quick_search() {
                 tolerance = { value = 0.1, relative_to = \"range\" }";
     let case = || Case::in_scene("planar3r", pick, "inverse_dynamics; scalar: f64");
     let run = |effort, until| watched(case(), effort, until).0;
-    let leaves_out = |own: &Generated| {
+    let leaves_out = |own: &GeneratedCode| {
         let admitted = own.functions[0].admitted.as_ref();
         admitted.is_some_and(|admitted| admitted.is_other())
     };

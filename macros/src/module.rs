@@ -92,7 +92,7 @@ fn robot(
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
             let meant = meant(&path).map(|own| format!("did you mean `{}`?", beside(&shown, &own)));
             let help = meant.unwrap_or_else(|| RELATIVE.to_owned());
-            Err((format!("there is no file `{shown}`"), help))
+            Err((format!("`{shown}` does not exist"), help))
         }
         Err(error) => Err((format!("cannot read `{shown}`: {error}"), String::new())),
     }

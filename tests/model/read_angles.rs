@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::support::ratio;
 use dalembert_model::number::parse::{NumberError, parse_decimal, write_decimal};
-use dalembert_model::number::{Angle, Rational, Rounded, Snapped};
+use dalembert_model::number::{Angle, Rational, Rounded, SnappedAngle};
 use dalembert_model::read::{Severity, parse};
 use dalembert_model::scalar::field::Points;
 
@@ -57,8 +57,8 @@ fn ulps(value: f64, steps: i64) -> f64 {
     f64::from_bits((value.to_bits() as i64 + steps) as u64)
 }
 
-fn apply(value: f64) -> Snapped {
-    Snapped::of_radians(parse_decimal(&format!("{value:?}")).expect("a number"))
+fn apply(value: f64) -> SnappedAngle {
+    SnappedAngle::of_radians(parse_decimal(&format!("{value:?}")).expect("a number"))
 }
 
 /// Four ulp and no more, 2e-15 and no more, 2π and no more, both signs.
@@ -68,24 +68,27 @@ fn snapping_at_its_borders() {
     for (n, down, up) in [(1, 4, 4), (2, 4, 4), (3, 2, 2), (4, 2, 0)] {
         let double = n as f64 * FRAC_PI_2;
         for sign in [1, -1] {
-            let snapped = Snapped::Taken(Angle::right_angles(sign * n));
+            let snapped = SnappedAngle::Taken(Angle::right_angles(sign * n));
             for steps in -down - 1..=up + 1 {
                 let found = apply(sign as f64 * ulps(double, steps));
                 match (-down..=up).contains(&steps) {
                     true => assert_eq!(found, snapped, "{n}: {steps} ulp"),
-                    false => assert!(matches!(found, Snapped::Near { .. }), "{n}: {steps} ulp"),
+                    false => assert!(
+                        matches!(found, SnappedAngle::Near { .. }),
+                        "{n}: {steps} ulp"
+                    ),
                 }
             }
         }
     }
-    assert!(matches!(apply(5.0 * FRAC_PI_2), Snapped::Near { .. }));
+    assert!(matches!(apply(5.0 * FRAC_PI_2), SnappedAngle::Near { .. }));
 }
 
 /// Within 1e-3 of a right angle: kept, with a warning; zero is no exception.
 #[test]
 fn near_misses() {
-    let near = |text: &str| match Snapped::of_radians(parse_decimal(text).expect("a number")) {
-        Snapped::Near { multiple, .. } => Some(multiple),
+    let near = |text: &str| match SnappedAngle::of_radians(parse_decimal(text).expect("a number")) {
+        SnappedAngle::Near { multiple, .. } => Some(multiple),
         _ => None,
     };
     for (text, turns) in [

@@ -146,7 +146,7 @@ tolerance = { value = 1, relative_to = "actuators" } | did you mean "actuator"?
 outputs = ["gravty"] | did you mean "gravity"?
 outputs = ["gravity", "gravity"] | in the list already
 outputs = ["hold = gravty + jacobian"] | did you mean `gravity`?
-outputs = ["gravity + jacobian"] | has no name
+outputs = ["gravity + jacobian"] | needs a name
 outputs = ["a=gravity+inertia", "a=gravity+jacobian"] | `a` is in the list already
 velocity = 0 | velocity = "zero" for an arm without any
 acceleration = [1, 1, 1] | box = { acceleration = [1, …] }

@@ -116,7 +116,7 @@ const CASES: [Case<'static>; 9] = [
      &["`robots/planar2r.rs` has no `jacobian`, `link_poses`", "nor `link_poses`",
        "--outputs gravity,jacobian,link_poses -o robots/planar2r.rs"]),
     (SOURCE, "planar2r.toml", "planar.toml", "2:24",
-     &["there is no file `robots/planar.toml`", "did you mean `robots/planar2r.toml`?"]),
+     &["`robots/planar.toml` does not exist", "did you mean `robots/planar2r.toml`?"]),
     (SOURCE, "robots/planar2r.toml", "name = 'arm'\\n", "2:24",
      &["needs the feature `search` of dalembert"]),
     // Mistakes of the grammar, all of them at once.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use dalembert_sines::text::Angle;
 
 use crate::language::c99::{Names, float, largest};
-use crate::language::called::Called;
+use crate::language::called::SineCall;
 use crate::language::dialect::{Dialect, Lines};
 use crate::program::kernel::Kernel;
 use crate::program::{Code, Library, Literal};
@@ -20,7 +20,7 @@ pub(super) fn write<'c>(
 ) {
     let (mut counts, mut is_alone) = (BTreeSet::new(), false);
     for (joints, code) in functions {
-        match Called::of(code, joints, names, is_batch) {
+        match SineCall::of(code, joints, names, is_batch) {
             Some(called) => _ = counts.insert(called.angles.len()),
             None => is_alone |= code.library == Library::Together,
         }
@@ -53,7 +53,7 @@ fn several(names: &Names, count: usize) -> String {
     let [largest, shift, one, four, fourth] =
         [largest, shift, 1.0, 4.0, 0.25].map(|value| dialect.literal(Literal(value)));
     let (restrict, unfused) = (names.constant("RESTRICT"), names.constant("UNFUSED"));
-    let name = Called::name(count, names);
+    let name = SineCall::name(count, names);
     let angles = if count == 1 { "angle" } else { "angles" };
     format!(
         "\n/*\n * Sines and cosines of {count} {angles}, each within one ulp: to {largest} rad the operations of the\n \

@@ -16,8 +16,8 @@ use crate::search::Pass;
 use crate::seeds::Source;
 use crate::setup::ParametersKey;
 use crate::sincos::{AngleKernel, Sines};
-use crate::tolerance::variant::{Admitted, Variant};
-use crate::verify::accuracy::Refused;
+use crate::tolerance::variant::{Variant, VariantSet};
+use crate::verify::accuracy::RefusedProgram;
 use crate::verify::exact::Proof;
 
 /// A generated and proved function.
@@ -42,9 +42,9 @@ pub struct GeneratedFunction {
     /// The proof of the exact program, from which a tolerance may have made another `program`.
     pub proof: Proof,
     /// A cheaper program that the limit on rounding errors refused, if it did.
-    pub refused: Option<Refused>,
+    pub refused: Option<RefusedProgram>,
     /// With a tolerance: the variants that meet it.
-    pub admitted: Option<Admitted>,
+    pub admitted: Option<VariantSet>,
 }
 
 impl GeneratedFunction {

@@ -68,7 +68,7 @@ impl StateBox {
         }
         text.push_str(
             "}\n\n\
-             /// Whether a state is inside [`BOX`], ends included. The error bounds of this module's\n\
+             /// True if a state is inside [`BOX`], ends included. The error bounds of this module's\n\
              /// functions hold only there. A state with a NaN is not inside.\n\
              #[must_use]\n",
         );

@@ -10,9 +10,9 @@ use crate::program::Program;
 use crate::setup::Setup;
 use crate::sincos::interval::Interval;
 use crate::tolerance::input_box::payloads;
-use crate::tolerance::variant::{Admitted, Variant};
+use crate::tolerance::variant::{Variant, VariantSet};
 
-pub(super) fn describe(admitted: &Admitted, variant: &Variant, setup: &Setup) -> Vec<String> {
+pub(super) fn describe(admitted: &VariantSet, variant: &Variant, setup: &Setup) -> Vec<String> {
     let mut lines = [
         "",
         "Shown: inside the box, |this code - the full model| ≤ E·T. The last two columns split E",

@@ -3,7 +3,7 @@
 use dalembert_model::robot::Robot;
 
 use super::{
-    GenerateError, Generated, GeneratedFunction, Job, Outcome, Request, functions, generate,
+    GenerateError, GeneratedCode, GeneratedFunction, Job, Outcome, Request, functions, generate,
 };
 use crate::program::ScalarType;
 use crate::search::{Effort, price};
@@ -15,7 +15,7 @@ use crate::watch::Watch;
 ///
 /// # Errors
 /// Those of [`generate`], except for a plan that no longer fits.
-pub fn generate_anew(robot: &Robot, request: &Request, shown: &str) -> Outcome<Generated> {
+pub fn generate_anew(robot: &Robot, request: &Request, shown: &str) -> Outcome<GeneratedCode> {
     let what = match generate(robot, request) {
         Err(GenerateError::Stale(what, _)) => what,
         other => return other,

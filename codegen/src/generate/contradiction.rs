@@ -10,7 +10,7 @@ use crate::random::Random;
 use crate::setup::Setup;
 use crate::states::JointState;
 use crate::tolerance::attempt::held;
-use crate::verify::measure::Emitted;
+use crate::verify::measure::RunnableCode;
 use crate::verify::truth::Reference;
 
 /// Two states: what is wrong, is wrong almost everywhere.
@@ -21,7 +21,7 @@ const SEED: u64 = 0x0074_7269_616c;
 pub(super) fn check(
     setup: &Setup,
     functions: &[GeneratedFunction],
-    emitted: &[Emitted],
+    emitted: &[RunnableCode],
 ) -> Result<(), GenerateError> {
     let reference = Reference::new(setup);
     for generated in functions {
@@ -29,7 +29,7 @@ pub(super) fn check(
             exact(&reference, generated)?;
             continue;
         }
-        let is_own = |text: &&Emitted| text.function == generated.function;
+        let is_own = |text: &&RunnableCode| text.function == generated.function;
         let mut texts = emitted.iter().filter(is_own);
         texts.try_for_each(|text| tolerated(&reference, generated, text))?;
     }
@@ -65,7 +65,7 @@ pub fn exact(reference: &Reference, generated: &GeneratedFunction) -> Result<(),
 fn tolerated(
     reference: &Reference,
     generated: &GeneratedFunction,
-    emitted: &Emitted,
+    emitted: &RunnableCode,
 ) -> Result<(), GenerateError> {
     let scalar = emitted.scalar;
     let Some(claim) = generated.variant(scalar) else {

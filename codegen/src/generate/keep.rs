@@ -1,11 +1,11 @@
 //! The programs of a run in a plan, for later runs, and the claim about them, with
 //! which the checker compares their text.
 
-use dalembert_checker::claim::{Claim, Claimed};
+use dalembert_checker::claim::{Claim, FunctionClaim};
 use dalembert_model::robot::Robot;
 
-use super::{Generated, Request, language};
-use crate::claim::{Written, of_setup};
+use super::{GeneratedCode, Request, language};
+use crate::claim::{ConstantTable, of_setup};
 use crate::function::Function;
 use crate::language::Language;
 use crate::language::names::Names;
@@ -17,7 +17,7 @@ use crate::tolerance::claim::{document, tolerated};
 use crate::words::Complaint;
 
 #[derive(Clone, Debug)]
-pub struct Kept {
+pub struct PlanUpdate {
     pub plan: Plan,
     /// Functions for which the plan keeps its program: a search that was ended early had
     /// found none that is cheaper.
@@ -26,7 +26,12 @@ pub struct Kept {
 
 /// Returns the plan with the programs of a run in it. Those of other requests for the same robot
 /// stay, and after a search that was ended early those that are no dearer than what it found.
-pub fn keep(robot: &Robot, request: &Request, generated: &Generated, plan: Option<Plan>) -> Kept {
+pub fn keep(
+    robot: &Robot,
+    request: &Request,
+    generated: &GeneratedCode,
+    plan: Option<Plan>,
+) -> PlanUpdate {
     let input = input_hash(robot);
     let mut plan = plan.filter(|plan| plan.input == input).unwrap_or(Plan {
         robot: robot.name.clone(),
@@ -67,7 +72,7 @@ pub fn keep(robot: &Robot, request: &Request, generated: &Generated, plan: Optio
             }
         }
     }
-    Kept { plan, own }
+    PlanUpdate { plan, own }
 }
 
 fn emitted(entry: &Entry) -> &Program {
@@ -83,16 +88,16 @@ pub fn claim(
     robot: &Robot,
     source: &str,
     request: &Request,
-    generated: &Generated,
+    generated: &GeneratedCode,
 ) -> Result<Claim, Complaint> {
     let request = &*language::with_short_name(robot, request);
     let setup = &request.setup(robot)?;
     let name = request.module_name(robot);
-    let mut constants = Written::default();
+    let mut constants = ConstantTable::default();
     let functions = generated.functions.iter().map(|own| {
         // A header of the same functions has the same claim.
         let symbol = |&scalar| Names::new(&name, Language::C, scalar).of(own.function.name());
-        Claimed {
+        FunctionClaim {
             symbols: ScalarType::ALL.iter().map(symbol).collect(),
             tolerated: (own.admitted.as_ref())
                 .and_then(|own| tolerated(own.variants.first()?, &mut constants)),

@@ -34,7 +34,7 @@ use crate::task::{Job, Prefer, Request};
 pub use crate::tolerance::refusals::ToleranceError;
 use crate::tolerance::refusals::{FOLLOWS, FRICTION, unbounded};
 use crate::verify::exact::prove;
-use crate::verify::measure::Emitted;
+use crate::verify::measure::RunnableCode;
 use crate::verify::parameters::prove_base;
 use crate::verify::singular::without_inertia;
 use crate::words::{Complaint, complaint};
@@ -46,7 +46,7 @@ use tolerate::tolerate;
 
 /// Everything generated for a robot.
 #[derive(Clone, Debug)]
-pub struct Generated {
+pub struct GeneratedCode {
     /// In the order of [`Function::in_order`], behind that of a load.
     pub functions: Vec<GeneratedFunction>,
     /// The scalars, in the order in which they were asked for; under a tolerance the cheapest one.
@@ -54,7 +54,7 @@ pub struct Generated {
     /// The text of each file, without a stamp: in Rust one for each scalar, in C and CUDA one for all.
     pub texts: Vec<String>,
     /// The functions as the source says them, scalar by scalar.
-    pub emitted: Vec<Emitted>,
+    pub emitted: Vec<RunnableCode>,
     /// Warnings, such as constants that round to subnormals.
     pub warnings: Vec<String>,
     /// The reason for which there is no f32, where nobody chose a scalar and both are the default.
@@ -64,7 +64,7 @@ pub struct Generated {
     pub ended: bool,
 }
 
-impl Generated {
+impl GeneratedCode {
     /// Returns the text of each file behind its stamp, as it is to be written. `robot` is the path
     /// of the robot file from the folder of the file, `source` its text.
     pub fn files(&self, request: &Request, robot: &str, source: &str) -> Vec<String> {
@@ -122,7 +122,7 @@ pub const MAX_OUTPUTS: usize = 20_000;
 ///
 /// # Errors
 /// Why nothing was generated.
-pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateError> {
+pub fn generate(robot: &Robot, request: &Request) -> Result<GeneratedCode, GenerateError> {
     let asked = request;
     let request = &*language::with_short_name(robot, asked);
     let setup = &request.setup(robot)?;
@@ -197,7 +197,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         }
     }
     contradiction::check(setup, &functions, &emitted)?;
-    Ok(Generated {
+    Ok(GeneratedCode {
         functions,
         scalars,
         texts,
@@ -330,11 +330,11 @@ fn no_hand(robot: &Robot, function: Function, names: &[&str]) -> GenerateError {
     GenerateError::refused(function, message, fix)
 }
 
-type Found = (Vec<GeneratedFunction>, Vec<ScalarType>);
+type SearchResult = (Vec<GeneratedFunction>, Vec<ScalarType>);
 
 /// With a tolerance, the cheapest exact programs are the start; those that cost fewer digits have
 /// their turn if it refuses these.
-fn functions(job: &Job<'_>) -> Outcome<Found> {
+fn functions(job: &Job<'_>) -> Outcome<SearchResult> {
     let request = job.request;
     if job.tolerance().is_none() || request.prefer != Prefer::Accuracy {
         return attempt(job);
@@ -347,7 +347,7 @@ fn functions(job: &Job<'_>) -> Outcome<Found> {
     }
 }
 
-fn attempt(job: &Job<'_>) -> Outcome<Found> {
+fn attempt(job: &Job<'_>) -> Outcome<SearchResult> {
     let mut functions = Function::in_order(&job.request.functions);
     if job.setup.has_load() {
         functions.insert(0, Function::Load);
@@ -466,7 +466,7 @@ fn read_back(
     text: &Text<'_>,
     generated: &GeneratedFunction,
     code: &Code,
-) -> Result<Emitted, GenerateError> {
+) -> Result<RunnableCode, GenerateError> {
     let request = job.request;
     let scalar = code.scalar;
     let fail = |why| GenerateError::Defect(generated.function, Some(scalar), why);
@@ -481,7 +481,7 @@ fn read_back(
     if read.counts() != generated.counts_in(scalar) {
         return Err(fail("the counts of the text differ".to_owned()));
     }
-    Ok(Emitted {
+    Ok(RunnableCode {
         function: generated.function,
         scalar,
         sizes: generated.program.sizes(),

@@ -10,10 +10,10 @@ use crate::plan::{Entry, Plan};
 use crate::program::{Counts, Program, ScalarType};
 use crate::search::{self, Effort, Pass, Searched};
 use crate::seeds::start::{Approach, Problem, Start};
-use crate::seeds::{Limit, Seed, Source, Tuned};
+use crate::seeds::{ChainChoice, Limit, Seed, Source};
 use crate::setup::{ParametersKey, SceneKey, Task, input_hash};
 use crate::task::Prefer;
-use crate::verify::accuracy::{AccuracyFilter, Refused};
+use crate::verify::accuracy::{AccuracyFilter, RefusedProgram};
 use crate::verify::exact::prove;
 use crate::verify::growth::Growth;
 use crate::watch::{FunctionWatch, Part};
@@ -50,7 +50,7 @@ pub fn replay(job: &Job<'_>, plan: Option<&Plan>, function: Function) -> Outcome
 }
 
 /// A program with where it comes from, its counts on the way, and what would be cheaper.
-type Origin = (Source, Vec<Pass>, Program, Option<Refused>);
+type Origin = (Source, Vec<Pass>, Program, Option<RefusedProgram>);
 
 /// Returns the program, its limbs as lanes where that is asked for or cheaper.
 pub(super) fn found(job: &Job<'_>, function: Function) -> Result<Origin, GenerateError> {
@@ -63,17 +63,17 @@ pub(super) fn found(job: &Job<'_>, function: Function) -> Result<Origin, Generat
     }
 }
 
-pub struct Found {
+pub struct SearchResult {
     /// The regrouping of the chain forms, if there are such.
-    pub tuned: Option<Tuned>,
+    pub tuned: Option<ChainChoice>,
     pub seeds: Vec<Seed>,
     pub searched: Searched,
     /// A cheaper program that was refused for its rounding error.
-    pub refused: Option<Refused>,
+    pub refused: Option<RefusedProgram>,
 }
 
 /// Searches for the cheapest program. A thorough search contains the quick one: it is never dearer.
-pub fn search(job: &Job<'_>, function: Function) -> Result<Found, GenerateError> {
+pub fn search(job: &Job<'_>, function: Function) -> Result<SearchResult, GenerateError> {
     Search::new(job, function).cheapest()
 }
 
@@ -126,7 +126,7 @@ impl<'a> Search<'a> {
         Ok((seed.source, passes.collect(), program, found.refused))
     }
 
-    fn cheapest(&self) -> Result<Found, GenerateError> {
+    fn cheapest(&self) -> Result<SearchResult, GenerateError> {
         let request = self.job.request;
         let watch = request.watch.over(self.task.function);
         let nobody = FunctionWatch::default();
@@ -148,18 +148,18 @@ impl<'a> Search<'a> {
         if self.order(&found) > self.order(&quick) {
             found = quick;
         } else {
-            let again = |own: Refused| self.refused(own.counts, own.error, &found);
+            let again = |own: RefusedProgram| self.refused(own.counts, own.error, &found);
             found.refused = quick.refused.and_then(again);
         }
         tell(Part::Proof, Some(found.searched.graph.counts()));
         Ok(found)
     }
 
-    fn accepts(&self, found: &Found) -> bool {
+    fn accepts(&self, found: &SearchResult) -> bool {
         self.judge.accepts(&found.searched.graph)
     }
 
-    fn order(&self, found: &Found) -> (bool, u64) {
+    fn order(&self, found: &SearchResult) -> (bool, u64) {
         (!self.accepts(found), found.cost())
     }
 
@@ -176,7 +176,12 @@ impl<'a> Search<'a> {
         is_right.then_some((entry, program))
     }
 
-    fn on_from(&self, entry: &Entry, program: &Program, found: &Found) -> Option<Found> {
+    fn on_from(
+        &self,
+        entry: &Entry,
+        program: &Program,
+        found: &SearchResult,
+    ) -> Option<SearchResult> {
         let again = Approach {
             tuned: found.tuned.clone(),
             seeds: vec![Seed {
@@ -192,7 +197,7 @@ impl<'a> Search<'a> {
 
     /// Searches without a limit first, since most robots need none. Where that costs too many
     /// digits, again within the limit, also from where the other search ended.
-    fn quick(&self, watch: FunctionWatch<'_>) -> Result<Found, GenerateError> {
+    fn quick(&self, watch: FunctionWatch<'_>) -> Result<SearchResult, GenerateError> {
         let free = self.run(Effort::Quick, false, &[], watch)?;
         if self.accepts(&free) {
             return Ok(free);
@@ -209,7 +214,7 @@ impl<'a> Search<'a> {
         };
         let again = |from| self.search_from(from, Effort::Quick, true, watch);
         let mut found = again(same);
-        let is_near = |found: &Found| {
+        let is_near = |found: &SearchResult| {
             let most = free.cost() + free.cost() / NEAR;
             found.cost() <= most && self.accepts(found)
         };
@@ -235,10 +240,10 @@ impl<'a> Search<'a> {
         Ok(found)
     }
 
-    fn refused(&self, counts: Counts, error: f64, taken: &Found) -> Option<Refused> {
+    fn refused(&self, counts: Counts, error: f64, taken: &SearchResult) -> Option<RefusedProgram> {
         let graph = &taken.searched.graph;
         let is_cheaper = counts.operations() < graph.counts().operations();
-        is_cheaper.then(|| Refused {
+        is_cheaper.then(|| RefusedProgram {
             counts,
             error,
             taken: self.judge.error(graph),
@@ -251,7 +256,7 @@ impl<'a> Search<'a> {
         limited: bool,
         from: &[Regrouping<Exact>],
         watch: FunctionWatch<'_>,
-    ) -> Result<Found, GenerateError> {
+    ) -> Result<SearchResult, GenerateError> {
         let excess = |graph: &Dag, bound| self.judge.excess(graph, bound);
         let limit: Option<Limit<'_>> = limited.then_some(&excess);
         let problem = Problem {
@@ -263,7 +268,7 @@ impl<'a> Search<'a> {
         };
         let search = |approach| self.search_from(approach, effort, limited, watch);
         let approaches = self.job.request.start.approaches(&problem).into_iter();
-        let order = |found: &Found| (limited && !self.accepts(found), found.cost());
+        let order = |found: &SearchResult| (limited && !self.accepts(found), found.cost());
         let found = approaches.filter_map(search).min_by_key(order);
         found.ok_or_else(GenerateError::empty)
     }
@@ -274,7 +279,7 @@ impl<'a> Search<'a> {
         effort: Effort,
         limited: bool,
         watch: FunctionWatch<'_>,
-    ) -> Option<Found> {
+    ) -> Option<SearchResult> {
         let seeds = approach.seeds.iter();
         let graphs: Vec<Dag> = seeds.map(|seed| seed.graph.clone()).collect();
         let growth = Growth::of(&graphs);
@@ -292,7 +297,7 @@ impl<'a> Search<'a> {
         if !growth.admits(&searched.graph) {
             searched = run(&|graph| growth.admits(graph) && accept(graph))?;
         }
-        Some(Found {
+        Some(SearchResult {
             tuned: approach.tuned,
             seeds: approach.seeds,
             searched,
@@ -301,7 +306,7 @@ impl<'a> Search<'a> {
     }
 }
 
-impl Found {
+impl SearchResult {
     pub fn seed(&self) -> &Seed {
         &self.seeds[self.searched.seed]
     }

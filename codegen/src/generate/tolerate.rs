@@ -10,10 +10,10 @@ use crate::program::{Program, ScalarType};
 use crate::search::Effort;
 use crate::setup::SceneKey;
 use crate::sincos::SinCos;
-use crate::tolerance::budget::{Allowed, Budget};
+use crate::tolerance::budget::{Budget, Tolerances};
 use crate::tolerance::refusals::ToleranceError;
 use crate::tolerance::search::SearchEffort;
-use crate::tolerance::variant::{Admitted, Variant};
+use crate::tolerance::variant::{Variant, VariantSet};
 use crate::tolerance::work::Meter;
 use crate::words::Complaint;
 
@@ -49,7 +49,7 @@ pub fn admitted(
     job: &Job<'_>,
     programs: &[&Program],
     load: Option<&Program>,
-) -> Outcome<Option<Vec<Admitted>>> {
+) -> Outcome<Option<Vec<VariantSet>>> {
     let request = job.request;
     let Some(tolerance) = job.tolerance() else {
         return Ok(None);
@@ -95,8 +95,8 @@ pub fn admitted(
 
 /// The variant of a plan, or those of the exact program, to search from.
 enum Start {
-    Planned(Admitted),
-    Exact(Admitted),
+    Planned(VariantSet),
+    Exact(VariantSet),
 }
 
 /// Checks first that the tolerance admits the exact programs: a refusal comes before any search.
@@ -105,7 +105,7 @@ fn in_scalars(
     budgets: &[Budget<'_>],
     scalars: &[ScalarType],
     meter: Meter,
-) -> Result<Vec<Admitted>, GenerateError> {
+) -> Result<Vec<VariantSet>, GenerateError> {
     let Some(tolerance) = job.tolerance() else {
         return Err(GenerateError::empty());
     };
@@ -132,9 +132,9 @@ fn in_scalars(
 fn usable(
     job: &Job<'_>,
     budget: &Budget<'_>,
-    allowed: &Allowed,
+    allowed: &Tolerances,
     scalars: &[ScalarType],
-) -> Result<Option<Admitted>, GenerateError> {
+) -> Result<Option<VariantSet>, GenerateError> {
     let (request, function) = (job.request, budget.exact.function);
     let (Some(plan), Some(scene)) = (&request.plan, job.setup.scene()) else {
         return Ok(None);
@@ -161,10 +161,10 @@ fn chosen(
     job: &Job<'_>,
     budget: &Budget<'_>,
     start: Start,
-    allowed: &Allowed,
+    allowed: &Tolerances,
     scalars: &[ScalarType],
     meter: Meter,
-) -> Result<Admitted, GenerateError> {
+) -> Result<VariantSet, GenerateError> {
     let request = job.request;
     let function = budget.exact.function;
     let fail = |refusal| GenerateError::Tolerance(function, refusal);
@@ -185,7 +185,7 @@ fn chosen(
             found.map_err(fail)?
         }
     };
-    let with = |admitted: &Admitted| -> Result<Vec<Variant>, Complaint> {
+    let with = |admitted: &VariantSet| -> Result<Vec<Variant>, Complaint> {
         let with = |own| budget.with_polynomials(&admitted.program, own, allowed);
         admitted.variants.iter().map(with).collect()
     };

@@ -16,7 +16,7 @@
 
 use dalembert_sines::{LARGEST, LARGEST_F32};
 
-use super::called::Called;
+use super::called::SineCall;
 use super::dialect::Lines;
 use super::function::reads;
 use super::loops::{self, Piece};
@@ -136,7 +136,7 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
     let mut text = format!("{}\n{{\n", head(program, names, is_told));
     let mut line = |line: &str| text += &format!("    {line}\n");
     line(&names.constant("UNFUSED"));
-    let called = Called::of(code, program.joints, names, is_told);
+    let called = SineCall::of(code, program.joints, names, is_told);
     let is_called = |pair: &&Pair| called.is_some() && pair.kernel.is_none();
     let (by_call, alone): (Vec<&Pair>, Vec<&Pair>) = code.pairs.iter().partition(is_called);
     for pair in alone {

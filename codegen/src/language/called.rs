@@ -14,27 +14,27 @@ use super::{Language, list, trig};
 use crate::program::Code;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Called {
+pub(crate) struct SineCall {
     /// The first, where they are positions of neighbouring joints, as they stand in `q`.
     first: Option<usize>,
     pub(crate) angles: Vec<usize>,
 }
 
-impl Called {
+impl SineCall {
     /// In CUDA, and in what batches call, vectors are of states: each angle has its own call.
-    pub(crate) fn of(code: &Code, joints: usize, names: &Names, is_told: bool) -> Option<Called> {
+    pub(crate) fn of(code: &Code, joints: usize, names: &Names, is_told: bool) -> Option<SineCall> {
         let angles: Vec<usize> = trig::taken(code).map(|pair| pair.joint).collect();
         if is_told || names.language() != Language::C || angles.is_empty() {
             return None;
         }
-        Some(Called::neighbours(&angles, joints).unwrap_or(Called {
+        Some(SineCall::neighbours(&angles, joints).unwrap_or(SineCall {
             first: None,
             angles,
         }))
     }
 
     /// An even number, if that takes one joint more at the most, since vectors hold two or four.
-    fn neighbours(own: &[usize], joints: usize) -> Option<Called> {
+    fn neighbours(own: &[usize], joints: usize) -> Option<SineCall> {
         let (mut first, mut last) = (*own.iter().min()?, *own.iter().max()?);
         let is_odd = |count: usize| count > 1 && count % 2 == 1;
         if own.len() == last + 1 - first && is_odd(own.len()) {
@@ -45,7 +45,7 @@ impl Called {
         }
         let count = last + 1 - first;
         let is_near = count == own.len() || count == own.len() + 1 && is_odd(own.len());
-        is_near.then(|| Called {
+        is_near.then(|| SineCall {
             first: Some(first),
             angles: (first..=last).collect(),
         })
@@ -67,7 +67,7 @@ impl Called {
             }
         };
         lines.extend(["sines", "cosines"].map(|array| format!("{float} {array}[{count}];")));
-        let name = Called::name(count, names);
+        let name = SineCall::name(count, names);
         lines.push(format!("{name}({given}, sines, cosines);"));
         lines
     }

@@ -10,7 +10,7 @@ use crate::dag::Dag;
 use crate::function::{Argument, Function, Sizes};
 use crate::language::Language;
 use crate::language::names::Names;
-use crate::program::kernel::{Angle, Kernel, Need};
+use crate::program::kernel::{Angle, Kernel, SinCosUse};
 use crate::program::{
     Code, Input, Library, Literal, Operand, Operation, Output, Pair, Program, ScalarType, Speed,
     Step, Steps,
@@ -92,7 +92,7 @@ fn code(read: read::Function, scalar: ScalarType) -> Result<Code, TextError> {
     }
     let pairs = read.sines.into_iter().map(|own| {
         let [sin, cos] = own.needs;
-        let need = Need { sin, cos };
+        let need = SinCosUse { sin, cos };
         let kernel = match own.source {
             Source::Polynomial(program) => Some(Kernel {
                 need,

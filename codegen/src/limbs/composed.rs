@@ -5,13 +5,13 @@ use dalembert_model::scalar::Scalar;
 use rustc_hash::FxHashMap;
 
 use super::parts::{Import, Part, Parts};
-use super::rolled::{Rolled, Value};
+use super::rolled::{LimbRows, Value};
 use super::structure::Limbs;
 use crate::dag::{Dag, Edge, Id, Node, Writer};
 use crate::program::{Input, Loop, Operation};
 
 pub(super) struct Composer<'a, 'd> {
-    rolled: &'a Rolled<'d>,
+    rolled: &'a LimbRows<'d>,
     limbs: &'a Limbs,
     parts: &'a Parts,
     base: usize,
@@ -24,7 +24,7 @@ pub(super) struct Composer<'a, 'd> {
 
 impl<'a, 'd> Composer<'a, 'd> {
     pub(super) fn new(
-        rolled: &'a Rolled<'d>,
+        rolled: &'a LimbRows<'d>,
         limbs: &'a Limbs,
         parts: &'a Parts,
         base: usize,

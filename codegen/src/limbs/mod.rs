@@ -27,7 +27,7 @@ use crate::setup::Task;
 use crate::words::words;
 use composed::Composer;
 use parts::{Part, Parts};
-use rolled::Rolled;
+use rolled::LimbRows;
 use structure::{Limbs, classes};
 
 words! {
@@ -158,14 +158,14 @@ fn with_parts<T>(
     task: Task<'_>,
     chain: &Chain<Exact>,
     form: Form,
-    then: impl FnOnce(&Rolled<'_>, &mut Limbs, &mut Parts) -> T,
+    then: impl FnOnce(&LimbRows<'_>, &mut Limbs, &mut Parts) -> T,
 ) -> T {
     let mut limbs = Limbs::of(chain, task.setup);
     let (dag, _) = trace_symbols(task, form, Folding::Syntactic, |builder| {
         limbs.symbols(chain, builder)
     });
-    let dag = sums::by_limbs(&Rolled::new(&dag, &limbs, base(task)));
-    let rolled = Rolled::new(&dag, &limbs, base(task));
+    let dag = sums::by_limbs(&LimbRows::new(&dag, &limbs, base(task)));
+    let rolled = LimbRows::new(&dag, &limbs, base(task));
     let mut parts = Parts::of(&rolled, &mut limbs, base(task));
     then(&rolled, &mut limbs, &mut parts)
 }
@@ -227,9 +227,9 @@ mod tests {
                 let (lanes, _) = trace_symbols(task, form, Folding::Syntactic, |builder| {
                     limbs.symbols(chain, builder)
                 });
-                let sums = sums::by_limbs(&Rolled::new(&lanes, &limbs, base(task)));
+                let sums = sums::by_limbs(&LimbRows::new(&lanes, &limbs, base(task)));
                 assert_eq!(sums.result_prints(), lanes.result_prints(), "{form:?}");
-                let rolled = Rolled::new(&sums, &limbs, base(task));
+                let rolled = LimbRows::new(&sums, &limbs, base(task));
                 let parts = Parts::of(&rolled, &mut limbs, base(task));
                 let (composed, loops) =
                     Composer::new(&rolled, &limbs, &parts, base(task)).compose();

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use dalembert_model::number::Exact;
 use rustc_hash::FxHashMap;
 
-use super::rolled::{Content, Rolled, Value};
+use super::rolled::{Content, LimbRows, Value};
 use super::structure::{Limbs, OPAQUE, tuple_input};
 use crate::dag::{Builder, Dag, Edge, Folding, Id, Node};
 use crate::function::Argument;
@@ -48,7 +48,7 @@ impl Parts {
         }
     }
 
-    pub(super) fn of(rolled: &Rolled<'_>, limbs: &mut Limbs, base: usize) -> Parts {
+    pub(super) fn of(rolled: &LimbRows<'_>, limbs: &mut Limbs, base: usize) -> Parts {
         let constants = rolled.constants(limbs);
         let phases = Phases::of(rolled, &constants);
         let mut contents: BTreeMap<(usize, Option<usize>), Vec<Value>> = BTreeMap::new();
@@ -104,7 +104,7 @@ impl Parts {
 }
 
 /// The values that other parts or results read.
-fn exported(rolled: &Rolled<'_>, phases: &Phases) -> FxHashMap<Value, ()> {
+fn exported(rolled: &LimbRows<'_>, phases: &Phases) -> FxHashMap<Value, ()> {
     let value = |id: Id| match rolled.member(id) {
         Some(member) => Value::Row(member.row),
         None => Value::Shared(id),
@@ -145,7 +145,7 @@ struct Phases {
 }
 
 impl Phases {
-    fn of(rolled: &Rolled<'_>, constants: &[Option<Vec<Exact>>]) -> Phases {
+    fn of(rolled: &LimbRows<'_>, constants: &[Option<Vec<Exact>>]) -> Phases {
         let mut phases = Phases {
             shared: vec![0; rolled.dag.nodes.len()],
             rows: vec![1; rolled.rows.len()],
@@ -189,7 +189,7 @@ impl Phases {
 }
 
 struct PartWriter<'a, 'd> {
-    rolled: &'a Rolled<'d>,
+    rolled: &'a LimbRows<'d>,
     limbs: &'a mut Limbs,
     base: usize,
     constants: &'a [Option<Vec<Exact>>],

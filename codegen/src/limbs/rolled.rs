@@ -44,16 +44,16 @@ pub(super) struct Member {
 type Fellows = Vec<Option<(Id, bool)>>;
 
 #[derive(Debug)]
-pub(super) struct Rolled<'d> {
+pub(super) struct LimbRows<'d> {
     pub dag: &'d Dag,
     pub rows: Vec<Row>,
     members: Vec<Option<Member>>,
 }
 
-impl<'d> Rolled<'d> {
+impl<'d> LimbRows<'d> {
     /// Nodes that have no fellow in some lane are shared.
-    pub(super) fn new(dag: &'d Dag, limbs: &Limbs, base: usize) -> Rolled<'d> {
-        let mut rolled = Rolled {
+    pub(super) fn new(dag: &'d Dag, limbs: &Limbs, base: usize) -> LimbRows<'d> {
+        let mut rolled = LimbRows {
             dag,
             rows: Vec::new(),
             members: vec![None; dag.nodes.len()],

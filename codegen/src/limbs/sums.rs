@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use super::rolled::Rolled;
+use super::rolled::LimbRows;
 use crate::dag::{Builder, Dag, Edge, Folding, Id, Node};
 use crate::program::Operation;
 
 /// Returns a graph of the same results: where what lanes share is a sum of several terms of a limb,
 /// these are a sum by themselves.
-pub(super) fn by_limbs(rolled: &Rolled<'_>) -> Dag {
+pub(super) fn by_limbs(rolled: &LimbRows<'_>) -> Dag {
     let dag = rolled.dag;
     let reads = dag.reads();
     let is_sum = |id: Id| {
@@ -61,7 +61,7 @@ fn terms(dag: &Dag, is_part: &[bool], root: Id) -> Vec<(Id, bool)> {
     terms
 }
 
-fn sum(builder: &mut Builder, rolled: &Rolled<'_>, edges: &[Edge], terms: &[(Id, bool)]) -> Edge {
+fn sum(builder: &mut Builder, rolled: &LimbRows<'_>, edges: &[Edge], terms: &[(Id, bool)]) -> Edge {
     let mut limbs: BTreeMap<(usize, usize), Vec<(usize, Edge)>> = BTreeMap::new();
     let mut shared = Vec::new();
     for (id, negative) in terms {

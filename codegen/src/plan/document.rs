@@ -1,7 +1,7 @@
 //! A plan as a document: what is claimed of each program, and what was searched for.
 
 use dalembert_checker::Fault;
-use dalembert_checker::claim::{Claim, Claimed, Planned, Tolerated};
+use dalembert_checker::claim::{Claim, FunctionClaim, SearchRecord, ToleranceClaim};
 use dalembert_checker::program::Program as Straight;
 use dalembert_model::equations::BASE_COORDINATES;
 use dalembert_model::number::Exact;
@@ -9,7 +9,7 @@ use dalembert_model::outputs::{Axis, Sizes};
 use dalembert_model::robot::Robot;
 
 use super::{Entry, Plan};
-use crate::claim::{Written, claimed, code};
+use crate::claim::{ConstantTable, claimed, code};
 use crate::function::{Argument, Function};
 use crate::language::read::{graph, input};
 use crate::program::{Counts, Input, Loop, Program, ScalarType};
@@ -24,7 +24,7 @@ const MAX_LOAD: usize = 100 * Robot::MAX_JOINTS;
 impl Plan {
     /// Returns the text; [`Plan::parse`] reads it back.
     pub fn write(&self) -> String {
-        let mut constants = Written::default();
+        let mut constants = ConstantTable::default();
         let functions = self.entries.iter().map(|own| own.claimed(&mut constants));
         let functions = functions.collect();
         let mut document = constants.document(functions);
@@ -73,7 +73,7 @@ fn refused(fault: Fault) -> Complaint {
 }
 
 impl Entry {
-    fn claimed(&self, constants: &mut Written) -> Claimed {
+    fn claimed(&self, constants: &mut ConstantTable) -> FunctionClaim {
         let (exact, edited) = (&self.program, self.edited.as_ref());
         let emitted = edited.unwrap_or(exact);
         let (scene, hash) = match &self.scene {
@@ -85,7 +85,7 @@ impl Entry {
             let name = pass.name.to_owned();
             (name, [own.mul, own.add, own.div, own.sincos])
         });
-        let planned = Planned {
+        let planned = SearchRecord {
             asked: exact.function.text(),
             formulation: self.start.name().to_owned(),
             scalar: self.scalar.name().to_owned(),
@@ -99,14 +99,14 @@ impl Entry {
             scene: hash,
             load: (self.parameters.as_ref()).map(|own| (own.load, own.hash.clone())),
         };
-        Claimed {
+        FunctionClaim {
             planned: Some(planned),
             tolerated: edited.map(|_| {
                 let [steps, returns] = code(exact, constants);
-                Tolerated {
+                ToleranceClaim {
                     steps,
                     returns,
-                    ..Tolerated::default()
+                    ..ToleranceClaim::default()
                 }
             }),
             ..claimed(emitted, scene, constants)
@@ -129,7 +129,7 @@ fn loops(program: &Program) -> Vec<[usize; 3]> {
     loops.map(|own| [own.first, own.rows, own.lanes]).collect()
 }
 
-fn entry(own: &Claimed, constants: &[Exact]) -> Result<Entry, Complaint> {
+fn entry(own: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Complaint> {
     let unknown = |what: &str, word: &str| complaint(format!("`{word:.40}` is no {what}"));
     let planned = (own.planned.as_ref())
         .ok_or_else(|| complaint("there is no `planned`: what was searched for"))?;
@@ -205,7 +205,7 @@ fn entry(own: &Claimed, constants: &[Exact]) -> Result<Entry, Complaint> {
     })
 }
 
-fn taken(own: &Claimed, empty: &mut Program) -> Result<Vec<Argument>, Complaint> {
+fn taken(own: &FunctionClaim, empty: &mut Program) -> Result<Vec<Argument>, Complaint> {
     const TAKEN: [Argument; 2] = [Argument::Gravity, Argument::Load];
     empty.arguments.extend(TAKEN);
     empty.arguments.sort();

@@ -6,7 +6,7 @@ use dalembert_model::equations::friction::per_speed;
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Divide;
 
-use super::kernel::{Kernel, Need};
+use super::kernel::{Kernel, SinCosUse};
 use super::machine::Machine;
 use super::{Counts, Input, Library, Literal, Loop, Program, ScalarType};
 use crate::dag::lanes::{LANES, Lanes};
@@ -31,7 +31,7 @@ pub struct Code {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
     pub joint: usize,
-    pub need: Need,
+    pub need: SinCosUse,
     /// The polynomials, unless a library is called.
     pub kernel: Option<Kernel>,
 }

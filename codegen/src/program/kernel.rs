@@ -11,13 +11,13 @@ use crate::dag::{Dag, Edge, Id, Node, Writer};
 pub struct Angle;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Need {
+pub struct SinCosUse {
     pub sin: bool,
     pub cos: bool,
 }
 
-impl Need {
-    pub(crate) const BOTH: Need = Need {
+impl SinCosUse {
+    pub(crate) const BOTH: SinCosUse = SinCosUse {
         sin: true,
         cos: true,
     };
@@ -35,7 +35,7 @@ impl Need {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kernel {
-    pub need: Need,
+    pub need: SinCosUse,
     /// The operations; the results are the sine and the cosine, as far as they are wanted.
     pub dag: Dag<Literal, Angle>,
 }
@@ -80,7 +80,7 @@ impl KernelWriter {
         sum
     }
 
-    pub(crate) fn kernel(self, need: Need, results: [Edge; 2]) -> Kernel {
+    pub(crate) fn kernel(self, need: SinCosUse, results: [Edge; 2]) -> Kernel {
         let wanted = results.into_iter().zip([need.sin, need.cos]);
         let wanted = wanted.filter_map(|(result, is_wanted)| is_wanted.then_some(result));
         let dag = self.finish(wanted.collect());

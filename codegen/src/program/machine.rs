@@ -3,7 +3,7 @@
 use dalembert_model::scalar::Divide;
 
 use super::ScalarType;
-use super::kernel::Need;
+use super::kernel::SinCosUse;
 use crate::function::Argument;
 use crate::states::{JointState, State};
 
@@ -86,7 +86,7 @@ impl Library {
     }
 
     /// Returns sine and cosine as it computes them, to the last bit.
-    pub fn pair<T: Machine>(self, angle: T, need: Need) -> (T, T) {
+    pub fn pair<T: Machine>(self, angle: T, need: SinCosUse) -> (T, T) {
         match (self, need.sin, need.cos) {
             (Library::Together, ..) => angle.together(),
             (Library::Libm, true, false) => (angle.sin(), angle),

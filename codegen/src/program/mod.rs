@@ -17,7 +17,7 @@ use crate::dag::{Dag, Edge, Id, Node};
 use crate::function::{Argument, Columns, Function, Sizes};
 pub(crate) use code::Speed;
 pub use code::{Code, Pair};
-pub use kernel::Need;
+pub use kernel::SinCosUse;
 pub use machine::Library;
 pub use scalar_type::{Literal, ScalarType};
 pub use steps::{Operand, Output, Step, Steps};
@@ -206,7 +206,7 @@ impl Program {
 
     /// Lists the sines and cosines that it reads, joints ascending, as a library computes them.
     pub fn trig(&self) -> Vec<Pair> {
-        let mut needs: BTreeMap<usize, Need> = BTreeMap::new();
+        let mut needs: BTreeMap<usize, SinCosUse> = BTreeMap::new();
         for input in self.dag.inputs() {
             match *input {
                 Input::Sin(joint) => needs.entry(joint).or_default().sin = true,

@@ -241,9 +241,9 @@ impl Erase for Symbol {
 
 /// Leaves as values of any scalar.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Erased<'a, L>(pub(crate) &'a L);
+pub(crate) struct AnyLeaves<'a, L>(pub(crate) &'a L);
 
-impl<C, I, L: Leaves<C, I>> Leaves<C, I> for Erased<'_, L>
+impl<C, I, L: Leaves<C, I>> Leaves<C, I> for AnyLeaves<'_, L>
 where
     L::Value: Erase,
 {

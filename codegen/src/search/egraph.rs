@@ -113,14 +113,14 @@ impl Prints {
 }
 
 /// A graph with the fingerprints of its leaves: rounds of a search read the same graphs.
-pub(super) struct Printed<'a> {
+pub(super) struct LeafPrints<'a> {
     dag: &'a Dag,
     prints: Vec<Fingerprint>,
 }
 
-impl<'a> Printed<'a> {
-    pub(super) fn new(dag: &'a Dag) -> Printed<'a> {
-        Printed {
+impl<'a> LeafPrints<'a> {
+    pub(super) fn new(dag: &'a Dag) -> LeafPrints<'a> {
+        LeafPrints {
             dag,
             prints: dag.nodes.iter().map(Node::leaf_print).collect(),
         }
@@ -240,8 +240,8 @@ impl Classes {
         }
     }
 
-    pub(super) fn absorb(&mut self, graph: &Printed) -> (Vec<Signed>, Choice) {
-        let Printed { dag, prints } = graph;
+    pub(super) fn absorb(&mut self, graph: &LeafPrints) -> (Vec<Signed>, Choice) {
+        let LeafPrints { dag, prints } = graph;
         let mut values: Vec<Signed> = Vec::with_capacity(dag.nodes.len());
         let mut choice: Choice = Vec::new();
         for (node, print) in dag.nodes.iter().zip(prints) {
@@ -280,7 +280,7 @@ impl Classes {
     }
 
     pub(super) fn begin(&mut self, dag: &Dag) -> (Vec<Class>, Choice) {
-        let (values, choice) = self.absorb(&Printed::new(dag));
+        let (values, choice) = self.absorb(&LeafPrints::new(dag));
         let output = |edge: &Edge| flip(values[edge.index()], edge.negative);
         self.outputs = dag.outputs.iter().map(output).collect();
         let mut own: Vec<Class> = values.into_iter().flatten().map(|value| value.0).collect();

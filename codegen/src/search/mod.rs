@@ -16,7 +16,7 @@ use crate::dag::{Dag, Folding};
 use crate::program::{Counts, Operation};
 use crate::random::Random;
 pub use effort::{Effort, Limits};
-use egraph::{Classes, Printed};
+use egraph::{Classes, LeafPrints};
 use extract::Extraction;
 pub use extract::Schedule;
 
@@ -69,7 +69,7 @@ pub fn search(
     // What no output needs would only be in the way.
     let others = seeds.iter().chain(helpers);
     let others: Vec<Dag> = others.map(|dag| dag.rebuild(Folding::Syntactic)).collect();
-    let offers: Vec<Printed> = others.iter().map(Printed::new).collect();
+    let offers: Vec<LeafPrints> = others.iter().map(LeafPrints::new).collect();
     let mut best = start.clone();
     let rounds = limits.walks * limits.rounds;
     'walks: for walk in 0..limits.walks {
@@ -110,7 +110,7 @@ pub(crate) fn glance(program: &Dag) -> Dag {
 fn round(
     number: usize,
     program: &Dag,
-    offers: &[Printed],
+    offers: &[LeafPrints],
     limits: &Limits,
     random: &mut Random,
 ) -> Dag {

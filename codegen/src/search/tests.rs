@@ -2,7 +2,7 @@
 
 use egg::Id as Class;
 
-use super::egraph::{Choice, Classes, Printed, Signed, Way, way};
+use super::egraph::{Choice, Classes, LeafPrints, Signed, Way, way};
 use super::extract::{Extraction, Schedule};
 use super::order::Order;
 use super::rules::{self, RULES};
@@ -154,7 +154,7 @@ const SCHEDULE: Schedule = Schedule::hot(2_000);
 fn classes(outputs: &[&str], others: &[&str]) -> (Classes, Choice) {
     let mut classes = Classes::default();
     let (_, choice) = classes.begin(&graph(outputs));
-    classes.absorb(&Printed::new(&graph(others)));
+    classes.absorb(&LeafPrints::new(&graph(others)));
     (classes, choice)
 }
 

@@ -13,12 +13,12 @@ use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Motion, Regrouped, RuntimeParameter, Written};
 
 use super::load::symbols;
-use super::{Form, Seed, Source, Tuned, reader};
+use super::{ChainChoice, Form, Seed, Source, reader};
 use crate::dag::symbol::Symbol;
 use crate::dag::{Builder, Dag, Folding, Leaves};
 use crate::function::{Argument, Quantity};
 use crate::program::{Counts, Input};
-use crate::scalar::{Erase, Erased, restored};
+use crate::scalar::{AnyLeaves, Erase, restored};
 use crate::setup::{Setup, Task};
 
 /// Traces a function by the chain formulas; also the operations as executed.
@@ -81,7 +81,7 @@ pub(crate) fn trace_symbols(
             Some(values) => (rows.clone(), values),
             None => {
                 let gravity = gravity.clone().map(|taken| taken.map(Symbol::erase));
-                let (any, motion) = moving(setup, gravity.as_ref(), &Erased(&leaves));
+                let (any, motion) = moving(setup, gravity.as_ref(), &AnyLeaves(&leaves));
                 let values = quantity.written(&textbook(&any, &any.at(&motion.q), &motion));
                 ((0..whole.q.len()).collect(), restored(values))
             }
@@ -161,7 +161,7 @@ const MAX_SEEDS: usize = 16;
 
 /// Forms that are dear in one choice of axes may be cheap in another, and the search mixes them. If
 /// there are too many, only the cheapest form is told in other axes than the chain's own.
-pub(crate) fn regrouped(task: Task<'_>, forms: &[Form], tuned: &Tuned) -> Vec<Seed> {
+pub(crate) fn regrouped(task: Task<'_>, forms: &[Form], tuned: &ChainChoice) -> Vec<Seed> {
     let mut chain = Chain::new(&skeleton_for(task), &tuned.regrouping);
     let axes = axes(&chain);
     let own = forms.iter().map(|form| (0, *form));

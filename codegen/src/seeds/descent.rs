@@ -8,7 +8,7 @@ use dalembert_model::number::Exact;
 
 use super::chain::{merged, skeleton_for};
 use super::start::Problem;
-use super::tune::{self, Tuned};
+use super::tune::{self, ChainChoice};
 use super::{Form, MAX_QUICK_LINKS};
 use crate::dag::Dag;
 use crate::search::{Effort, cost, glance};
@@ -43,14 +43,14 @@ fn price(graph: &Dag, limit: Option<Limit<'_>>, below: u64) -> u64 {
 }
 
 /// Returns the cheapest regrouping before a search.
-pub(crate) fn tuned(problem: &Problem<'_>, forms: &[Form]) -> Tuned {
+pub(crate) fn tuned(problem: &Problem<'_>, forms: &[Form]) -> ChainChoice {
     tunings(problem, forms).0
 }
 
 /// Returns the regrouping that a descent from base parameters ends at. One link at a time it does
 /// not get to frames whose origins are all beside those of the links that carry them: also returns
 /// where a descent from there ends, if that is cheaper before the search. After it either may be.
-pub(crate) fn tunings(problem: &Problem<'_>, forms: &[Form]) -> (Tuned, Option<Tuned>) {
+pub(crate) fn tunings(problem: &Problem<'_>, forms: &[Form]) -> (ChainChoice, Option<ChainChoice>) {
     let (task, effort, limit) = (problem.task, problem.effort, problem.limit);
     let Task { setup, function } = task;
     let arm = skeleton_for(task);
@@ -113,14 +113,14 @@ pub(crate) fn tunings(problem: &Problem<'_>, forms: &[Form]) -> (Tuned, Option<T
         found.price = quick(&Chain::new(&arm, &found.regrouping), found.form, u64::MAX);
         found
     };
-    let mut tuned: Option<Tuned> = None;
+    let mut tuned: Option<ChainChoice> = None;
     for from in starts {
         let found = descend(from);
         if tuned.as_ref().is_none_or(|best| found.price < best.price) {
             tuned = Some(found);
         }
     }
-    let mut tuned = tuned.unwrap_or(Tuned {
+    let mut tuned = tuned.unwrap_or(ChainChoice {
         regrouping: start,
         form: forms[0],
         price: u64::MAX,
@@ -128,7 +128,7 @@ pub(crate) fn tunings(problem: &Problem<'_>, forms: &[Form]) -> (Tuned, Option<T
     let mut second = beside.map(descend);
     second = second.filter(|second| second.price < tuned.price);
     if effort == Effort::Thorough && arm.links.len() <= MAX_QUICK_LINKS && !is_over() {
-        let finished = |own: Tuned| tune::tune(&arm, own.regrouping, &[own.form], 2, quick);
+        let finished = |own: ChainChoice| tune::tune(&arm, own.regrouping, &[own.form], 2, quick);
         (tuned, second) = (finished(tuned), second.map(finished));
     }
     (tuned, second)

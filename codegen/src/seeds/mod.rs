@@ -18,13 +18,13 @@ use crate::dag::symbol::Symbol;
 use crate::dag::{Builder, Dag, Folding, Node};
 use crate::function::Argument;
 use crate::program::{Counts, Input};
-use crate::scalar::{Erased, restored};
+use crate::scalar::{AnyLeaves, restored};
 use crate::setup::Task;
 pub(crate) use chain::{regrouped, trace_symbols};
 pub use chain::{skeleton, skeleton_for, trace_chain};
 pub(crate) use descent::{Limit, tuned, tunings};
 pub use start::Start;
-pub(crate) use tune::Tuned;
+pub(crate) use tune::ChainChoice;
 
 pub(crate) use dalembert_model::equations::chain::Form;
 
@@ -98,7 +98,7 @@ pub fn trace(task: Task<'_>, formulation: Formulation) -> Seed {
     let given = RuntimeParameter::LOADING.into_iter();
     arguments.extend(given.filter_map(RuntimeParameter::given));
     let leaves = (Symbol::constant, reader(&arguments, &builder));
-    let outputs: Vec<Symbol> = restored(task.textbook(formulation, &Erased(&leaves)));
+    let outputs: Vec<Symbol> = restored(task.textbook(formulation, &AnyLeaves(&leaves)));
     let mut builder = builder.replace(Builder::new(Folding::Syntactic));
     let outputs = outputs.iter().map(|output| output.edge(&mut builder));
     let outputs = outputs.collect();

@@ -11,7 +11,7 @@ const MOST: f64 = 1024.0;
 /// The moments that a link carries, with those of the link itself, as far as a tolerance has left
 /// them there.
 #[derive(Clone, Copy, Debug, Default)]
-struct Carried {
+struct LinkMoments {
     /// The sum of masses, kg.
     mass: f64,
     /// The sum of the first moments of links about their origins, kg·m.
@@ -22,7 +22,7 @@ struct Carried {
     reach: f64,
 }
 
-impl Carried {
+impl LinkMoments {
     /// The sizes of mass, first and second moments about the link's origin.
     fn sizes(&self) -> [f64; 3] {
         let levers = self.mass * self.reach;
@@ -44,7 +44,7 @@ pub(super) struct Sizes(Vec<[f64; 3]>);
 impl Sizes {
     pub(super) fn of(arm: &Skeleton<Exact>) -> Sizes {
         let length = |x: &[f64; 3]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let mut all = vec![Carried::default(); arm.links.len()];
+        let mut all = vec![LinkMoments::default(); arm.links.len()];
         for (i, segment) in arm.links.iter().enumerate().rev() {
             let Body {
                 mass,
@@ -65,7 +65,7 @@ impl Sizes {
                 carrier.reach = carrier.reach.max(away + carried.reach);
             }
         }
-        Sizes(all.iter().map(Carried::sizes).collect())
+        Sizes(all.iter().map(LinkMoments::sizes).collect())
     }
 
     /// Returns false if a link of a chain in metres has larger moments.

@@ -4,7 +4,7 @@ use dalembert_model::equations::Formulation;
 use dalembert_model::equations::chain::{Chain, Regrouping};
 use dalembert_model::number::Exact;
 
-use super::{Form, Limit, Seed, Source, Tuned, regrouped, skeleton_for, trace, tunings};
+use super::{ChainChoice, Form, Limit, Seed, Source, regrouped, skeleton_for, trace, tunings};
 use crate::dag::Dag;
 use crate::function::Function;
 use crate::search::Effort;
@@ -72,7 +72,7 @@ impl Word for Start {
 }
 
 pub(crate) struct Approach {
-    pub tuned: Option<Tuned>,
+    pub tuned: Option<ChainChoice>,
     /// The graphs, of which the cheapest is the first program.
     pub seeds: Vec<Seed>,
     /// Graphs of the function that only offer their values.
@@ -143,7 +143,7 @@ fn by_chain(problem: &Problem<'_>) -> Vec<Approach> {
     let mut forms = function.forms();
     forms.retain(|form| has_shoulder || !form.shoulder);
     let (first, second) = tunings(problem, &forms);
-    let approach = |tuned: Tuned| {
+    let approach = |tuned: ChainChoice| {
         // Seen in other axes the hand has hardly a value in common.
         let like = forms.iter().filter(|form| form.hand == tuned.form.hand);
         let mut seeds = regrouped(task, &like.copied().collect::<Vec<Form>>(), &tuned);

@@ -24,7 +24,7 @@ const MAX_TERMS: usize = 100;
 const MAX_TUNED: usize = 64;
 
 #[derive(Clone, Debug)]
-pub struct Tuned {
+pub struct ChainChoice {
     pub regrouping: Regrouping<Exact>,
     /// The cheapest form in it.
     pub form: Form,
@@ -92,13 +92,13 @@ pub(crate) fn tune(
     forms: &[Form],
     rounds: usize,
     price: impl Fn(&Chain<Exact>, Form, u64) -> u64,
-) -> Tuned {
+) -> ChainChoice {
     let mut descent = Descent {
         arm,
         sizes: Sizes::of(arm),
         price,
         metric: MetricChain::new(arm, &from),
-        best: Tuned {
+        best: ChainChoice {
             regrouping: from,
             form: forms[0],
             price: u64::MAX,
@@ -125,7 +125,7 @@ struct Descent<'a, P> {
     arm: &'a Skeleton<Exact>,
     sizes: Sizes,
     price: P,
-    best: Tuned,
+    best: ChainChoice,
     /// The chain in the best regrouping.
     metric: MetricChain<Exact>,
 }

@@ -29,7 +29,7 @@ mod task;
 use std::sync::OnceLock;
 
 use dalembert_model::equations::chain::Body;
-use dalembert_model::equations::following::Following;
+use dalembert_model::equations::following::FollowerLine;
 use dalembert_model::equations::regressor::{Column, of_links};
 use dalembert_model::equations::{JointPosition, SinCosPair, base_position};
 use dalembert_model::number::Exact;
@@ -42,7 +42,7 @@ use base::BaseParameters;
 pub(crate) use key::ParametersKey;
 pub use key::{SceneKey, input_hash};
 use load::LoadParameters;
-pub use task::{Posed, Task};
+pub use task::{Task, TaskArm};
 
 use crate::function::{Argument, Function, Quantity};
 use crate::program::Input;
@@ -306,8 +306,8 @@ impl Setup {
     }
 
     /// Returns the joints that follow others, multipliers sent through `scalar`.
-    pub fn following<S>(&self, mut scalar: impl FnMut(&Exact) -> S) -> Vec<Following<S>> {
-        Following::of(&self.robot, &mut scalar)
+    pub fn following<S>(&self, mut scalar: impl FnMut(&Exact) -> S) -> Vec<FollowerLine<S>> {
+        FollowerLine::of(&self.robot, &mut scalar)
     }
 
     /// Returns the rows of the arm that a chain needs: those of a base that floats, of its joints, and
@@ -487,7 +487,7 @@ impl Setup {
         quantity: Quantity,
         sizes: Sizes,
         rows: &[usize],
-        following: &[Following<S>],
+        following: &[FollowerLine<S>],
         values: Vec<S>,
     ) -> Vec<S> {
         let own: Vec<usize> = self.rows.iter().map(|&own| self.arm_row(own)).collect();

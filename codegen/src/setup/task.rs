@@ -1,7 +1,7 @@
 //! A function of a robot in its scene: its formula in any scalar, with the arm and the motion that
 //! it takes, and its program.
 
-use dalembert_model::equations::load::{BODY, Loading, carried};
+use dalembert_model::equations::load::{BODY, LoadArguments, carried};
 use dalembert_model::equations::matrix::{Columns, opposite, transposed};
 use dalembert_model::equations::regressor::Column;
 use dalembert_model::equations::{Arm, DhVariables, Formulation, Link, exact_pose};
@@ -25,7 +25,7 @@ pub struct Task<'a> {
 
 /// The arm and motion that a formula is evaluated with.
 #[derive(Clone, Debug)]
-pub struct Posed<'a, S> {
+pub struct TaskArm<'a, S> {
     task: Task<'a>,
     /// The arm: gravity, bodies and drives as the arguments say, and the payload on the last link, where
     /// the function takes them.
@@ -62,12 +62,12 @@ impl<'a> Task<'a> {
     }
 
     /// Returns the scene's arm and its motion as the function takes them.
-    pub fn posed<L: Leaves>(&self, leaves: &L) -> Posed<'a, L::Value> {
+    pub fn posed<L: Leaves>(&self, leaves: &L) -> TaskArm<'a, L::Value> {
         self.posed_arm(self.setup.arm(|constant| leaves.constant(constant)), leaves)
     }
 
     /// Returns the arm and its motion as the function takes them, from the scene's arm in the scalar.
-    pub fn posed_arm<L: Leaves>(&self, arm: Arm<L::Value>, leaves: &L) -> Posed<'a, L::Value> {
+    pub fn posed_arm<L: Leaves>(&self, arm: Arm<L::Value>, leaves: &L) -> TaskArm<'a, L::Value> {
         let constant = |constant: &Exact| leaves.constant(constant);
         let columns = self.setup.columns(self.function, constant);
         self.posed_over(arm, leaves, columns)
@@ -78,7 +78,7 @@ impl<'a> Task<'a> {
         mut arm: Arm<L::Value>,
         leaves: &L,
         columns: Vec<Column<L::Value>>,
-    ) -> Posed<'a, L::Value> {
+    ) -> TaskArm<'a, L::Value> {
         let Task { setup, function } = *self;
         let (input, constant) = (
             |input| leaves.input(input),
@@ -107,7 +107,7 @@ impl<'a> Task<'a> {
                 rows.push(rows.len());
             }
         }
-        Posed {
+        TaskArm {
             task: *self,
             arm,
             motion,
@@ -135,7 +135,7 @@ impl Setup {
         &self,
         mut input: impl FnMut(Input) -> S,
         mut constant: impl FnMut(&Exact) -> S,
-    ) -> Loading<S> {
+    ) -> LoadArguments<S> {
         let rows = self.load().map_or(&[][..], |load| &load.rows);
         let rows = rows.iter().map(|row| row.map(&mut constant)).collect();
         let mut bodies = self.given_bodies(&mut input, &mut constant);
@@ -144,7 +144,7 @@ impl Setup {
             .drives()
             .map(|(argument, place)| input(Input::Entry(argument, place)));
         let drives = drives.collect();
-        Loading::new(&bodies, drives, rows)
+        LoadArguments::new(&bodies, drives, rows)
     }
 
     /// Returns the bodies that are arguments, each in the frame of its row.
@@ -274,7 +274,7 @@ fn numbers<S>(argument: Argument, from: usize, mut input: impl FnMut(Input) -> S
     (from..from + BODY).map(entry).collect()
 }
 
-impl<S: Divide> Posed<'_, S> {
+impl<S: Divide> TaskArm<'_, S> {
     fn written<'p>(
         &'p self,
         formulation: Formulation,

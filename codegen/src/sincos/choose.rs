@@ -6,7 +6,7 @@ use super::forms::{Centre, Form};
 use super::proof::{Errors, prove};
 use super::series::Fit;
 use crate::program::ScalarType;
-use crate::program::kernel::{Kernel, Need};
+use crate::program::kernel::{Kernel, SinCosUse};
 use crate::sincos::interval::Interval;
 use crate::sincos::reduction;
 
@@ -31,7 +31,7 @@ const HOPE: f64 = 0.2;
 /// Forms to try, from cheap to dear.
 #[derive(Clone, Debug)]
 pub struct Candidates {
-    need: Need,
+    need: SinCosUse,
     scalar: ScalarType,
     range: Interval,
     fits: Vec<Fit>,
@@ -40,7 +40,7 @@ pub struct Candidates {
 }
 
 impl Candidates {
-    pub fn new(need: Need, scalar: ScalarType, range: Interval) -> Candidates {
+    pub fn new(need: SinCosUse, scalar: ScalarType, range: Interval) -> Candidates {
         let mut candidates = Candidates {
             need,
             scalar,

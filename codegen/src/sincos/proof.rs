@@ -21,7 +21,7 @@ use super::poly::Poly;
 use super::reduction;
 use super::series::{FARTHEST, Taylor, Wave};
 use crate::dag::{Edge, Node};
-use crate::program::kernel::{Kernel, Need};
+use crate::program::kernel::{Kernel, SinCosUse};
 use crate::program::scalar_type::underflow;
 use crate::program::{Operation, ScalarType};
 
@@ -37,7 +37,7 @@ impl Errors {
         self.sin.max(self.cos)
     }
 
-    fn and(self, other: Errors, need: Need) -> Errors {
+    fn and(self, other: Errors, need: SinCosUse) -> Errors {
         let sum = |is_wanted: bool, own: f64, other: f64| match is_wanted {
             true => (own + other).next_up(),
             false => 0.0,

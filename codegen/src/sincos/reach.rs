@@ -5,14 +5,14 @@ use std::fmt;
 
 use super::choose::Candidates;
 use crate::figures::{above, bound_of};
-use crate::program::{Need, ScalarType};
+use crate::program::{ScalarType, SinCosUse};
 use crate::sincos::interval::Interval;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct OutOfReach {
     pub(super) scalar: ScalarType,
     pub(super) joint: usize,
-    pub(super) need: Need,
+    pub(super) need: SinCosUse,
     pub(super) range: Interval,
     pub(crate) wanted: f64,
     /// The least error that is proved; infinite if no polynomial is known.

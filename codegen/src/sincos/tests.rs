@@ -5,13 +5,13 @@ use super::proof::prove;
 use super::*;
 use crate::dag::{Edge, Id, Node};
 use crate::program::Literal;
-use crate::program::kernel::{Kernel, KernelWriter, Need};
+use crate::program::kernel::{Kernel, KernelWriter, SinCosUse};
 use crate::random::Random;
 
-const BOTH: Need = Need::BOTH;
+const BOTH: SinCosUse = SinCosUse::BOTH;
 
 pub(super) fn alone(kernel: KernelWriter, node: Id) -> Kernel {
-    let need = Need {
+    let need = SinCosUse {
         sin: true,
         cos: false,
     };
@@ -46,7 +46,7 @@ fn range(low: f64, high: f64) -> Interval {
     Interval::new(low, high).unwrap()
 }
 
-fn cheapest(need: Need, scalar: ScalarType, over: Interval, error: f64) -> Choice {
+fn cheapest(need: SinCosUse, scalar: ScalarType, over: Interval, error: f64) -> Choice {
     let choice = Candidates::new(need, scalar, over).cheapest(error);
     choice.filter(|c| c.errors.worst() <= error).unwrap()
 }
@@ -114,7 +114,7 @@ fn operations_follow_from_error_and_range() {
     assert!(cost(BOTH, -PI, PI, 1e-4) <= 16);
     assert!(cost(BOTH, 0.1, 2.6, 1e-8) <= 20);
     assert!(cost(BOTH, -0.3, 0.3, 1e-8) <= 12);
-    let only = |sin| Need { sin, cos: !sin };
+    let only = |sin| SinCosUse { sin, cos: !sin };
     assert!(cost(only(true), -PI, PI, 1e-8) < cost(BOTH, -PI, PI, 1e-8));
     assert!(cost(only(false), -1.0, 1.0, 1e-8) < cost(BOTH, -1.0, 1.0, 1e-8));
     let reduced = cost(BOTH, -100.0, 100.0, 1e-8) - cost(BOTH, -PI, PI, 1e-8);

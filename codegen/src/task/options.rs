@@ -116,7 +116,7 @@ fn name(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
     if !item.starts_with(|c: char| c.is_ascii_alphabetic()) || !item.chars().all(plain) {
         let help = "letters, digits and `_`, a letter first";
-        return Err(Complaint::new(format!("`{item}` is no name"), help));
+        return Err(Complaint::new(format!("`{item}` is not a name"), help));
     }
     draft.request.module = Some(item.to_owned());
     Ok(())

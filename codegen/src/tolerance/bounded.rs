@@ -35,7 +35,7 @@ pub(super) fn bounded(
         let shown = lines.map(|line| Ok((line.result?, line.name)));
         let shown = shown.collect::<Result<Vec<_>, Fault>>()?;
         let found = shown.into_iter().find(|own| own.1 == name);
-        let none = || Fault::Claim("there is no function".into());
+        let none = || Fault::Claim("the function is not in the file".into());
         Ok(found.ok_or_else(none)?.0)
     });
     let found = found.map_err(|fault| above(own, &fault))?;

@@ -14,7 +14,7 @@ use super::reference::Reference;
 use super::refusals::{ToleranceError, unbounded_by};
 use super::search::{self, SearchEffort, Target};
 use super::sines::{self, Slopes};
-use super::variant::{Admitted, Variant};
+use super::variant::{Variant, VariantSet};
 use super::work::Meter;
 use super::{scale, shape};
 use crate::function::Argument;
@@ -58,7 +58,7 @@ pub struct Budget<'a> {
 }
 
 /// The tolerance of each result, relative to T.
-pub struct Allowed {
+pub struct Tolerances {
     each: Vec<f64>,
     /// The tolerance of all, if it is not the scene's.
     one: Option<f64>,
@@ -117,16 +117,16 @@ impl<'a> Budget<'a> {
     }
 
     /// Returns the tolerance of each result by a scene's.
-    pub fn allowed(&self, tolerance: &Tolerance) -> Allowed {
-        Allowed {
+    pub fn allowed(&self, tolerance: &Tolerance) -> Tolerances {
+        Tolerances {
             each: scale::tolerances(self.exact, tolerance),
             one: None,
         }
     }
 
     /// Returns one tolerance for all results.
-    pub fn all_allowed(&self, tolerance: f64) -> Allowed {
-        Allowed {
+    pub fn all_allowed(&self, tolerance: f64) -> Tolerances {
+        Tolerances {
             each: vec![tolerance; self.scales.len()],
             one: Some(tolerance),
         }
@@ -153,7 +153,7 @@ impl<'a> Budget<'a> {
         program: &Program,
         scalar: ScalarType,
         sines: &[AngleKernel],
-        allowed: &Allowed,
+        allowed: &Tolerances,
     ) -> Result<Variant, ToleranceError> {
         let emitted = match self.is_fused {
             true => program.fused(),
@@ -210,11 +210,11 @@ impl<'a> Budget<'a> {
         &self,
         program: &Program,
         scalars: &[ScalarType],
-        allowed: &Allowed,
-    ) -> Result<Admitted, ToleranceError> {
+        allowed: &Tolerances,
+    ) -> Result<VariantSet, ToleranceError> {
         let variants = scalars.iter();
         let variants = variants.map(|&scalar| self.shown(program, scalar, &[], allowed));
-        Ok(Admitted {
+        Ok(VariantSet {
             variants: variants.collect::<Result<_, _>>()?,
             exact: self.exact.clone(),
             program: program.clone(),
@@ -229,8 +229,8 @@ impl<'a> Budget<'a> {
     pub fn unedited(
         &self,
         scalars: &[ScalarType],
-        allowed: &Allowed,
-    ) -> Result<Admitted, ToleranceError> {
+        allowed: &Tolerances,
+    ) -> Result<VariantSet, ToleranceError> {
         self.definite()?;
         self.admitted(self.exact, scalars, allowed)
     }
@@ -243,8 +243,8 @@ impl<'a> Budget<'a> {
         &self,
         program: &Program,
         scalars: &[ScalarType],
-        allowed: &Allowed,
-    ) -> Result<Result<Admitted, ToleranceError>, Complaint> {
+        allowed: &Tolerances,
+    ) -> Result<Result<VariantSet, ToleranceError>, Complaint> {
         shape::check(self.setup, program, self.exact)?;
         Ok(self.admitted(program, scalars, allowed))
     }
@@ -258,11 +258,11 @@ impl<'a> Budget<'a> {
     pub fn choose(
         &self,
         from: &[Program],
-        exact: Admitted,
-        allowed: &Allowed,
+        exact: VariantSet,
+        allowed: &Tolerances,
         effort: &SearchEffort,
         watch: FunctionWatch<'_>,
-    ) -> Result<Admitted, ToleranceError> {
+    ) -> Result<VariantSet, ToleranceError> {
         let meter = Meter::new(effort.work);
         let scalars: Vec<ScalarType> = exact.variants.iter().map(|own| own.scalar).collect();
         let allowances = self.allowances(&exact, allowed);
@@ -306,7 +306,7 @@ impl<'a> Budget<'a> {
         &self,
         program: &Program,
         variant: &Variant,
-        allowed: &Allowed,
+        allowed: &Tolerances,
     ) -> Result<Variant, Complaint> {
         if program.trig().is_empty() {
             return Ok(variant.clone());
@@ -343,7 +343,7 @@ impl<'a> Budget<'a> {
     }
 
     /// Returns the error in real numbers that each result may have, in its unit.
-    fn allowances(&self, exact: &Admitted, allowed: &Allowed) -> Vec<f64> {
+    fn allowances(&self, exact: &VariantSet, allowed: &Tolerances) -> Vec<f64> {
         let left = |index: usize| {
             let each = exact.variants.iter().map(|own| {
                 let rest =

@@ -1,11 +1,11 @@
 //! The document about a variant, with which the checker compares its text.
 
-use dalembert_checker::claim::{Claim, Claimed, Tolerated};
+use dalembert_checker::claim::{Claim, FunctionClaim, ToleranceClaim};
 use dalembert_model::robot::{Placement, Robot, write};
 use dalembert_model::scene::{self, Scene};
 
 use super::variant::Variant;
-use crate::claim::{Written, code, of_setup};
+use crate::claim::{ConstantTable, code, of_setup};
 use crate::function::Argument;
 use crate::setup::Setup;
 
@@ -22,11 +22,11 @@ pub(super) fn claim_in(
     scene: Option<&Scene>,
     own: &Variant,
 ) -> Claim {
-    let mut constants = Written::default();
+    let mut constants = ConstantTable::default();
     let load = own.load.iter();
     let load = load.map(|load| of_setup(load, setup, &mut constants));
-    let mut functions: Vec<Claimed> = load.collect();
-    functions.push(Claimed {
+    let mut functions: Vec<FunctionClaim> = load.collect();
+    functions.push(FunctionClaim {
         tolerated: tolerated(own, &mut constants),
         ..of_setup(&own.emitted, setup, &mut constants)
     });
@@ -37,8 +37,8 @@ pub(crate) fn document(
     robot: &Robot,
     source: &str,
     scene: Option<&Scene>,
-    functions: Vec<Claimed>,
-    constants: Written,
+    functions: Vec<FunctionClaim>,
+    constants: ConstantTable,
 ) -> Claim {
     let is_tilted = |own: &Placement| own.rpy.iter().any(|own| own.quarter_turns().is_none());
     let scene = scene.filter(|_| robot.payload_frame.as_ref().is_some_and(is_tilted));
@@ -58,7 +58,7 @@ pub(crate) fn document(
     }
 }
 
-pub(crate) fn tolerated(first: &Variant, constants: &mut Written) -> Option<Tolerated> {
+pub(crate) fn tolerated(first: &Variant, constants: &mut ConstantTable) -> Option<ToleranceClaim> {
     let program = &first.emitted;
     let exact = Some(&first.exact).filter(|exact| *exact != program);
     let [steps, returns] = exact.map_or_else(Default::default, |own| code(own, constants));
@@ -71,7 +71,7 @@ pub(crate) fn tolerated(first: &Variant, constants: &mut Written) -> Option<Tole
         let given = given.flat_map(|own| at.entries(*own)).chain(point);
         given.copied().collect()
     });
-    Some(Tolerated {
+    Some(ToleranceClaim {
         steps,
         returns,
         relative_to: first.relative_to.word().to_owned(),

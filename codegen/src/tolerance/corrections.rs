@@ -44,12 +44,12 @@ pub(super) struct Frame {
     reached: Vec<Vec<usize>>,
     pub(super) weights: Vec<f64>,
     /// For ranking, and for corrections.
-    pub(super) coarse: Sketched,
-    pub(super) fine: Sketched,
+    pub(super) coarse: ColumnSketch,
+    pub(super) fine: ColumnSketch,
 }
 
 /// Columns put together into so many rows, and the normal equations of their least squares.
-pub(super) struct Sketched {
+pub(super) struct ColumnSketch {
     pub(super) size: usize,
     columns: Vec<Vec<f64>>,
     factor: Factor,
@@ -156,7 +156,7 @@ impl Greedy<'_> {
             let sketched = each.map(|column| self.sketch(column, &weights, size));
             let columns: Vec<Vec<f64>> = sketched.collect();
             let factor = normal(&columns, &unknowns);
-            Sketched {
+            ColumnSketch {
                 size,
                 inverse: factor.inverse(),
                 columns,
@@ -191,7 +191,7 @@ impl Greedy<'_> {
     }
 
     /// Returns the sum of squares of sketched errors that constants leave.
-    pub(super) fn squares(own: &Sketched, rows: &[f64], gone: &[usize]) -> f64 {
+    pub(super) fn squares(own: &ColumnSketch, rows: &[f64], gone: &[usize]) -> f64 {
         let right = own.columns.iter().map(|column| dot(column, rows));
         let right: Vec<f64> = right.collect();
         let left = gone.iter().map(|&k| dot(&own.inverse[k], &right));

@@ -8,9 +8,9 @@ use dalembert_model::robot::write;
 use dalembert_model::scene::{self, Scene};
 
 use super::search::PARTS;
-use super::turning::Turning;
+use super::turning::AxisLosses;
 use super::{definite, work};
-use crate::claim::{Written, claimed};
+use crate::claim::{ConstantTable, claimed};
 use crate::function::Argument;
 use crate::program::{Program, has_inertia};
 use crate::setup::Setup;
@@ -29,7 +29,7 @@ pub(crate) struct Reference {
     /// The exact program, if it has D.
     inertia: Option<Program>,
     is_shown: OnceLock<bool>,
-    turning: Option<Turning>,
+    turning: Option<AxisLosses>,
 }
 
 /// The engine's finding about a program.
@@ -67,7 +67,7 @@ pub(super) fn read(
 ) -> Result<dalembert_checker::program::Program<dalembert_checker::identity::exact::Exact>, Complaint>
 {
     let refused = |fault: dalembert_checker::Fault| complaint(fault.to_string());
-    let mut constants = Written::default();
+    let mut constants = ConstantTable::default();
     let own = claimed(program, None, &mut constants);
     let document = constants.document(Vec::new());
     let constants = document.constants(&Default::default()).map_err(refused)?;
@@ -93,7 +93,7 @@ impl Reference {
             exact,
             inertia,
             is_shown: OnceLock::new(),
-            turning: Turning::new(setup.robot()),
+            turning: AxisLosses::new(setup.robot()),
         })
     }
 

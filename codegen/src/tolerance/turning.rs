@@ -19,7 +19,7 @@ use super::definite::eliminated;
 /// The loss of moments and sums that are rounded, many times over.
 const SLACK: f64 = 1.0 - 1e-9;
 
-pub(super) struct Turning {
+pub(super) struct AxisLosses {
     kinds: Vec<JointKind>,
     moments: Vec<f64>,
     armatures: Vec<f64>,
@@ -29,9 +29,9 @@ pub(super) struct Turning {
     base: Option<[f64; 3]>,
 }
 
-impl Turning {
+impl AxisLosses {
     /// Returns none if a mass or a moment is negative, or if joints follow others.
-    pub(super) fn new(robot: &Robot) -> Option<Turning> {
+    pub(super) fn new(robot: &Robot) -> Option<AxisLosses> {
         let is_body = |joint: &Joint| {
             let defect = joint.inertia.defect(&joint.mass);
             defect != Some(Defect::NegativeMoment) && !joint.mass.is_negative()
@@ -49,7 +49,7 @@ impl Turning {
                 away,
             ]
         };
-        (are_bodies && robot.followers.is_empty()).then(|| Turning {
+        (are_bodies && robot.followers.is_empty()).then(|| AxisLosses {
             kinds: joints().map(|joint| joint.kind).collect(),
             moments: joints().map(least_moment).collect(),
             armatures: joints().map(armature).collect(),
@@ -161,7 +161,7 @@ mod tests {
         let joint = "[[joint]]\nkind = \"revolute\"\nmass = 1\ncom = [0, 0, 0]\n\
             inertia = [0.3, 0.3, 0.3, 0, 0, 0]\n";
         let robot = parse(&format!("{head}{joint}{joint}")).unwrap().robot;
-        let turning = Turning::new(&robot).unwrap();
+        let turning = AxisLosses::new(&robot).unwrap();
         let all = |most: f64| move |_, _| most;
         assert!(turning.bears(&[0, 1], all(0.0)) && turning.bears(&[0, 1], all(0.02)));
         assert!(!turning.bears(&[0, 1], all(0.07)) && turning.bears(&[1], all(0.1)));

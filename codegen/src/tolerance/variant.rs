@@ -128,7 +128,7 @@ impl Variant {
 
 /// The variants of a function that meet their tolerance.
 #[derive(Clone, Debug)]
-pub struct Admitted {
+pub struct VariantSet {
     /// The exact program.
     pub exact: Program,
     /// The program to emit, before its products are fused.
@@ -137,7 +137,7 @@ pub struct Admitted {
     pub variants: Vec<Variant>,
 }
 
-impl Admitted {
+impl VariantSet {
     /// Returns true if it is another function than the exact program.
     pub fn is_other(&self) -> bool {
         self.exact != self.program && prove_same(&self.exact, &self.program).is_err()

@@ -24,7 +24,7 @@ const MAX_WRITTEN: usize = 7;
 
 /// A program with fewer operations than the one taken, and a larger error than is allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Refused {
+pub struct RefusedProgram {
     pub counts: Counts,
     /// Its estimated normwise error, in units of u.
     pub error: f64,

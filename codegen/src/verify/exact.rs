@@ -29,7 +29,7 @@ use super::points::{Degrees, Point, Residue, integers, points, written};
 use crate::dag::Leaves;
 use crate::function::{Argument, Function};
 use crate::program::{Input, Program};
-use crate::scalar::{Erased, restored};
+use crate::scalar::{AnyLeaves, restored};
 use crate::setup::Setup;
 use dalembert_model::number::Exact;
 
@@ -124,13 +124,13 @@ pub fn prove(setup: &Setup, program: &Program) -> Result<Proof, Disproof> {
     let task = setup.task(function);
     let degrees = Degrees::default();
     let own = run(Some(setup), program, &degrees).ok_or(Disproof::Shape)?;
-    let others = task.textbook(formulation, &Erased(&degrees));
+    let others = task.textbook(formulation, &AnyLeaves(&degrees));
     let points = degrees.points(&own, &restored(others), program.joints)?;
     compare(
         points,
         &["program", &written(setup), &format!("{program:?}")],
         |point| {
-            let posed = task.posed(&Erased(point));
+            let posed = task.posed(&AnyLeaves(point));
             let all = posed.all(formulation);
             let residuals = function.residual(formulation, &posed.arm, &posed.motion, &all);
             match integers(&restored(residuals)) {

@@ -16,7 +16,7 @@ use crate::program::machine::Machine;
 use crate::program::{Code, Input, Literal, Pair, ScalarType};
 use crate::scalar::AnyScalar::Double;
 use crate::scalar::{AnyValue, Case};
-use crate::setup::{Posed, Setup};
+use crate::setup::{Setup, TaskArm};
 use crate::states::JointState;
 
 /// A seeded state counts relative to at least this part of the largest
@@ -25,7 +25,7 @@ use crate::states::JointState;
 pub const LEAST_PART: f64 = 1.0 / 16.0;
 
 #[derive(Clone, Debug)]
-pub struct Emitted {
+pub struct RunnableCode {
     pub function: Function,
     pub scalar: ScalarType,
     pub sizes: Sizes,
@@ -37,9 +37,9 @@ pub struct Emitted {
 /// joints are taken out and excuse nothing; for what inverts a matrix over components of the hand's
 /// velocity, the condition of this as it stands, since its entries are added to one λ².
 #[derive(Clone, Debug)]
-pub struct Granted(Vec<(Quantity, f64)>);
+pub struct ConditionAllowance(Vec<(Quantity, f64)>);
 
-impl Granted {
+impl ConditionAllowance {
     /// Returns the condition of a quantity: what else is in a function inverts nothing.
     pub fn factor(&self, quantity: Quantity) -> f64 {
         let own = self.0.iter().find(|(own, _)| *own == quantity);
@@ -74,10 +74,10 @@ impl Runtime {
     }
 
     /// Returns the factors by which a function's results may err more than others at a state.
-    pub fn granted(&self, function: Function, state: &JointState) -> Granted {
+    pub fn granted(&self, function: Function, state: &JointState) -> ConditionAllowance {
         let inverts = |own: &Quantity| own.facts().inverts_inertia || own.is_of_frame();
         if !function.quantities().iter().any(inverts) {
-            return Granted(Vec::new());
+            return ConditionAllowance(Vec::new());
         }
         let posed = self.posed(function, state);
         let (arm, motion) = (&posed.arm, &posed.motion);
@@ -92,10 +92,10 @@ impl Runtime {
             let inverts = quantity.facts().inverts_inertia;
             (quantity, if inverts { of_inertia * own } else { own })
         });
-        Granted(factors.collect())
+        ConditionAllowance(factors.collect())
     }
 
-    fn posed(&self, function: Function, state: &JointState) -> Posed<'_, AnyValue> {
+    fn posed(&self, function: Function, state: &JointState) -> TaskArm<'_, AnyValue> {
         let input = |input: Input| Sparse::Value(Double(self.setup.input_at(input, state)));
         let mut quantities = function.quantities().iter();
         let is_whole = quantities.any(|quantity| quantity.facts().depends_on_base);
@@ -120,15 +120,15 @@ fn floats(values: &[AnyValue]) -> Vec<f64> {
     values.map(|value| value.unwrap_or(f64::NAN)).collect()
 }
 
-impl Emitted {
+impl RunnableCode {
     /// Returns the results at a state, flat, as doubles that hold them exactly.
     pub fn run(&self, state: &JointState) -> Vec<f64> {
         self.text.run_at(state)
     }
 
     #[must_use]
-    pub fn with_libm(&self) -> Emitted {
-        Emitted {
+    pub fn with_libm(&self) -> RunnableCode {
+        RunnableCode {
             text: self.text.with_libm(),
             ..*self
         }

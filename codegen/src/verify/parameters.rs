@@ -18,7 +18,7 @@ use super::exact::{Disproof, compare, reference_formulation};
 use super::points::{Degrees, Residue, written};
 use crate::dag::Leaves;
 use crate::function::{Columns, Quantity};
-use crate::scalar::{Erase, Erased, restored};
+use crate::scalar::{AnyLeaves, Erase, restored};
 use crate::setup::Task;
 use crate::setup::base::{BaseParameters, Parameter};
 
@@ -80,7 +80,7 @@ impl Statement<'_> {
     where
         L::Value: Erase,
     {
-        let leaves = &Erased(leaves);
+        let leaves = &AnyLeaves(leaves);
         let setup = self.task.setup;
         let by = reference_formulation(setup);
         let posed = self.task.posed(leaves);

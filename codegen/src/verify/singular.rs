@@ -10,7 +10,7 @@ use dalembert_model::scalar::Divide;
 
 use super::exact::reference_formulation;
 use super::points::{POINTS, Point, points, written};
-use crate::scalar::Erased;
+use crate::scalar::AnyLeaves;
 use crate::setup::Task;
 
 /// The joint nearest to the hand; none if D has an inverse almost everywhere.
@@ -25,7 +25,7 @@ pub(crate) fn without_inertia(task: Task<'_>) -> Option<usize> {
 
 /// Counts from the hand inward; the outer option is none at a point without values.
 fn zero_pivot(task: Task<'_>, point: &Point) -> Option<Option<usize>> {
-    let posed = task.posed(&Erased(point));
+    let posed = task.posed(&AnyLeaves(point));
     let (arm, motion) = (&posed.arm, &posed.motion);
     let free = free(&motion.moves);
     let d = reference_formulation(task.setup).gathered_inertia(arm, &arm.at(&motion.q));

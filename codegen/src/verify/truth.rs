@@ -18,7 +18,7 @@ use crate::dag::Leaves;
 use crate::function::{Argument, Function};
 use crate::program::{Input, Program};
 use crate::scalar::true_value::TrueValue;
-use crate::scalar::{AnyValue, Erase, Erased, restored};
+use crate::scalar::{AnyLeaves, AnyValue, Erase, restored};
 use crate::setup::Setup;
 use crate::states::JointState;
 
@@ -50,7 +50,7 @@ impl Reference {
     pub fn run(&self, function: Function, state: &JointState) -> Vec<TrueValue> {
         let task = self.setup.task(function);
         let leaves = self.leaves(state);
-        let posed = task.posed_arm(self.arm.clone(), &Erased(&leaves));
+        let posed = task.posed_arm(self.arm.clone(), &AnyLeaves(&leaves));
         restored(posed.results(Formulation::NewtonEulerLink))
     }
 

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use dalembert_codegen::workspace::{Argument, Emitted, JointState, Names, Random};
-use dalembert_codegen::{Function, Generated, Language, ScalarType};
+use dalembert_codegen::workspace::{Argument, JointState, Names, Random, RunnableCode};
+use dalembert_codegen::{Function, GeneratedCode, Language, ScalarType};
 
 use super::Case;
 
@@ -54,7 +54,7 @@ pub fn run<'a>(program: &str, flags: impl IntoIterator<Item = &'a str>, folder: 
     said
 }
 
-fn call(case: &Case, generated: &Generated, emitted: &Emitted) -> String {
+fn call(case: &Case, generated: &GeneratedCode, emitted: &RunnableCode) -> String {
     let (function, batch) = (emitted.function, case.request.batch);
     let float = match emitted.scalar {
         ScalarType::F64 => "double",
@@ -111,7 +111,7 @@ fn call(case: &Case, generated: &Generated, emitted: &Emitted) -> String {
     format!("{{\n{body}{threads}{returned}{name}({passed});\n{results}}}\n")
 }
 
-fn main_of(case: &Case, generated: &Generated) -> String {
+fn main_of(case: &Case, generated: &GeneratedCode) -> String {
     let all = &generated.emitted;
     let calls: String = all.iter().map(|own| call(case, generated, own)).collect();
     let outputs = all.iter().map(|own| own.text.dag.outputs.len());
@@ -138,7 +138,7 @@ fn states() -> impl Iterator<Item = Vec<f64>> {
     std::iter::repeat_with(move || (0..Argument::COUNT * MOST).map(|_| next()).collect())
 }
 
-fn expected(generated: &Generated, state: &[f64]) -> Vec<u64> {
+fn expected(generated: &GeneratedCode, state: &[f64]) -> Vec<u64> {
     let mut all = Vec::new();
     for emitted in &generated.emitted {
         let state = JointState::new(|argument| {

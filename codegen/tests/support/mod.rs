@@ -12,10 +12,10 @@ use std::path::{Path, PathBuf};
 use std::sync::{LazyLock, Mutex};
 
 use dalembert_codegen::workspace::{
-    Emitted, Granted, JointState, LEAST_PART, Runtime, keep, parse,
+    ConditionAllowance, JointState, LEAST_PART, RunnableCode, Runtime, keep, parse,
 };
 use dalembert_codegen::{
-    Function, Generated, GeneratedFunction, Language, Plan, Request, ScalarType, generate,
+    Function, GeneratedCode, GeneratedFunction, Language, Plan, Request, ScalarType, generate,
 };
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
@@ -281,7 +281,7 @@ impl Case {
     }
 
     /// The programs of a request are searched for once for all tests, in whatever language it is.
-    pub fn generated(&self) -> Generated {
+    pub fn generated(&self) -> GeneratedCode {
         static FOUND: LazyLock<Mutex<BTreeMap<String, Plan>>> = LazyLock::new(Mutex::default);
         let robot = self.robot();
         let searched = Request {
@@ -303,11 +303,11 @@ impl Case {
         generated
     }
 
-    pub fn searched(&self) -> Generated {
+    pub fn searched(&self) -> GeneratedCode {
         generate(self.robot(), &self.request).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    pub fn by(&self, plan: &Plan) -> Generated {
+    pub fn by(&self, plan: &Plan) -> GeneratedCode {
         let mut request = self.request.clone();
         request.plan = Some(plan.clone());
         generate(self.robot(), &request).unwrap_or_else(|error| panic!("{error}"))
@@ -334,7 +334,7 @@ impl Case {
     }
 
     #[track_caller]
-    pub fn rounds_well(&self, count: usize, what: &str) -> Generated {
+    pub fn rounds_well(&self, count: usize, what: &str) -> GeneratedCode {
         let (generated, (runtime, states)) = (self.generated(), self.runtime(count, 11));
         rounds_well(&generated, &runtime, &states, what);
         generated
@@ -343,7 +343,7 @@ impl Case {
 
 /// Something errs, or nothing was run.
 #[track_caller]
-pub fn rounds_well(own: &Generated, runtime: &Runtime, states: &[JointState], what: &str) {
+pub fn rounds_well(own: &GeneratedCode, runtime: &Runtime, states: &[JointState], what: &str) {
     assert!(!own.emitted.is_empty(), "{what}");
     for own in &own.emitted {
         let compared = with_runtime(own, runtime, states);
@@ -355,11 +355,11 @@ pub fn rounds_well(own: &Generated, runtime: &Runtime, states: &[JointState], wh
 }
 
 /// Results of code at a state, the expected ones, and what is granted to the quantities.
-pub type Compared = (Vec<f64>, Vec<f64>, Granted);
+pub type Compared = (Vec<f64>, Vec<f64>, ConditionAllowance);
 
 /// Sines are libm's on both sides: how far polynomials are from them is measured apart. A result
 /// that was proved to vanish is compared with zero, not with rounding noise.
-pub fn with_runtime(own: &Emitted, runtime: &Runtime, states: &[JointState]) -> Vec<Compared> {
+pub fn with_runtime(own: &RunnableCode, runtime: &Runtime, states: &[JointState]) -> Vec<Compared> {
     let own = own.with_libm();
     let compared = states.iter().map(|state| {
         let state = state.in_scalar(own.scalar);
@@ -374,7 +374,7 @@ pub fn with_runtime(own: &Emitted, runtime: &Runtime, states: &[JointState]) -> 
 
 /// Returns the largest error of each quantity: of a vector relative to its largest entry, or to a
 /// sixteenth of the largest met, in u and in what is granted; infinite if there is no number.
-pub fn errors(emitted: &Emitted, compared: &[Compared]) -> Vec<f64> {
+pub fn errors(emitted: &RunnableCode, compared: &[Compared]) -> Vec<f64> {
     let mut start = 0;
     let quantities = emitted.function.quantities().iter();
     let errors = quantities.map(|&quantity| {
@@ -401,7 +401,7 @@ pub fn errors(emitted: &Emitted, compared: &[Compared]) -> Vec<f64> {
 }
 
 #[track_caller]
-pub fn hold(emitted: &Emitted, compared: &[Compared], what: &str) {
+pub fn hold(emitted: &RunnableCode, compared: &[Compared], what: &str) {
     let errors = errors(emitted, compared).into_iter();
     for (error, quantity) in errors.zip(emitted.function.quantities()) {
         assert!(error <= BOUND, "{what} {quantity:?}: {error} u");

@@ -41,9 +41,9 @@ fn vectors_of<T, V: Vector<T>, const E: usize>(
 
 /// Numbers of which no vector straddles two lines of the cache, wherever the stack begins.
 #[repr(align(64))]
-struct Aligned<T>(T);
+struct CacheLines<T>(T);
 
-type Sines<T, const K: usize> = Aligned<[[T; BLOCK]; K]>;
+type Sines<T, const K: usize> = CacheLines<[[T; BLOCK]; K]>;
 
 #[inline(always)]
 pub(crate) fn run_columns<F, V, const E: usize, const M: usize, const K: usize, const R: usize>(
@@ -57,7 +57,7 @@ pub(crate) fn run_columns<F, V, const E: usize, const M: usize, const K: usize, 
 {
     let states = results.first().map_or(0, |first| first.len());
     let zeros = [F::Scalar::default(); BLOCK];
-    let (mut sin, mut cos) = (Aligned([zeros; K]), Aligned([zeros; K]));
+    let (mut sin, mut cos) = (CacheLines([zeros; K]), CacheLines([zeros; K]));
     let mut rows: RowBlocks<F::Scalar, R> = [zeros; R];
     let mut start = from;
     while start < states {

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use crate::claim::whole;
 use crate::compare::is_literal;
 use crate::fault::Fault;
-use crate::file::{Found, between};
+use crate::file::{Item, between};
 use crate::identity::exact::Exact;
 use crate::identity::setting::Setting;
 use crate::payload;
@@ -35,24 +35,24 @@ const BOX: &str = "pub const BOX: StateBox = StateBox {";
 type Ends = [Option<Vec<Option<[f64; 2]>>>; 3];
 
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Held {
+pub(crate) struct BoxFacts {
     pub polynomials: HashSet<usize>,
     /// For q, q̇ and q̈: true if functions under a tolerance bound it.
     pub bounded: [bool; 3],
 }
 
-pub(crate) struct Known<'k> {
+pub(crate) struct FileFacts<'k> {
     setting: &'k Setting<'k>,
     ranges: &'k Ranges,
     /// The values of base parameters of functions that are shown, each with the name of its constant.
     pub values: Vec<(&'static str, Vec<Exact>)>,
     /// The items whose text is known, those of one module behind its name.
     pub items: HashSet<String>,
-    pub held: HashMap<&'k str, Held>,
+    pub held: HashMap<&'k str, BoxFacts>,
 }
 
-impl<'k> Known<'k> {
-    pub(crate) fn new(setting: &'k Setting<'k>, ranges: &'k Ranges, load: usize) -> Known<'k> {
+impl<'k> FileFacts<'k> {
+    pub(crate) fn new(setting: &'k Setting<'k>, ranges: &'k Ranges, load: usize) -> FileFacts<'k> {
         let (joints, rows) = (setting.joints(), &setting.rows);
         let count = rows.len();
         let over = match setting.base() {
@@ -94,7 +94,7 @@ impl<'k> Known<'k> {
         ];
         items.extend(kinds.map(|(is_single, kind)| payload::rust(is_single, kind)));
         items.insert(payload::rust_bodies(setting.bodies.len(), &setting.zeros));
-        Known {
+        FileFacts {
             setting,
             ranges,
             values: Vec::new(),
@@ -103,7 +103,7 @@ impl<'k> Known<'k> {
         }
     }
 
-    pub(crate) fn add_box(&mut self, item: &'k Found, is_single: bool) {
+    pub(crate) fn add_box(&mut self, item: &'k Item, is_single: bool) {
         let lines = trimmed(item);
         let Some((&BOX, behind)) = lines.split_first() else {
             return;
@@ -142,7 +142,7 @@ impl<'k> Known<'k> {
         self.items.insert(format!("mod {module}\n{item}"));
     }
 
-    pub(crate) fn follows(&self, item: &Found) -> Result<(), Fault> {
+    pub(crate) fn follows(&self, item: &Item) -> Result<(), Fault> {
         let lines = trimmed(item);
         let mut values = self.values.iter();
         let text = lines.join("\n");
@@ -155,7 +155,7 @@ impl<'k> Known<'k> {
         is_known.then_some(()).ok_or_else(fault)
     }
 
-    pub(crate) fn is_box(&self, item: &Found) -> bool {
+    pub(crate) fn is_box(&self, item: &Item) -> bool {
         let (lines, macros) = (trimmed(item), &item.symbols.macros);
         let head = lines.first().unwrap_or(&"");
         let is_single = head.contains("const float ");
@@ -244,7 +244,7 @@ impl<'k> Known<'k> {
     }
 }
 
-pub(crate) fn is_body(item: &Found, setting: &Setting) -> bool {
+pub(crate) fn is_body(item: &Item, setting: &Setting) -> bool {
     let (own, macros) = (&item.symbols.prefix, &item.symbols.macros);
     let is_single = item.text.contains("float ");
     let text = |kind| payload::c(is_single, "static inline", [own, macros], kind);
@@ -255,7 +255,7 @@ pub(crate) fn is_body(item: &Found, setting: &Setting) -> bool {
     kinds.any(|kind| text(kind) == item) || bodies.0 > 0 && of_all() == item
 }
 
-fn trimmed<'t>(item: &'t Found) -> Vec<&'t str> {
+fn trimmed<'t>(item: &'t Item) -> Vec<&'t str> {
     let lines = item.text.lines().map(str::trim);
     lines.filter(|line| !line.is_empty()).collect()
 }

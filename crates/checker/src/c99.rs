@@ -6,10 +6,10 @@
 //! struct, if it has one.
 
 use crate::aside::untabbed;
-use crate::claim::Claimed;
+use crate::claim::FunctionClaim;
 use crate::compare::is_literal;
 use crate::fault::Fault;
-use crate::file::{Found, Lines, between, fault, item};
+use crate::file::{Item, Lines, between, fault, item};
 use crate::identity::exact::Exact;
 use crate::identity::table;
 use crate::places::Places;
@@ -93,7 +93,7 @@ fn take(lines: &mut Lines, expected: &str) -> Result<(), Fault> {
 pub(crate) fn functions<'t>(
     source: &'t str,
     places: Option<&Places>,
-) -> Result<Vec<Found<'t>>, Fault> {
+) -> Result<Vec<Item<'t>>, Fault> {
     let lines = read::lines(source, true).map_err(|own| Fault::Text(own.line, own.reason))?;
     let mut lines = lines.as_slice();
     let guard = lines.first().map_or("", |own| own.1);
@@ -128,7 +128,7 @@ pub(crate) fn functions<'t>(
         take(&mut lines, &untabbed(&places.header(name)))?;
     }
     let behind = known(BEHIND);
-    let mut all: Vec<Found> = Vec::new();
+    let mut all: Vec<Item> = Vec::new();
     while let Some(&first) = lines.first() {
         if behind.starts_with(first.1) {
             take(&mut lines, &behind)?;
@@ -154,7 +154,7 @@ pub(crate) fn functions<'t>(
             ];
             !has_loops || ends.iter().any(|end| head.contains(end))
         });
-        let is_plain = |found: &Found| {
+        let is_plain = |found: &Item| {
             found.text.ends_with("\n}\n") && !found.text.replacen(LOOP, "", 1).contains('#')
         };
         let mut found = found.filter(is_plain).ok_or_else(|| fault(first))?;
@@ -204,7 +204,7 @@ pub(crate) fn functions<'t>(
 }
 
 /// A name may be shortened, but never to the name of another function of the table or of the claim.
-pub(crate) fn are_of(found: &Found, function: &str, claimed: &[Claimed]) -> bool {
+pub(crate) fn are_of(found: &Item, function: &str, claimed: &[FunctionClaim]) -> bool {
     let is_own = |(module, word): (&str, &str)| {
         let mut all = table::functions().iter().map(|own| &own.name);
         let is_other = all.any(|own| own == word) || claimed.iter().any(|own| own.function == word);
@@ -215,7 +215,7 @@ pub(crate) fn are_of(found: &Found, function: &str, claimed: &[Claimed]) -> bool
     names.all(|(name, end)| word(&found.symbols.macros, name, end).is_some_and(is_own))
 }
 
-pub(crate) fn are_values(found: &Found, name: &str, values: &[Exact]) -> bool {
+pub(crate) fn are_values(found: &Item, name: &str, values: &[Exact]) -> bool {
     let is_single = found.module.ends_with("_f32") && found.text.contains("(float pi[");
     let kind = if is_single { "float" } else { "double" };
     let end = if is_single { "F;" } else { ";" };

@@ -3,14 +3,14 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::aside::{Known, is_body};
+use crate::aside::{FileFacts, is_body};
 use crate::c99;
-use crate::claim::{Claim, Claimed, Tolerated};
+use crate::claim::{Claim, FunctionClaim, ToleranceClaim};
 use crate::compare::{Literals, compare};
 use crate::cost::{self, ranges};
 use crate::defaults::{Default, is_default};
 use crate::fault::Fault;
-use crate::file::{self, Found};
+use crate::file::{self, Item};
 use crate::identity::exact::Exact;
 use crate::identity::given::DEFAULTS;
 use crate::identity::number::Draws;
@@ -24,9 +24,9 @@ use crate::sines;
 use crate::tolerance;
 use crate::work::Work;
 
-pub use crate::cost::{Cost, RATE, Shown};
+pub use crate::cost::{Cost, Findings, RATE};
 pub use crate::payload::Body;
-pub use crate::tolerance::{Bound, Bounded};
+pub use crate::tolerance::{Bound, ResultBound};
 
 /// The most times that a function of a claim stands in a file: once for each scalar is usual.
 const MOST_TIMES: usize = 4;
@@ -44,7 +44,7 @@ pub struct Line {
     /// Its first line in the file, from one.
     pub line: usize,
     /// The cost of rounding, if it is shown; else the reason why it is not.
-    pub result: Result<Shown, Fault>,
+    pub result: Result<Findings, Fault>,
 }
 
 /// The findings about a file.
@@ -97,7 +97,7 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     }
     let of_robot = |why: String| Fault::Robot("file".into(), why);
     let mut file = robot::read(robot).map_err(of_robot)?;
-    let in_scene = |own: &Claimed| own.scene.as_deref() == scene;
+    let in_scene = |own: &FunctionClaim| own.scene.as_deref() == scene;
     document.functions.retain(in_scene);
     let load = document.functions.iter().find(|own| own.function == LOAD);
     let links = load.map_or(&[][..], |own| &own.bodies);
@@ -155,7 +155,7 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
         is_c,
         singles: singles.map(|item| item.module).collect(),
     };
-    let line = |found: &Found, name: String, result| Line {
+    let line = |found: &Item, name: String, result| Line {
         module: found.module.to_owned(),
         name,
         line: found.line,
@@ -163,13 +163,13 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     };
     let load = whole.load().ok().flatten();
     let load = load.map_or(0, |own| own.outputs.len());
-    let mut seen = Seen {
+    let mut seen = ReportState {
         identities: HashMap::new(),
         points: Points::new(&setting, &[&whole.seed]),
-        known: Known::new(&setting, &whole.ranges, load),
+        known: FileFacts::new(&setting, &whole.ranges, load),
     };
     let mut heads = HashSet::new();
-    let mut is_twice = |item: &Found| -> Result<(), Fault> {
+    let mut is_twice = |item: &Item| -> Result<(), Fault> {
         let head = item.text.lines().next().unwrap_or("");
         let name = Some(item.name).filter(|name| !name.is_empty());
         let name = name.unwrap_or(head);
@@ -178,14 +178,14 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
         is_first.then_some(()).ok_or_else(twice)
     };
     let mut lines = Vec::new();
-    let modules = |is_such: fn(&Claimed) -> bool| -> HashSet<&str> {
-        let is_own = |item: &&Found| whole.claimed(item).is_some_and(is_such);
+    let modules = |is_such: fn(&FunctionClaim) -> bool| -> HashSet<&str> {
+        let is_own = |item: &&Item| whole.claimed(item).is_some_and(is_such);
         let own = items.iter().filter(is_own);
         own.map(|item| item.module).collect()
     };
     let takers = modules(|own| own.arguments.iter().any(|name| name == LOAD));
     let loads = modules(|own| own.function == LOAD);
-    let has_load = |found: &Found| {
+    let has_load = |found: &Item| {
         let why = "a load without functions that take it, or without the function `load`";
         let has_both = takers.contains(found.module) == loads.contains(found.module);
         has_both.then_some(()).ok_or(Fault::Claim(why.into()))
@@ -219,7 +219,7 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
 }
 
 /// Constants, payloads and boxes compute no dynamics.
-fn is_beside(found: &Found) -> bool {
+fn is_beside(found: &Item) -> bool {
     let name = found.name.strip_prefix(found.module);
     let is_box = found.name == "in_box" || name == Some("_in_box");
     let mut written = [" pi[", " numbers[", " into["].iter();
@@ -229,11 +229,11 @@ fn is_beside(found: &Found) -> bool {
 /// The finding that a program is the robot's, once it is asked for; how often its function came.
 type Identity = (Option<Result<(), Fault>>, usize);
 
-struct Seen<'w> {
+struct ReportState<'w> {
     /// The finding about each function of the claim, since both scalars have one program.
     identities: HashMap<&'w str, Identity>,
     points: Points<'w>,
-    known: Known<'w>,
+    known: FileFacts<'w>,
 }
 
 struct Whole<'w> {
@@ -258,15 +258,15 @@ struct Whole<'w> {
 }
 
 impl<'w> Whole<'w> {
-    fn is_single(&self, found: &Found) -> bool {
+    fn is_single(&self, found: &Item) -> bool {
         match self.is_c {
             true => found.text.contains("float "),
             false => self.singles.contains(found.module),
         }
     }
 
-    fn claimed(&self, found: &Found) -> Option<&'w Claimed> {
-        let is_own = |own: &&Claimed| match self.is_c {
+    fn claimed(&self, found: &Item) -> Option<&'w FunctionClaim> {
+        let is_own = |own: &&FunctionClaim| match self.is_c {
             true => {
                 let symbol = own.symbols.get(usize::from(self.is_single(found)));
                 symbol.is_some_and(|own| own == found.name)
@@ -277,7 +277,7 @@ impl<'w> Whole<'w> {
         self.claim.functions.iter().find(is_own)
     }
 
-    fn name(&self, found: &Found) -> String {
+    fn name(&self, found: &Item) -> String {
         let mut name = found.name.to_owned();
         let Some(own) = self.claimed(found) else {
             return name;
@@ -292,7 +292,7 @@ impl<'w> Whole<'w> {
         name
     }
 
-    fn shown(&self, found: &'w Found, seen: &mut Seen<'w>) -> Result<Shown, Fault> {
+    fn shown(&self, found: &'w Item, seen: &mut ReportState<'w>) -> Result<Findings, Fault> {
         let Some(claimed) = self.claimed(found) else {
             let scene = self.scene.map(|scene| format!(" in scene `{scene}`"));
             let (name, scene) = (found.name, scene.unwrap_or_default());
@@ -418,14 +418,17 @@ impl<'w> Whole<'w> {
             }
             seen.known.values.push((name, base.values));
         }
-        Ok(Shown {
+        Ok(Findings {
             costs,
             has_polynomials: cost::polynomials(&read).next().is_some(),
             results,
         })
     }
 
-    fn tolerated(&self, own: &'w Claimed) -> Result<Option<(&'w Tolerated, &[f64])>, String> {
+    fn tolerated(
+        &self,
+        own: &'w FunctionClaim,
+    ) -> Result<Option<(&'w ToleranceClaim, &[f64])>, String> {
         let why = match (&self.tolerance, &own.tolerated) {
             (None, None) => return Ok(None),
             (Some(_), None) if own.function == LOAD => return Ok(None),
@@ -444,7 +447,7 @@ impl<'w> Whole<'w> {
 
     fn head<'h>(
         &self,
-        claimed: &'h Claimed,
+        claimed: &'h FunctionClaim,
         function: &'h Function,
         base: &Base,
         is_single: bool,
@@ -477,7 +480,7 @@ impl<'w> Whole<'w> {
         })
     }
 
-    fn read(&self, head: &Head, found: &Found) -> Result<read::Function, Fault> {
+    fn read(&self, head: &Head, found: &Item) -> Result<read::Function, Fault> {
         let text = &found.text;
         let read = match self.is_c {
             true => Text::c(text).and_then(|words| {
@@ -488,7 +491,7 @@ impl<'w> Whole<'w> {
         };
         let (line, why) = match read {
             Ok((read, true)) => return Ok(read),
-            Ok(_) => (1, "more than the function stands there".into()),
+            Ok(_) => (1, "text after the end of the function".into()),
             Err(TextError { line, reason }) => (line, format!("not of the grammar: {reason}")),
         };
         Err(Fault::Text(found.line + line - 1, why))
@@ -514,7 +517,7 @@ impl<'w> Whole<'w> {
         self.load.as_ref().map(Option::as_ref).map_err(Fault::clone)
     }
 
-    fn follows(&self, item: &Found, known: &Known) -> Result<(), Fault> {
+    fn follows(&self, item: &Item, known: &FileFacts) -> Result<(), Fault> {
         let is_single = self.singles.contains(item.module);
         if is_default(item, self.is_c, is_single, &self.defaults) {
             return Ok(());
@@ -537,7 +540,7 @@ impl<'w> Whole<'w> {
 }
 
 /// A load has no results of its own: the functions that take it give it its meaning.
-fn function(claimed: &Claimed) -> Result<Function, String> {
+fn function(claimed: &FunctionClaim) -> Result<Function, String> {
     let is_load = claimed.function == LOAD && claimed.results == [LOAD];
     if claimed.results.is_empty() {
         return Err("it has no results".into());

@@ -60,13 +60,13 @@ pub struct Claim {
     /// The constants of all programs: `#0` is the first.
     pub constants: Vec<String>,
     /// The functions.
-    pub functions: Vec<Claimed>,
+    pub functions: Vec<FunctionClaim>,
 }
 
 /// The claim of one function.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Claimed {
+pub struct FunctionClaim {
     /// The name.
     pub function: String,
     /// The names in C, of one state: in f64, and in f32.
@@ -92,7 +92,7 @@ pub struct Claimed {
     pub returns: String,
     /// The exact program, if a tolerance left something out.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub tolerated: Option<Tolerated>,
+    pub tolerated: Option<ToleranceClaim>,
     /// The parameters that each column of a regressor adds up: `m2 #4*mx2`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub base: Vec<String>,
@@ -101,13 +101,13 @@ pub struct Claimed {
     pub values: String,
     /// The search, in a plan.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub planned: Option<Planned>,
+    pub planned: Option<SearchRecord>,
 }
 
 /// A search that a plan keeps beside its program, so that nobody searches again.
 #[derive(Clone, Debug, Deserialize, Eq, Hash, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
-pub struct Planned {
+pub struct SearchRecord {
     /// The function with its parts and frames: `servo=inverse_dynamics+jacobian`.
     pub asked: String,
     /// The formulation that was asked for.
@@ -143,7 +143,7 @@ pub struct Planned {
 /// None of its numbers makes an error look smaller.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Tolerated {
+pub struct ToleranceClaim {
     /// The operations of the exact program, if the text has others.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub steps: String,
@@ -193,7 +193,10 @@ impl Claim {
             }
             // It is printed where nothing else may stand.
             if own.planned.is_none() && !is_name(&own.function) {
-                return refuse(format!("`{:.40}` is no name of a function", own.function));
+                return refuse(format!(
+                    "`{:.40}` is not the name of a function",
+                    own.function
+                ));
             }
         }
         Ok(claim)
@@ -262,7 +265,7 @@ fn constant<'c, C>(constants: &'c [C], word: &str) -> Option<&'c C> {
     constants.get(whole(word.strip_prefix('#')?)?)
 }
 
-impl Claimed {
+impl FunctionClaim {
     /// Returns the program of the text.
     ///
     /// # Errors
@@ -278,7 +281,7 @@ impl Claimed {
     pub fn exact<C: Clone>(&self, constants: &[C]) -> Result<Option<Program<C>>, Fault> {
         let own = self.tolerated.as_ref();
         let own = own.filter(|own| !own.returns.is_empty());
-        let read = |own: &Tolerated| self.read([&own.steps, &own.returns], constants);
+        let read = |own: &ToleranceClaim| self.read([&own.steps, &own.returns], constants);
         own.map(read).transpose()
     }
 

@@ -18,7 +18,7 @@ use crate::read::{self, Head, Source};
 use crate::rounding::{Bounds, Ranges, Rounding};
 use crate::sample::{LANES, Lanes, Near, Sampler, State};
 use crate::states::States;
-use crate::tolerance::Bounded;
+use crate::tolerance::ResultBound;
 use crate::work::Work;
 
 /// The largest rates where the robot file has no limit, per second and per second squared.
@@ -49,13 +49,13 @@ const CLIMBED: usize = 148;
 /// The findings about a function that is the robot's but for rounding, and for what a tolerance
 /// left out.
 #[derive(Clone, Debug)]
-pub struct Shown {
+pub struct Findings {
     /// The cost of rounding, result by result; none under a tolerance.
     pub costs: Vec<Cost>,
     /// `true` if it has polynomials for sines, whose error counts as rounding.
     pub has_polynomials: bool,
     /// The findings about each entry, if it is under a tolerance.
-    pub results: Vec<Bounded>,
+    pub results: Vec<ResultBound>,
 }
 
 /// The cost of rounding in one result of a function.
@@ -77,7 +77,7 @@ pub struct Cost {
     pub states: usize,
 }
 
-impl Shown {
+impl Findings {
     /// Returns true if the cost of every result is bounded over the box.
     pub fn is_bounded(&self) -> bool {
         self.costs.iter().all(|own| own.is_bounded)
@@ -148,7 +148,7 @@ impl Subject<'_> {
         arguments.extend(self.load.iter().flat_map(|_| &self.setting.loading));
         let joints = self.setting.joints();
         let lengths = head.fields.iter().map(|own| own.1.iter().product());
-        let mut seen = Seen {
+        let mut seen = SampledSizes {
             sampler: Sampler::new(read, &rounding, joints),
             load: Sampler::new(&load, &of_load, joints),
             lengths: lengths.collect(),
@@ -279,7 +279,7 @@ impl Subject<'_> {
 }
 
 /// The largest values and errors at the states so far.
-struct Seen<'s> {
+struct SampledSizes<'s> {
     sampler: Sampler<'s>,
     load: Sampler<'s>,
     /// The numbers of entries of each result.
@@ -296,7 +296,7 @@ struct Seen<'s> {
     unbounded: Vec<usize>,
 }
 
-impl Seen<'_> {
+impl SampledSizes<'_> {
     /// Looks at states; returns the largest error of what divides at each, relative to its result
     /// there.
     fn look(&mut self, states: [&State; LANES], divides: &[bool]) -> Result<[f64; LANES], Fault> {

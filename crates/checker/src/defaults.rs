@@ -1,14 +1,14 @@
 //! The items by which a file says what its robot has in the place of arguments of `load`.
 
 use crate::compare::is_literal;
-use crate::file::{Found, between};
+use crate::file::{Item, between};
 use crate::identity::exact::Exact;
 
 /// An argument's name, and the robot's numbers.
 pub(crate) type Default = (&'static str, Vec<Exact>);
 
 /// True if an item is the constant, in C the function, of one of these, and has its numbers.
-pub(crate) fn is_default(item: &Found, is_c: bool, is_single: bool, all: &[Default]) -> bool {
+pub(crate) fn is_default(item: &Item, is_c: bool, is_single: bool, all: &[Default]) -> bool {
     let words = item.text.split_whitespace();
     let text: String = words.map(|word| format!("{word} ")).collect();
     all.iter().any(|(name, values)| {
@@ -35,7 +35,7 @@ fn rust_numbers<'t>(text: &'t str, name: &str, is_single: bool) -> Option<Vec<&'
     (kind == format!("pub const {name}: [{real}; {}", list.len())).then_some(list)
 }
 
-fn c_numbers<'t>(text: &'t str, item: &Found, name: &str, is_single: bool) -> Option<Vec<&'t str>> {
+fn c_numbers<'t>(text: &'t str, item: &Item, name: &str, is_single: bool) -> Option<Vec<&'t str>> {
     let prefix = item.name.strip_suffix(&format!("_{name}"))?;
     let (head, body) = text.split_once(" { ")?;
     let lines: Vec<&str> = body.strip_suffix("; } ")?.split("; ").collect();
@@ -70,9 +70,9 @@ mod tests {
             ("bodies", vec![exact("0"), exact("1.5")]),
             ("armature", vec![exact("0.1"), exact("0")]),
         ];
-        let item = |text: &str| Found {
+        let item = |text: &str| Item {
             text: text.to_owned(),
-            ..Found::default()
+            ..Item::default()
         };
         let is = |text: &str, is_single| is_default(&item(text), false, is_single, &all);
         let bodies = |list: &str| {

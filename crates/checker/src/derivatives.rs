@@ -15,13 +15,13 @@ use crate::program::{Operand, Program};
 use crate::ring::Ring;
 use crate::rounding::Rounding;
 use crate::work::Work;
-use crate::written::Written;
+use crate::written::PolynomialProgram;
 
 /// The text of a function, the same program with exact constants, and its steps as polynomials.
 pub(crate) struct Derivatives<'d> {
     pub(crate) text: &'d Program<f64>,
     pub(crate) program: &'d Program<Exact>,
-    pub(crate) written: &'d Written<'d>,
+    pub(crate) written: &'d PolynomialProgram<'d>,
     pub(crate) ring: &'d Ring,
     pub(crate) rounding: &'d Rounding<'d>,
     /// A bound of the magnitude of each step.
@@ -31,7 +31,7 @@ pub(crate) struct Derivatives<'d> {
 
 /// Bounds of an operand: its magnitude, and how far the float is from it.
 #[derive(Clone, Copy)]
-struct Known {
+struct OperandBound {
     size: f64,
     error: f64,
 }
@@ -52,7 +52,7 @@ fn is_power(own: &Operand<f64>) -> bool {
 impl Derivatives<'_> {
     /// Bounds what rounding costs each of these results.
     pub(crate) fn bounds(&self, results: &[usize]) -> Result<Vec<f64>, Fault> {
-        let mut known: Vec<Known> = Vec::new();
+        let mut known: Vec<OperandBound> = Vec::new();
         let mut rounded = Vec::new();
         let steps = self.text.steps.iter().zip(&self.program.steps);
         for (step, ((operation, [a, b]), (_, [one, other]))) in steps.enumerate() {
@@ -75,13 +75,18 @@ impl Derivatives<'_> {
             };
             rounded.push(own);
             let error = (inherited + own) * (1.0 + 1e-12);
-            known.push(Known { size, error });
+            known.push(OperandBound { size, error });
         }
         let bound = |result: &usize| self.bound(*result, &known, &rounded);
         results.iter().map(bound).collect()
     }
 
-    fn known(&self, text: &Operand<f64>, own: &Operand<Exact>, steps: &[Known]) -> Known {
+    fn known(
+        &self,
+        text: &Operand<f64>,
+        own: &Operand<Exact>,
+        steps: &[OperandBound],
+    ) -> OperandBound {
         let unit = self.rounding.scalar.unit;
         match (text, own) {
             (Operand::Step(step), _) => steps[*step],
@@ -91,25 +96,25 @@ impl Derivatives<'_> {
                 let rounded_up = (off + radius) * (1.0 + 1e-12);
                 let error = if off == 0.0 { radius } else { rounded_up };
                 let size = literal.abs() + error;
-                Known { size, error }
+                OperandBound { size, error }
             }
             (Operand::Sine(joint, is_sine), _) => {
                 let (size, error) = match self.rounding.polynomial(*joint, *is_sine) {
                     Some(own) => (1.0 + own, 0.0),
                     None => (1.0, 2.0 * unit),
                 };
-                Known { size, error }
+                OperandBound { size, error }
             }
             _ => {
                 let value = self.written.leaf(own);
                 let size = value.map_or(f64::INFINITY, |value| self.ring.size(&value));
                 let error = self.rounding.load_error(text);
-                Known { size, error }
+                OperandBound { size, error }
             }
         }
     }
 
-    fn bound(&self, result: usize, known: &[Known], rounded: &[f64]) -> Result<f64, Fault> {
+    fn bound(&self, result: usize, known: &[OperandBound], rounded: &[f64]) -> Result<f64, Fault> {
         let (_, output) = &self.text.outputs[result];
         let (_, exact) = &self.program.outputs[result];
         let Operand::Step(top) = output else {

@@ -10,7 +10,7 @@ use crate::polynomial::Polynomial;
 use crate::program::{LOAD, Program, argument};
 use crate::ring::Ring;
 use crate::work::Work;
-use crate::written::Written;
+use crate::written::PolynomialProgram;
 
 /// The multiplications for a decision.
 const PURSE: u64 = 50_000_000;
@@ -82,7 +82,7 @@ impl Domain {
         program: &Program<Exact>,
         errors: Option<&dyn Fn(usize, bool) -> Option<f64>>,
     ) -> Result<Vec<Polynomial>, Fault> {
-        let written = Written::new(program, &self.ring, errors, &Work::default())?;
+        let written = PolynomialProgram::new(program, &self.ring, errors, &Work::default())?;
         Ok(written.outputs)
     }
 

@@ -18,7 +18,7 @@ pub const MOST_BYTES: usize = 32 << 20;
 
 /// An item of a file: a function, or what stands beside functions.
 #[derive(Clone, Debug, Default)]
-pub struct Found<'t> {
+pub struct Item<'t> {
     /// The module that it is in; empty where the file is the module.
     pub module: &'t str,
     /// Its names in a header.
@@ -51,8 +51,8 @@ pub(crate) type Lines<'l, 't> = &'l [(usize, &'t str)];
 pub(crate) fn item<'t>(
     lines: &mut Lines<'_, 't>,
     mut is_last: impl FnMut(&'t str) -> bool,
-) -> Option<Found<'t>> {
-    let (mut found, mut depth, mut ends) = (Found::default(), 0usize, 0);
+) -> Option<Item<'t>> {
+    let (mut found, mut depth, mut ends) = (Item::default(), 0usize, 0);
     let (first, mut head) = *lines.first()?;
     found.line = first;
     loop {
@@ -78,7 +78,7 @@ pub(crate) fn item<'t>(
 ///
 /// # Errors
 /// The first line that the generator would not print.
-pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
+pub fn functions(source: &str) -> Result<Vec<Item<'_>>, Fault> {
     let lines = read::lines(source, false);
     let mut lines = lines.map_err(|own| Fault::Text(own.line, own.reason))?;
     lines.retain(|own| !is_attribute(own.1));

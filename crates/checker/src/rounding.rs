@@ -102,7 +102,7 @@ impl<'f> Rounding<'f> {
         let steps = &self.function.program.steps;
         let is_exact = sizes.is_none();
         let pair = |joint: usize| [true, false].map(|own| self.sine(joint, ranges, own, is_exact));
-        let mut given = Given {
+        let mut given = Inputs {
             ranges,
             sines: (0..ranges[0].len()).map(pair).collect(),
             is_exact,
@@ -155,7 +155,7 @@ impl<'f> Rounding<'f> {
 
     /// Bounds the error of a step by the mean value theorem: each rounding times the largest
     /// derivative by it, whatever the others are.
-    fn by_derivatives(&self, top: usize, given: &Given) -> f64 {
+    fn by_derivatives(&self, top: usize, given: &Inputs) -> f64 {
         let zero = Interval::point(0.0);
         let mut slopes = vec![zero; top + 1];
         slopes[top] = Interval::point(1.0);
@@ -201,7 +201,7 @@ impl<'f> Rounding<'f> {
         if sum.is_nan() { f64::INFINITY } else { sum }
     }
 
-    fn operand(&self, own: &Operand<f64>, given: &Given) -> Value {
+    fn operand(&self, own: &Operand<f64>, given: &Inputs) -> Value {
         let known = match own {
             Operand::Step(step) => given.values.get(*step).copied(),
             Operand::Constant(literal) if *literal == 0.0 => {
@@ -250,7 +250,7 @@ impl<'f> Rounding<'f> {
 
     /// |c x ± s y| is at most √(x² + y²), c and s being of one angle. Of two entries of gravity that is
     /// its length.
-    fn turned(&self, operands: &[Operand<f64>; 2], given: &Given) -> Option<f64> {
+    fn turned(&self, operands: &[Operand<f64>; 2], given: &Inputs) -> Option<f64> {
         let steps = &self.function.program.steps;
         let product = |own: &Operand<f64>| match own {
             Operand::Step(step) => match &steps[*step] {
@@ -283,7 +283,7 @@ impl<'f> Rounding<'f> {
     }
 }
 
-struct Given<'g> {
+struct Inputs<'g> {
     ranges: &'g Ranges,
     sines: Vec<[Value; 2]>,
     /// `false` if what polynomials return stands for the sine.

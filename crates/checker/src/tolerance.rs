@@ -7,7 +7,7 @@
 //! actuators' limit, or what the exact program reaches at a state of the box; there a payload that is an
 //! argument has the largest mass, all of it in a point that the claim names.
 
-use crate::claim::Tolerated;
+use crate::claim::ToleranceClaim;
 use crate::derivatives::Derivatives;
 use crate::fault::Fault;
 use crate::identity::exact::Exact;
@@ -23,7 +23,7 @@ use crate::read;
 use crate::ring::Ring;
 use crate::rounding::{Ranges, Rounding};
 use crate::work::Work;
-use crate::written::{Written, at};
+use crate::written::{PolynomialProgram, at};
 
 /// The share by which a box may be another than the file's: decimals were rounded to doubles.
 pub(crate) const BOX_SLACK: f64 = 1e-9;
@@ -55,7 +55,7 @@ impl Bound {
 
 /// The findings about one result, in its unit.
 #[derive(Clone, Debug)]
-pub struct Bounded {
+pub struct ResultBound {
     /// The name of the vector or matrix of which it is an entry: `tau`, `d`.
     pub field: String,
     /// Its joints, from zero: of an entry of D its row and its column.
@@ -68,7 +68,7 @@ pub struct Bounded {
     pub tolerated: f64,
 }
 
-impl Bounded {
+impl ResultBound {
     /// Returns the bound relative to T, E; as it is if T is zero.
     pub fn relative(&self) -> Bound {
         let Bound { real, rounding } = self.bound;
@@ -98,7 +98,7 @@ pub(crate) struct Subject<'s> {
     /// The function that makes a load, where this one takes it.
     pub(crate) load: Option<&'s Program<Exact>>,
     pub(crate) is_single: bool,
-    pub(crate) own: &'s Tolerated,
+    pub(crate) own: &'s ToleranceClaim,
     /// The tolerance of each joint, relative to T.
     pub(crate) tolerance: &'s [f64],
     pub(crate) work: &'s Work,
@@ -108,7 +108,7 @@ pub(crate) struct Subject<'s> {
 type Entry<'s> = (&'s Field, Vec<usize>);
 
 impl Subject<'_> {
-    pub(crate) fn bounded(&self) -> Result<Vec<Bounded>, Fault> {
+    pub(crate) fn bounded(&self) -> Result<Vec<ResultBound>, Fault> {
         let count = self.emitted.outputs.len();
         let are_alike = self.exact.outputs.len() == count;
         unless(are_alike, "two programs of other results")?;
@@ -130,8 +130,8 @@ impl Subject<'_> {
         let mut rounding = Rounding::new(self.read, self.is_single, ranges);
         rounding.load = load;
         let errors = |joint, is_sine| rounding.polynomial(joint, is_sine);
-        let emitted = Written::new(self.emitted, &ring, Some(&errors), work)?;
-        let exact = Written::new(self.exact, &ring, None, work)?;
+        let emitted = PolynomialProgram::new(self.emitted, &ring, Some(&errors), work)?;
+        let exact = PolynomialProgram::new(self.exact, &ring, None, work)?;
         let steps = self.read.program.steps.len();
         let size = |step: usize| {
             let own = emitted.step(step);
@@ -181,7 +181,7 @@ impl Subject<'_> {
             };
             let difference = emitted[k].plus(&exact[k].negated());
             let wanted = (tolerated - rounding).next_down().next_down();
-            found.push(Bounded {
+            found.push(ResultBound {
                 field: field.name.clone(),
                 joints,
                 scale,

@@ -38,7 +38,7 @@ pub(crate) type Errors<'w> = &'w dyn Fn(usize, bool) -> Option<f64>;
 
 /// A program whose steps and results are polynomials. Sines by polynomials have an error that is a
 /// variable.
-pub(crate) struct Written<'w> {
+pub(crate) struct PolynomialProgram<'w> {
     ring: &'w Ring,
     errors: Option<Errors<'w>>,
     /// The value of each step, as long as another one needs it; all if errors are given.
@@ -46,16 +46,16 @@ pub(crate) struct Written<'w> {
     pub(crate) outputs: Vec<Polynomial>,
 }
 
-impl<'w> Written<'w> {
+impl<'w> PolynomialProgram<'w> {
     /// Writes a program out. Steps are kept if errors of sines are given.
     pub(crate) fn new(
         program: &Program<Exact>,
         ring: &'w Ring,
         errors: Option<Errors<'w>>,
         work: &Work,
-    ) -> Result<Written<'w>, Fault> {
+    ) -> Result<PolynomialProgram<'w>, Fault> {
         let mut left = uses(program);
-        let mut own = Written {
+        let mut own = PolynomialProgram {
             ring,
             errors,
             steps: vec![None; left.len()],

@@ -1,7 +1,7 @@
 //! Variants and claims that were made to be believed, each accepted once by some checker: none is
 //! shown. The text, its claim and the robot of each are files.
 
-use dalembert_checker::certify::{Bounded, Demand, certify};
+use dalembert_checker::certify::{Demand, ResultBound, certify};
 
 use crate::support::{file, honest, in_scene};
 
@@ -13,7 +13,7 @@ fn found(
     name: &str,
     [robot, scene]: [&str; 2],
     tolerance: Option<f64>,
-) -> Result<Vec<Bounded>, String> {
+) -> Result<Vec<ResultBound>, String> {
     // Two claims are made of the text of A.
     let text = data(&format!("{}.rs", if name == "B" { "A" } else { name }));
     let claim = data(&format!("{name}.claim.json"));
@@ -107,7 +107,7 @@ fn exact_functions_that_are_not_what_is_claimed() {
 fn a_tolerance_that_is_not_the_scenes() {
     let (name, scene) = ("scara_a4_too_loose", ["scara", "a4"]);
     let results = found(name, scene, Some(0.1)).unwrap();
-    assert!(results.iter().all(Bounded::is_shown), "{results:?}");
+    assert!(results.iter().all(ResultBound::is_shown), "{results:?}");
     let why = found(name, scene, None).unwrap_err();
     let words = "result 1 has a bound of 8.2e-2 T, over 1.0e-3: approximation";
     assert!(why.contains(words), "{why}");
@@ -140,7 +140,7 @@ fn variants_that_are_checked_in() {
         };
         let report = certify(&text, &claim, &robot, &demand).unwrap();
         let results = &report.lines[0].result.as_ref().unwrap().results;
-        let are_shown = results.iter().all(Bounded::is_shown);
+        let are_shown = results.iter().all(ResultBound::is_shown);
         assert!(results.len() == 6 && are_shown, "{results:?}");
     }
 }

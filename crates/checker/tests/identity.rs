@@ -13,7 +13,7 @@ use crate::support::{changed, file};
 const ROBOT: &str = "generated/robots/planar2r.toml";
 
 const ROBOTS: &str = r#"
-mass = 1 | mass = nan | `nan` is no number
+mass = 1 | mass = nan | `nan` is not a number
 "revolute" | "continuous" | joint 1: expected `kind`
 a = 1 | &; coulomb = 0.3 | joint 1: `coulomb` without a `coulomb_width`
 a = 1 | &; mimic = { joint = "elbow", multiplier = 0.5 } | of an angle is no whole number

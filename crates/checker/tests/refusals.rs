@@ -6,7 +6,7 @@ use crate::support::{changed, file, in_scene};
 
 const ROBOTS: &str = r#"
 mass = 1 | &; springs = {} | unknown field `springs`
-mass = 1 | mass = true | is no number, text, list or table
+mass = 1 | mass = true | is not a number, text, list or table
 [scene.pick] | &; wind = 1 | unknown field `wind`
 [scene.pick] | [scene.other] | no scene `pick`
 relative_to = "actuator" | relative_to = 1, of = 2 | unknown field `of`

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use dalembert_checker::certify::{Bounded, Cost, Demand, Line, RATE, Shown, certify};
+use dalembert_checker::certify::{Cost, Demand, Findings, Line, RATE, ResultBound, certify};
 use dalembert_checker::file::MOST_BYTES;
 use dalembert_codegen::workspace::{bound_of, input_hash};
 use dalembert_import::ChainArgs;
@@ -64,7 +64,7 @@ const RESULTS: &str = "result|joint|T|real|rounding|E|.tolerance";
 
 /// Values are relative to T; absolute if T is zero. `base` is the number of coordinates of a base that
 /// floats in the scene.
-fn row(own: &Bounded, robot: &Robot, base: usize) -> Vec<Cell> {
+fn row(own: &ResultBound, robot: &Robot, base: usize) -> Vec<Cell> {
     let cell = |x: f64| Cell::of(bound_of(x, 4), x);
     let bound = own.relative();
     // An entry of D has two: its row and its column.
@@ -166,7 +166,7 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
             Cell::json(worst.map(|own| own.rounding)),
             Cell::json(worst.map(|own| own.units)),
             Cell::json(worst.map(|own| own.states)),
-            Cell::json(own.map(Shown::is_bounded)),
+            Cell::json(own.map(Findings::is_bounded)),
             Cell::json(line.result.as_ref().err().map(ToString::to_string)),
             Cell::json(own.is_some()),
         ]);
@@ -234,7 +234,7 @@ fn words(line: &Line) -> String {
 }
 
 /// Returns the cost of what is measured, else of what is bounded.
-fn worst(shown: &Shown) -> Option<&Cost> {
+fn worst(shown: &Findings) -> Option<&Cost> {
     shown.worst(false).or_else(|| shown.worst(true))
 }
 

@@ -1,8 +1,8 @@
 //! The report of generated code: operations, bounds under a tolerance, the proof, and, if
 //! everything is asked for, what the search did and what rounding costs.
 
-use dalembert_codegen::workspace::{Admitted, Library, Loop, Proof, SEED, Variant, bound_of};
-use dalembert_codegen::{Function, Generated, GeneratedFunction, Request};
+use dalembert_codegen::workspace::{Library, Loop, Proof, SEED, Variant, VariantSet, bound_of};
+use dalembert_codegen::{Function, GeneratedCode, GeneratedFunction, Request};
 use dalembert_model::robot::Robot;
 
 use crate::measure::{Bench, Code, largest};
@@ -20,7 +20,12 @@ pub enum Detail {
 }
 
 /// Describes what was generated for a robot.
-pub fn report(robot: &Robot, request: &Request, generated: &Generated, detail: Detail) -> Report {
+pub fn report(
+    robot: &Robot,
+    request: &Request,
+    generated: &GeneratedCode,
+    detail: Detail,
+) -> Report {
     let mut report = Report::of(robot, request.scene.as_ref());
     report.table("functions", "", operations(generated, detail));
     let lanes = Table::new("function|lanes|each|shared");
@@ -53,7 +58,7 @@ pub fn report(robot: &Robot, request: &Request, generated: &Generated, detail: D
     report
 }
 
-fn operations(generated: &Generated, detail: Detail) -> Table {
+fn operations(generated: &GeneratedCode, detail: Detail) -> Table {
     let more = match detail {
         Detail::Whole => "depth|calls|from|proof",
         Detail::Counts | Detail::Bounds => ".depth|.calls|.from|.proof",
@@ -111,7 +116,7 @@ fn sines(function: &GeneratedFunction) -> impl Iterator<Item = Vec<Cell>> {
     })
 }
 
-fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Generated) {
+fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &GeneratedCode) {
     for refused in generated.functions.iter().filter_map(refused) {
         report.line(format!("\n{refused}"));
     }
@@ -149,7 +154,7 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
     report.table("stages", "operations after each stage", stages);
 }
 
-fn tolerance(report: &mut Report, function: Function, admitted: &Admitted, ended: bool) {
+fn tolerance(report: &mut Report, function: Function, admitted: &VariantSet, ended: bool) {
     for own in &admitted.variants {
         let scalar = own.scalar;
         let title = format!("{function} in {scalar}, shown");
@@ -209,7 +214,7 @@ fn affordable_states(joints: usize) -> usize {
 }
 
 /// Polynomials need no call; with `Library::Together` one call serves all angles.
-fn calls(generated: &Generated, function: Function) -> usize {
+fn calls(generated: &GeneratedCode, function: Function) -> usize {
     let mut emitted = generated.emitted.iter();
     let Some(emitted) = emitted.find(|emitted| emitted.function == function) else {
         return 0;

@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use dalembert_codegen::Function;
-use dalembert_codegen::workspace::{Argument, Emitted, JointState, Quantity, Runtime, Sizes};
+use dalembert_codegen::workspace::{Argument, JointState, Quantity, RunnableCode, Runtime, Sizes};
 use dalembert_model::number::Rounded;
 use dalembert_model::outputs::Shape;
 use dalembert_model::read::closest;
@@ -174,7 +174,7 @@ fn at_frame(key: &str) -> Option<(&'static str, Quantity)> {
 
 /// One quantity of one function, compared at every state that gives it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Compared {
+pub struct Comparison {
     /// The function that was run.
     pub function: Function,
     /// The quantity as it is given: h where the function returns its symbols.
@@ -198,15 +198,15 @@ pub fn quantities(function: Function) -> impl Iterator<Item = Quantity> {
 
 /// Runs the code of a runtime's robot at every state; sines are libm's.
 pub fn compare(
-    emitted: &Emitted,
+    emitted: &RunnableCode,
     runtime: &Runtime,
     robot: &Robot,
     states: &[GivenState],
-) -> Vec<Compared> {
+) -> Vec<Comparison> {
     let own = emitted.with_libm();
     let function = emitted.function;
     let sizes = Sizes::of(robot);
-    let mut all: BTreeMap<Quantity, Compared> = BTreeMap::new();
+    let mut all: BTreeMap<Quantity, Comparison> = BTreeMap::new();
     for (index, given) in states.iter().enumerate() {
         // A state need not have what only some functions read.
         let mut arguments = function.arguments().into_iter();
@@ -225,7 +225,7 @@ pub fn compare(
             };
             let (entry, error) = worst(&values, known);
             let error = error / granted.factor(returned);
-            let compared = all.entry(quantity).or_insert_with(|| Compared {
+            let compared = all.entry(quantity).or_insert_with(|| Comparison {
                 function,
                 quantity,
                 states: 0,
@@ -281,7 +281,12 @@ fn worst(actual: &[f64], expected: &[f64]) -> (usize, f64) {
     worst
 }
 
-pub(crate) fn describe(file: &str, states: &[GivenState], compared: &[Compared], done: &mut Done) {
+pub(crate) fn describe(
+    file: &str,
+    states: &[GivenState],
+    compared: &[Comparison],
+    done: &mut Done,
+) {
     let heads = "function|result|states|error|bound|.disagreeing|.worst|verdict=";
     let mut table = Table::new(heads);
     for own in compared {
@@ -310,7 +315,7 @@ pub(crate) fn describe(file: &str, states: &[GivenState], compared: &[Compared],
         let why = "not compared, since no function of --outputs returns it";
         done.report.line(format!("{why}: {}", missed.join(", ")));
     }
-    let mut wrong: Vec<&Compared> = compared.iter().filter(|own| own.disagreeing > 0).collect();
+    let mut wrong: Vec<&Comparison> = compared.iter().filter(|own| own.disagreeing > 0).collect();
     // Several functions return the same quantity: it is named once.
     wrong.sort_by_key(|own| own.quantity);
     wrong.dedup_by_key(|own| own.quantity);

@@ -6,7 +6,7 @@
 //! may still find less for one tolerance alone.
 
 use dalembert_codegen::workspace::{
-    Admitted, Budget, SearchEffort, TextError, ToleranceError, Variant, attempt, each,
+    Budget, SearchEffort, TextError, ToleranceError, Variant, VariantSet, attempt, each,
 };
 use dalembert_codegen::{Counts, Effort, Program, ScalarType};
 
@@ -188,7 +188,7 @@ impl<'a> Ladder<'a> {
         let from: Vec<Program> = from.into_iter().collect();
         let mut all = Vec::new();
         for group in groups.into_iter().filter(|group| !group.is_empty()) {
-            let exact = Admitted {
+            let exact = VariantSet {
                 exact: budget.exact.clone(),
                 program: budget.exact.clone(),
                 variants: group.iter().map(|own| (*own).clone()).collect(),

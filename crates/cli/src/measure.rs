@@ -8,7 +8,8 @@
 use std::ops::Range;
 
 use dalembert_codegen::workspace::{
-    Emitted, Granted, JointState, LEAST_PART, Quantity, Reference, Runtime, Setup, Sizes, TrueValue,
+    ConditionAllowance, JointState, LEAST_PART, Quantity, Reference, RunnableCode, Runtime, Setup,
+    Sizes, TrueValue,
 };
 use dalembert_codegen::{Function, ScalarType};
 use dalembert_model::number::Rounded;
@@ -41,7 +42,7 @@ pub struct Code<'a> {
 impl Code<'_> {
     /// Takes an emitted function, with the sines of libm in the place of polynomials: how far these
     /// are from sines is measured apart.
-    pub fn emitted(emitted: &Emitted) -> Code<'static> {
+    pub fn emitted(emitted: &RunnableCode) -> Code<'static> {
         let own = emitted.with_libm();
         Code {
             function: own.function,
@@ -84,7 +85,7 @@ pub fn largest(worst: &[Worst]) -> [f64; 2] {
 pub struct Samples {
     states: Vec<JointState>,
     truths: Vec<Vec<TrueValue>>,
-    granted: Vec<Granted>,
+    granted: Vec<ConditionAllowance>,
     sizes: Vec<f64>,
 }
 

@@ -16,9 +16,9 @@ use crate::terminal::{bar, note};
 const INTERRUPTED: i32 = 130;
 
 /// A guard: searches are watched until it is dropped.
-pub struct Session(Arc<Seen>);
+pub struct Session(Arc<SearchProgress>);
 
-struct Seen {
+struct SearchProgress {
     functions: Vec<Function>,
     stop: AtomicBool,
     /// True if no search is left that Ctrl-C could end early.
@@ -27,7 +27,7 @@ struct Seen {
 
 /// Watches the searches of a request; Ctrl-C ends thorough ones.
 pub fn watch(request: &mut Request) -> Session {
-    let seen = Arc::new(Seen {
+    let seen = Arc::new(SearchProgress {
         functions: Function::in_order(&request.functions),
         stop: AtomicBool::new(false),
         over: AtomicBool::new(false),
@@ -41,7 +41,7 @@ pub fn watch(request: &mut Request) -> Session {
     Session(seen)
 }
 
-impl Seen {
+impl SearchProgress {
     /// Ends the search at the first Ctrl-C and the process at the second; after the search, the
     /// first one ends the process.
     fn interrupt(&self) {
@@ -57,7 +57,7 @@ impl Seen {
     }
 }
 
-impl Observer for Seen {
+impl Observer for SearchProgress {
     fn step(&self, progress: &Progress) {
         let (function, part) = (progress.function, progress.part.name());
         let (round, rounds) = (progress.round, progress.rounds);

@@ -26,7 +26,7 @@ pub struct RenewArgs {
     check: bool,
 }
 
-struct Found {
+struct StampedFile {
     path: PathBuf,
     text: String,
     stamp: Stamp,
@@ -95,7 +95,7 @@ pub(crate) fn run(args: &RenewArgs, context: &Context) -> Outcome {
     Ok(done)
 }
 
-fn found(named: &[PathBuf]) -> Result<Vec<Found>, Failure> {
+fn found(named: &[PathBuf]) -> Result<Vec<StampedFile>, Failure> {
     let mut all = Vec::new();
     for path in named {
         let own = stamped(path, text(path, MAX_BYTES)?).ok_or_else(|| {
@@ -120,9 +120,9 @@ fn found(named: &[PathBuf]) -> Result<Vec<Found>, Failure> {
     Ok(all)
 }
 
-fn stamped(path: &Path, text: String) -> Option<Found> {
+fn stamped(path: &Path, text: String) -> Option<StampedFile> {
     let (stamp, _) = Stamp::read(&text)?;
-    Some(Found {
+    Some(StampedFile {
         path: path.to_owned(),
         language: Language::of(path).ok()?,
         text,
@@ -131,7 +131,7 @@ fn stamped(path: &Path, text: String) -> Option<Found> {
 }
 
 /// Leaves out hidden folders, build folders and links.
-fn walk(folder: &Path, all: &mut Vec<Found>) -> Result<(), Failure> {
+fn walk(folder: &Path, all: &mut Vec<StampedFile>) -> Result<(), Failure> {
     let fail = |error| Failure::Input(format!("error: `{}`: {error}", folder.display()));
     let mut entries: Vec<fs::DirEntry> = fs::read_dir(folder).map_err(fail)?.flatten().collect();
     entries.sort_by_key(fs::DirEntry::file_name);
@@ -154,7 +154,7 @@ fn walk(folder: &Path, all: &mut Vec<Found>) -> Result<(), Failure> {
     Ok(())
 }
 
-fn renewed(context: &Context, file: &Found) -> Result<Vec<New>, Failure> {
+fn renewed(context: &Context, file: &StampedFile) -> Result<Vec<New>, Failure> {
     let folder = file.path.parent().unwrap_or(Path::new(""));
     let chain = ChainArgs::from_pairs(&file.stamp.chain).ok_or_else(|| {
         let path = file.path.display();

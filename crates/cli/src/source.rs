@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::{generate_anew, plan_file};
-use dalembert_codegen::{Asked, Function, Generated, Problem, Request, RobotFileError, ScalarType};
+use dalembert_codegen::{
+    Asked, Function, GeneratedCode, Problem, Request, RobotFileError, ScalarType,
+};
 use dalembert_import::{ChainArgs, OpenError, Options, first_bytes, open};
 use dalembert_model::number::Rational;
 use dalembert_model::robot::Robot;
@@ -71,7 +73,11 @@ impl Source {
     }
 
     /// Generates code, watched by the bar and Ctrl-C, and prints its warnings, for example that the plan no longer fits.
-    pub fn generate(&self, context: &Context, request: &mut Request) -> Result<Generated, Failure> {
+    pub fn generate(
+        &self,
+        context: &Context,
+        request: &mut Request,
+    ) -> Result<GeneratedCode, Failure> {
         let _session = progress::watch(request);
         let shown = self.path.display().to_string();
         let generated = generate_anew(&self.robot, request, &shown)?;

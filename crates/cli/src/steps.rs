@@ -8,8 +8,8 @@ use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
 use dalembert_codegen::workspace::{
-    self, Admitted, Columns, Dag, Folding, Found, Job, Signature, Variant, cost, replay, search,
-    search_graphs, skeleton, trace, trace_chain, tune, tune::Tuned,
+    self, Columns, Dag, Folding, Job, SearchResult, Signature, Variant, VariantSet, cost, replay,
+    search, search_graphs, skeleton, trace, trace_chain, tune, tune::ChainChoice,
 };
 use dalembert_codegen::{Counts, Function, GenerateError, Program, Request, ScalarType, Start};
 
@@ -166,7 +166,7 @@ impl Steps<'_> {
 
     /// Adds the chain form in one regrouping after the other, each in its cheapest form: nothing
     /// moved; everything that can; per link as much as is cheapest, origins too; and the unit of length.
-    fn chain(&mut self, tuned: &Tuned) {
+    fn chain(&mut self, tuned: &ChainChoice) {
         let (setup, function) = (self.job.setup, self.function);
         let arm = skeleton(setup);
         let mut metres = tuned.regrouping.clone();
@@ -187,7 +187,7 @@ impl Steps<'_> {
         }
     }
 
-    fn searched(&mut self, found: &Found) -> Result<Program, GenerateError> {
+    fn searched(&mut self, found: &SearchResult) -> Result<Program, GenerateError> {
         let graph = &found.searched.graph;
         let mut last = self.job.setup.task(self.function).program(graph);
         self.program("search", last.clone());
@@ -215,7 +215,7 @@ fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
     regrouping
 }
 
-pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> {
+pub(super) fn tolerated(admitted: &VariantSet) -> Result<Vec<Row>, GenerateError> {
     let row = |variant: &Variant| {
         let (function, scalar) = (variant.emitted.function, variant.scalar);
         let signature = Signature::of(&variant.emitted, scalar);

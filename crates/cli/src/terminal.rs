@@ -15,10 +15,10 @@ const QUIET: Duration = Duration::from_secs(2);
 static BAR: Mutex<Option<ProgressBar>> = Mutex::new(None);
 
 /// A guard: the bar is shown until it is dropped.
-pub struct Shown;
+pub struct BarGuard;
 
 /// Starts the bar of a run; it appears on a terminal after two seconds.
-pub fn begin() -> Shown {
+pub fn begin() -> BarGuard {
     let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::hidden());
     if let Ok(style) = ProgressStyle::with_template("{elapsed} {bar:24} {wide_msg}") {
         bar.set_style(style);
@@ -33,10 +33,10 @@ pub fn begin() -> Shown {
             }
         });
     }
-    Shown
+    BarGuard
 }
 
-impl Drop for Shown {
+impl Drop for BarGuard {
     fn drop(&mut self) {
         bar().finish_and_clear();
     }

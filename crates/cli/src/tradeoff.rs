@@ -25,7 +25,7 @@ pub struct TradeoffArgs {
     /// The robot; the box is its limits of motion, unless a scene has one, whose tolerance gives way
     /// to the list of tolerances
     robot: PathBuf,
-    /// What errors are relative to: `actuator`, the joints' torque limits, or `range`,
+    /// The scale of errors: `actuator`, the joints' torque limits, or `range`,
     /// the largest torque that was found for the model in the box
     /// [default: the scene's, or actuator]
     #[arg(long, value_name = "SCALE", value_parser = scale_parser())]

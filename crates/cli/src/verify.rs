@@ -5,16 +5,16 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::{
-    Emitted, JointState, Quantity, SEED, STATES, Setup, attempt, bound_of,
+    JointState, Quantity, RunnableCode, SEED, STATES, Setup, attempt, bound_of,
 };
-use dalembert_codegen::{Function, GenerateError, Generated, Request, ScalarType};
+use dalembert_codegen::{Function, GenerateError, GeneratedCode, Request, ScalarType};
 use serde_json::Value;
 
 use crate::args::TaskArgs;
 use crate::args::values::states_parser;
 use crate::code::{BOUNDS, bounds};
-use crate::extremes::{self, Held, Row, Verdict};
-use crate::given::{self, Compared, GivenState};
+use crate::extremes::{self, BoundKind, Row, Verdict};
+use crate::given::{self, Comparison, GivenState};
 use crate::measure::{Bench, ENTRY, VECTOR};
 use crate::output::{Context, Done, Failure, Outcome};
 use crate::report::{Cell, Report, Table, cells};
@@ -69,11 +69,11 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
         let compared = double.flat_map(|emitted| {
             given::compare(emitted, bench.runtime(), bench.setup().robot(), &states)
         });
-        let compared: Vec<Compared> = compared.collect();
+        let compared: Vec<Comparison> = compared.collect();
         given::describe(&file.display().to_string(), &states, &compared, &mut done);
     }
     // What a tolerance left out is no rounding: its bound is E.
-    let is_exact = |own: &&Emitted| !claimed.contains(&(own.function, own.scalar));
+    let is_exact = |own: &&RunnableCode| !claimed.contains(&(own.function, own.scalar));
     let exact = generated.emitted.iter().filter(is_exact);
     let mut rows = extremes::inside(&bench, exact, &states);
     let mut unmeasured = Vec::new();
@@ -136,7 +136,7 @@ fn given_states(
 
 fn claims(
     setup: &Setup,
-    generated: &Generated,
+    generated: &GeneratedCode,
     done: &mut Done,
 ) -> Result<Vec<(Function, ScalarType)>, Failure> {
     let mut claimed = Vec::new();
@@ -170,7 +170,7 @@ fn rounding(states: usize, rows: &[Row], done: &mut Done) {
     let mut table = Table::new(heads);
     for row in rows {
         // What a row is not held to stands in brackets.
-        let cell = |error: f64, others: &[Held]| match others.contains(&row.held) {
+        let cell = |error: f64, others: &[BoundKind]| match others.contains(&row.held) {
             true => Cell::of(format!("({error:.1})"), error),
             false => Cell::units(error),
         };
@@ -182,8 +182,8 @@ fn rounding(states: usize, rows: &[Row], done: &mut Done) {
                 worst.function.to_string(),
                 worst.quantity.symbol(),
                 worst.scalar.name(),
-                cell(worst.vector, &[Held::Entries, Held::Weight]),
-                cell(worst.entry, &[Held::Vector]),
+                cell(worst.vector, &[BoundKind::Entries, BoundKind::Weight]),
+                cell(worst.entry, &[BoundKind::Vector]),
                 Cell::json(worst.condition),
                 held,
                 verdict,
@@ -227,7 +227,7 @@ fn rounding(states: usize, rows: &[Row], done: &mut Done) {
     }
 }
 
-fn sines(generated: &Generated, states: &[JointState], done: &mut Done) {
+fn sines(generated: &GeneratedCode, states: &[JointState], done: &mut Done) {
     let mut table = Table::new("function|scalar|angle|seen|proved|verdict=");
     let mut failed = 0;
     for emitted in &generated.emitted {

@@ -2,7 +2,7 @@
 
 use dalembert_cli::extremes::cases::Change;
 use dalembert_cli::measure::{Bench, Code, VECTOR};
-use dalembert_codegen::workspace::{Emitted, Setup, parse, seeded};
+use dalembert_codegen::workspace::{RunnableCode, Setup, parse, seeded};
 use dalembert_codegen::{Function, GenerateError, Request, ScalarType, generate};
 use dalembert_model::robot::Robot;
 
@@ -22,7 +22,7 @@ fn request(function: Function, start: &str) -> Request {
     }
 }
 
-fn is_within_the_bound(robot: &Robot, emitted: &Emitted, states: usize) {
+fn is_within_the_bound(robot: &Robot, emitted: &RunnableCode, states: usize) {
     let bench = Bench::new(Setup::whole(robot));
     for state in seeded(robot, states, 1) {
         let alone = [state];

@@ -3,9 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use dalembert_cli::extremes::Held;
+use dalembert_cli::extremes::BoundKind;
 use dalembert_cli::measure::{Bench, Code, ENTRY, VECTOR};
-use dalembert_codegen::workspace::{Emitted, JointState, Quantity, Random, Setup};
+use dalembert_codegen::workspace::{JointState, Quantity, Random, RunnableCode, Setup};
 use dalembert_codegen::{Function, Request, ScalarType, Start, generate};
 use dalembert_model::equations::Formulation;
 use dalembert_model::number::{Angle, Rational};
@@ -14,20 +14,20 @@ use serde_json::Value;
 
 use crate::robots as support;
 
-fn held(category: &str) -> Held {
+fn held(category: &str) -> BoundKind {
     let starts = |prefixes: &str| prefixes.split(' ').any(|p| category.starts_with(p));
     if starts("static_near_balance tiny_ folded_2link pointmass_tip") {
-        Held::Entries
+        BoundKind::Entries
     } else if starts("massratio length snake") {
-        Held::Vector
+        BoundKind::Vector
     } else {
-        Held::Both
+        BoundKind::Both
     }
 }
 
 /// Arms up to the longest have D, h and c, too, in f32 those of four joints at most; longer ones have
 /// torques by the recursion of links alone.
-fn emitted(robot: &Robot, scalar: ScalarType, longest: usize) -> Vec<Emitted> {
+fn emitted(robot: &Robot, scalar: ScalarType, longest: usize) -> Vec<RunnableCode> {
     let n = robot.joints.len();
     let mut functions = vec![Function::InverseDynamics];
     let is_short = n <= longest && (scalar == ScalarType::F64 || n <= 4);
@@ -63,7 +63,7 @@ fn categories_meet_their_criteria_in_f32(longest: usize) {
 /// Daily, the first case of each category is tried, in either scalar those of every second; then
 /// all others, and those of arms that daily are not searched.
 fn categories_meet_their_criteria(scalar: ScalarType, longest: usize) {
-    let mut robots: Vec<(Robot, Bench, Vec<Emitted>)> = Vec::new();
+    let mut robots: Vec<(Robot, Bench, Vec<RunnableCode>)> = Vec::new();
     let mut worst: BTreeMap<String, [f64; 2]> = BTreeMap::new();
     let mut failures = Vec::new();
     let cases = read(scalar);
@@ -106,7 +106,7 @@ fn categories_meet_their_criteria(scalar: ScalarType, longest: usize) {
                 }
                 let held = held(&case.category);
                 let is_vector = match found.quantity {
-                    Quantity::Torque => held != Held::Entries,
+                    Quantity::Torque => held != BoundKind::Entries,
                     // D is large somewhere in every state; h and c may vanish.
                     quantity => quantity == Quantity::Inertia,
                 };
@@ -116,7 +116,7 @@ fn categories_meet_their_criteria(scalar: ScalarType, longest: usize) {
                     let worst = worst.entry(case.category.clone()).or_default();
                     *worst = [worst[0].max(found.vector), worst[1].max(entry)];
                 }
-                let is_off = entry > ENTRY && held != Held::Vector;
+                let is_off = entry > ENTRY && held != BoundKind::Vector;
                 if is_off || is_vector && found.vector > VECTOR {
                     failures.push(format!("{} {scalar} {found:?} {entry}", case.id));
                 }

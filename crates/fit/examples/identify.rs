@@ -10,7 +10,7 @@ use std::path::Path;
 
 use dalembert_fit::random::{Random, within};
 use dalembert_fit::robot_file::{replaceable, save};
-use dalembert_fit::simulate::{Recording, record};
+use dalembert_fit::simulate::{LogSettings, record};
 use dalembert_fit::{
     Accumulator, Effort, Model, consistent, cross_validation, excite, fit, identified,
 };
@@ -52,7 +52,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("trajectory of 10 s: condition {condition:.0}");
     let mut files = Vec::new();
     for seed in 0..4 {
-        let recording = Recording {
+        let recording = LogSettings {
             period: 2e-3,
             states: 5000,
             noise: noise.clone(),

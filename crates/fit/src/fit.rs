@@ -14,7 +14,7 @@ use crate::dense::{apply, back_substitute, dot, norms, over, singular, split};
 use crate::error::Error;
 use crate::model::Model;
 use crate::reference::{Reference, weighted};
-use crate::unexcited::{Unexcited, Weighting, separated};
+use crate::unexcited::{UnexcitedDirection, Weights, separated};
 
 /// Combinations that give less than this part of the reference motion's torque are not excited.
 pub const LEAST_EXCITATION: f64 = 1e-3;
@@ -42,7 +42,7 @@ pub struct Fit {
     /// Condition of the weighted regressor, columns of length one; infinite if these are dependent.
     pub condition: f64,
     /// The parameters that the data do not excite.
-    pub unexcited: Vec<Unexcited>,
+    pub unexcited: Vec<UnexcitedDirection>,
     /// Number of states.
     pub states: u64,
     /// R of the weighted data.
@@ -89,7 +89,7 @@ pub fn fit(model: &Model, data: &Accumulator) -> Result<Fit, Error> {
             directions.push(parameters);
         }
     }
-    let weighting = Weighting {
+    let weighting = Weights {
         model,
         noise: &noise,
         reference: &reference,

@@ -6,11 +6,11 @@ use crate::error::{Error, check, ensure};
 use crate::fourier::Trajectory;
 use crate::model::Model;
 use crate::random::{Random, normal};
-pub use controlled::{Collision, Controlled, control};
+pub use controlled::{Collision, ControlledArm, control};
 
 /// The settings of a simulated log.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Recording {
+pub struct LogSettings {
     /// Time between two states, s.
     pub period: f64,
     /// Number of states.
@@ -23,7 +23,7 @@ pub struct Recording {
     pub seed: u64,
 }
 
-impl Recording {
+impl LogSettings {
     fn check(&self, joints: usize) -> Result<(), Error> {
         check("noise", &self.noise, joints)?;
         let expected = "a recording has a positive period and a resolution that is not negative";
@@ -76,7 +76,7 @@ pub fn record(
     model: &Model,
     parameters: &[f64],
     trajectory: &Trajectory,
-    recording: &Recording,
+    recording: &LogSettings,
 ) -> Result<Log, Error> {
     check("parameters", parameters, model.columns().len())?;
     recording.check(model.joints())?;

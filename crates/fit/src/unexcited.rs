@@ -15,7 +15,7 @@ const NOTHING: f64 = 1e-6;
 
 /// A combination of parameters that the data do not excite.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Unexcited {
+pub struct UnexcitedDirection {
     /// Columns of the model with their factors, from the largest contribution down to a hundredth.
     pub combination: Vec<(usize, f64)>,
     /// The parameter in words.
@@ -69,7 +69,7 @@ impl fmt::Display for Motion {
     }
 }
 
-impl fmt::Display for Unexcited {
+impl fmt::Display for UnexcitedDirection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
@@ -108,19 +108,19 @@ pub(crate) fn separated(mut directions: Vec<Vec<f64>>, norms: &[f64]) -> Vec<Vec
     directions
 }
 
-pub(crate) struct Weighting<'a> {
+pub(crate) struct Weights<'a> {
     pub(crate) model: &'a Model,
     pub(crate) noise: &'a [f64],
     pub(crate) reference: &'a Reference,
 }
 
-impl Weighting<'_> {
+impl Weights<'_> {
     pub(crate) fn describe(
         &self,
         directions: &[Vec<f64>],
         r: &[f64],
         root: f64,
-    ) -> Result<Vec<Unexcited>, Error> {
+    ) -> Result<Vec<UnexcitedDirection>, Error> {
         let norm = |r: &[f64], direction: &[f64]| -> f64 {
             let image = apply(r, direction);
             libm::sqrt(dot(&image, &image))
@@ -131,7 +131,7 @@ impl Weighting<'_> {
         let each = directions.iter().zip(units).zip(motions);
         let each = each.map(|((direction, unit), motion)| {
             let combination = self.leading(direction);
-            Unexcited {
+            UnexcitedDirection {
                 name: named(self.model, &combination),
                 motion,
                 combination,

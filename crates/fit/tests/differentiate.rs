@@ -1,6 +1,6 @@
 //! Velocities and accelerations of encoders: gains, windows, and what they do to parameters.
 
-use dalembert_fit::simulate::{Recording, record};
+use dalembert_fit::simulate::{LogSettings, record};
 use dalembert_fit::{Accumulator, Differentiator, differentiate, excite, fit};
 
 use crate::support::{arm, differentiated, noise, short_effort};
@@ -55,7 +55,7 @@ fn encoder_bias(seeds: u64) -> [f64; 2] {
     let filter = Differentiator::for_motion(1e-3, trajectory.highest_frequency()).unwrap();
     let mut away = vec![0.0; right.len()];
     for seed in 0..seeds {
-        let recording = Recording {
+        let recording = LogSettings {
             period: 1e-3,
             states: 8000,
             noise: sigma.clone(),

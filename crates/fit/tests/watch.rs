@@ -1,6 +1,6 @@
 //! A simulated arm under computed torque: collisions are found.
 
-use dalembert_fit::simulate::{Collision, Controlled, Log, Recording, control};
+use dalembert_fit::simulate::{Collision, ControlledArm, Log, LogSettings, control};
 use dalembert_fit::{Differentiator, Model, Trajectory, Watch, excite};
 use dalembert_model::robot::Robot;
 
@@ -32,13 +32,13 @@ impl Scene {
     }
 
     fn record(&self, collisions: &[Collision], seconds: f64, seed: u64) -> Log {
-        let controlled = Controlled {
+        let controlled = ControlledArm {
             arms: vec![(0.0, self.truth.clone())],
             controller: guess(&self.truth),
             bandwidth: 20.0,
             collisions: collisions.to_vec(),
         };
-        let recording = Recording {
+        let recording = LogSettings {
             period: PERIOD,
             states: (seconds / PERIOD) as usize,
             noise: (0..6).map(noise).collect(),
@@ -120,13 +120,13 @@ fn an_hour_has_one_false_alarm_at_most() {
 #[test]
 fn scenes_and_watches_that_cannot_be_are_refused() {
     let scene = Scene::new();
-    let good = Controlled {
+    let good = ControlledArm {
         arms: vec![(0.0, scene.truth.clone())],
         controller: scene.truth.clone(),
         bandwidth: 20.0,
         collisions: Vec::new(),
     };
-    let recording = Recording {
+    let recording = LogSettings {
         period: PERIOD,
         states: 10,
         noise: vec![0.1; 6],
@@ -135,7 +135,7 @@ fn scenes_and_watches_that_cannot_be_are_refused() {
     };
     let log = control(&good, &scene.trajectory, &recording).unwrap();
     assert_eq!(log.q.len(), 10);
-    let refused = |states: usize, change: &dyn Fn(&mut Controlled)| {
+    let refused = |states: usize, change: &dyn Fn(&mut ControlledArm)| {
         let (mut changed, mut recording) = (good.clone(), recording.clone());
         change(&mut changed);
         recording.states = states;

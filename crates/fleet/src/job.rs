@@ -40,7 +40,7 @@ pub struct LogArgs {
     /// Leave out files that are bad; without it they are named and nothing is computed
     #[arg(long)]
     pub skip_bad: bool,
-    /// How much memory reading may take, as 512M or 4G
+    /// The most memory that reading takes, as 512M or 4G
     #[arg(long, value_name = "SIZE", default_value = "1G", value_parser = bytes)]
     pub memory: u64,
     /// Threads [default: the machine's]

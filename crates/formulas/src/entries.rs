@@ -4,7 +4,7 @@ use dalembert_codegen::workspace::{Quantity, Setup, Sizes};
 use dalembert_model::equations::Formulation;
 use dalembert_model::equations::chain::Chain;
 use dalembert_model::equations::chain::composite::{Composite, CompositeOrder};
-use dalembert_model::equations::following::{Following, gathered_rows};
+use dalembert_model::equations::following::{FollowerLine, gathered_rows};
 use dalembert_model::equations::matrix::Columns;
 use dalembert_model::scalar::Scalar;
 
@@ -27,7 +27,7 @@ impl<S: Scalar> Coefficients<S> {
     /// soon as a number is lost.
     pub fn new(
         setup: &Setup,
-        following: &[Following<S>],
+        following: &[FollowerLine<S>],
         posed: &PosedChain<S>,
         chain: &Chain<S>,
         is_lost: impl Fn(&S) -> bool,

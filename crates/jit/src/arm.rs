@@ -14,7 +14,7 @@ use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 use dalembert_stamp::{Comment, Stamp};
 
-use crate::cache::{self, Entry, Folder, Proved};
+use crate::cache::{self, CachedFunction, Entry, Folder};
 use crate::compile::Signature;
 use crate::error::LoadError;
 use crate::make::{claimed, made, read_robot};
@@ -25,7 +25,7 @@ use crate::request::Load;
 pub struct Function {
     output: Output,
     sizes: Sizes,
-    proved: Proved,
+    proved: CachedFunction,
     native: Native,
 }
 
@@ -347,7 +347,7 @@ impl Arm {
     }
 }
 
-fn compiled(entry: &Entry, proved: &Proved) -> Result<Function, LoadError> {
+fn compiled(entry: &Entry, proved: &CachedFunction) -> Result<Function, LoadError> {
     let damaged = || LoadError::Request(format!("`{}` cannot be read back", proved.function));
     let output = match proved.function == Output::Load.name() {
         true => Output::Load,

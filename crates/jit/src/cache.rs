@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use dalembert_codegen::workspace::{Emitted, Sizes};
+use dalembert_codegen::workspace::{RunnableCode, Sizes};
 use dalembert_codegen::{GeneratedFunction, Plan};
 use hmac_sha256::Hash;
 use serde::{Deserialize, Serialize};
@@ -33,7 +33,7 @@ const MAX_BYTES: u64 = 1 << 28;
 pub(crate) struct Entry {
     pub(crate) robot: String,
     pub(crate) notes: Vec<String>,
-    pub(crate) functions: Vec<Proved>,
+    pub(crate) functions: Vec<CachedFunction>,
     pub(crate) rust: Vec<String>,
     pub(crate) claim: String,
     /// With exact constants.
@@ -42,7 +42,7 @@ pub(crate) struct Entry {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Proved {
+pub(crate) struct CachedFunction {
     /// Its name, and what it bundles if it is a bundle.
     pub(crate) function: String,
     pub(crate) scalar: String,
@@ -56,15 +56,19 @@ pub(crate) struct Proved {
     pub(crate) proof: String,
 }
 
-impl Proved {
-    pub(crate) fn of(file: usize, function: &GeneratedFunction, emitted: &Emitted) -> Proved {
+impl CachedFunction {
+    pub(crate) fn of(
+        file: usize,
+        function: &GeneratedFunction,
+        emitted: &RunnableCode,
+    ) -> CachedFunction {
         let sizes = emitted.sizes;
         let arguments = function.program.arguments.iter();
         let tolerance = match function.admitted {
             None => "",
             Some(_) => "; what a tolerance left out of it is bounded in its claim",
         };
-        Proved {
+        CachedFunction {
             function: function.function.text(),
             scalar: emitted.scalar.name().to_owned(),
             file,

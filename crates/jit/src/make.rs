@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use dalembert_codegen::workspace::{claim, generate_anew, input_hash, keep};
-use dalembert_codegen::{Generated, Plan, Request, generate};
+use dalembert_codegen::{GeneratedCode, Plan, Request, generate};
 use dalembert_import::{Snap, Text};
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 
-use crate::cache::{self, Entry, Folder, Proved};
+use crate::cache::{self, CachedFunction, Entry, Folder};
 use crate::error::LoadError;
 use crate::request::Load;
 
@@ -74,12 +74,12 @@ pub(crate) fn made(
     })
 }
 
-fn proved(generated: &Generated) -> Vec<Proved> {
+fn proved(generated: &GeneratedCode) -> Vec<CachedFunction> {
     let functions = &generated.functions;
     // File by file.
     let emitted = generated.emitted.iter().enumerate();
     let both = emitted.zip(functions.iter().cycle());
-    both.map(|((index, own), function)| Proved::of(index / functions.len(), function, own))
+    both.map(|((index, own), function)| CachedFunction::of(index / functions.len(), function, own))
         .collect()
 }
 
@@ -87,7 +87,7 @@ pub(crate) fn claimed(
     robot: &Robot,
     source: &str,
     request: &Request,
-    generated: &Generated,
+    generated: &GeneratedCode,
 ) -> Result<String, LoadError> {
     let claim = claim(robot, source, request, generated);
     let claim = claim.map_err(|why| LoadError::Generate(why.into()))?;

@@ -242,7 +242,7 @@ impl Native {
         let written = results.iter_mut();
         let written = written.map(|(data, place)| (data.as_mut_ptr(), &*place));
         let (read, written): (Vec<_>, Vec<_>) = (read.collect(), written.collect());
-        let (read, written) = (Shared(read), Shared(written));
+        let (read, written) = (SharedSlice(read), SharedSlice(written));
         let lanes = vector(self.program.scalar).lane_count() as usize;
         let threads = threads.clamp(1, (states / LEAST_STATES).max(1));
         // Whole vectors to all but the last.
@@ -263,8 +263,8 @@ impl Native {
     fn run_many<T: Real>(
         &self,
         many: &InMemory,
-        read: &Shared<Vec<(*const T, &Place)>>,
-        written: &Shared<Vec<(*mut T, &Place)>>,
+        read: &SharedSlice<Vec<(*const T, &Place)>>,
+        written: &SharedSlice<Vec<(*mut T, &Place)>>,
         states: std::ops::Range<usize>,
     ) {
         let size = size_of::<T>();
@@ -346,11 +346,11 @@ impl Native {
     }
 }
 
-struct Shared<T>(T);
+struct SharedSlice<T>(T);
 
 // SAFETY: threads read disjoint states' entries through shared slices, and write those of
 // disjoint states: see `run_many`.
-unsafe impl<T> Sync for Shared<T> {}
+unsafe impl<T> Sync for SharedSlice<T> {}
 
 /// Fewer states a thread take less time than starting it.
 const LEAST_STATES: usize = 2048;

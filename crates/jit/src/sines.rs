@@ -8,38 +8,38 @@ use dalembert_sines::text::{Angle, Number, Rounded, rest};
 use crate::emit::{Call, Emitter};
 
 #[derive(Clone, Copy)]
-struct Traced<'e, 'f>(Value, &'e Emitter<'f>);
+struct IrValue<'e, 'f>(Value, &'e Emitter<'f>);
 
 macro_rules! operations {
     ($($operation:ident $method:ident $instruction:ident),*) => {$(
-        impl $operation for Traced<'_, '_> {
+        impl $operation for IrValue<'_, '_> {
             type Output = Self;
             fn $method(self, other: Self) -> Self {
-                let Traced(own, emitter) = self;
-                Traced(emitter.with(|b| b.ins().$instruction(own, other.0)), emitter)
+                let IrValue(own, emitter) = self;
+                IrValue(emitter.with(|b| b.ins().$instruction(own, other.0)), emitter)
             }
         }
     )*};
 }
 operations!(Add add fadd, Sub sub fsub, Mul mul fmul);
 
-impl Neg for Traced<'_, '_> {
+impl Neg for IrValue<'_, '_> {
     type Output = Self;
     fn neg(self) -> Self {
-        let Traced(own, emitter) = self;
-        Traced(emitter.with(|b| b.ins().fneg(own)), emitter)
+        let IrValue(own, emitter) = self;
+        IrValue(emitter.with(|b| b.ins().fneg(own)), emitter)
     }
 }
 
-impl<T: Into<f64>> Number<T> for Traced<'_, '_> {
+impl<T: Into<f64>> Number<T> for IrValue<'_, '_> {
     fn all(self, value: T) -> Self {
-        Traced(self.1.constant(value.into()), self.1)
+        IrValue(self.1.constant(value.into()), self.1)
     }
 
     fn fused(self, factor: Self, addend: Self) -> Self {
-        let Traced(own, emitter) = self;
+        let IrValue(own, emitter) = self;
         let fused = emitter.with(|b| b.ins().fma(own, factor.0, addend.0));
-        Traced(fused, emitter)
+        IrValue(fused, emitter)
     }
 }
 
@@ -51,7 +51,7 @@ where
     let mut usual: Option<Value> = None;
     let mut computed = Vec::with_capacity(angles.len());
     for &angle in angles {
-        let (shifted, sin, cos) = rest::<T, Rounded, _>(Traced(angle, emitter));
+        let (shifted, sin, cos) = rest::<T, Rounded, _>(IrValue(angle, emitter));
         let [shifted, sin, cos] = [shifted, sin, cos].map(|traced| traced.0);
         computed.push(turned(emitter, T::SIGN, shifted, sin, cos));
         let within = emitter.is_within(angle, T::LARGEST.into());

@@ -11,7 +11,7 @@ use core::fmt;
 use nalgebra::{DMatrix, DVector};
 
 use crate::equations::kinematics::poses;
-use crate::equations::load::Loading;
+use crate::equations::load::LoadArguments;
 use crate::equations::matrix::{Columns, zeros};
 use crate::equations::regressor::{Column, of_links};
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition, SinCosPair, base_position};
@@ -83,7 +83,7 @@ pub struct JointVectors<T> {
     /// The columns of a regressor; none where it is not asked for.
     pub columns: Vec<Column<T>>,
     /// The payload at the hand, where a load is asked for.
-    pub loading: Option<Loading<T>>,
+    pub loading: Option<LoadArguments<T>>,
 }
 
 impl<T: Float> JointVectors<T> {

@@ -68,9 +68,7 @@ impl Function {
         let named = all.filter(|(_, function)| function.name() == name);
         let places: Vec<usize> = named.map(|(place, _)| place).collect();
         let Some(any) = places.first().map(|&place| &arm.functions()[place]) else {
-            return Err(PyValueError::new_err(format!(
-                "there is no function `{name}`"
-            )));
+            return Err(PyValueError::new_err(format!("unknown function `{name}`")));
         };
         let shape = |quantity: &dalembert_jit::Quantity| {
             let lengths = quantity.shape().lengths(any.sizes());

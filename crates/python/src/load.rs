@@ -25,12 +25,12 @@ const PATIENCE: Duration = Duration::from_millis(50);
 const STACK: usize = 64 << 20;
 
 #[derive(Default)]
-struct Waiting {
+struct SignalWatch {
     last: Mutex<Option<Progress>>,
     stop: AtomicBool,
 }
 
-impl Observer for Waiting {
+impl Observer for SignalWatch {
     fn step(&self, progress: &Progress) {
         *self.last.lock().unwrap_or_else(PoisonError::into_inner) = Some(*progress);
     }
@@ -40,7 +40,7 @@ impl Observer for Waiting {
     }
 }
 
-impl Waiting {
+impl SignalWatch {
     fn show(&self, progress: &Bound<'_, PyAny>) -> PyResult<()> {
         let last = *self.last.lock().unwrap_or_else(PoisonError::into_inner);
         let (text, done) = match last {
@@ -70,7 +70,7 @@ pub fn load(
     options: &Bound<'_, PyDict>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<Arm> {
-    let waiting = Arc::new(Waiting::default());
+    let waiting = Arc::new(SignalWatch::default());
     let mut load = wanted(&Options(options))?;
     load.watch = Watch::new(waiting.clone());
     let is_thorough = load.asked.get("effort") == Some("thorough");

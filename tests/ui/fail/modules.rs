@@ -1,4 +1,4 @@
-//! What the module is called, and where its robot comes from.
+//! The name of the module, and the source of its robot.
 
 // A word of the language names no module.
 dalembert::dynamics! {

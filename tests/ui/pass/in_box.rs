@@ -1,5 +1,5 @@
 #![deny(warnings, missing_docs)]
-//! Where polynomials for sines hold, the module says and asks; a joint without
+//! The module says where polynomials for sines hold, and asks; a joint without
 //! limits turns without end. A list of outputs may stand in brackets.
 dalembert::dynamics! {
     /// A joint with limits and one without.

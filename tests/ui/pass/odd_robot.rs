@@ -1,5 +1,5 @@
 #![deny(warnings)]
-//! Whoever knows better than the warnings says so above the module.
+//! Warnings are silenced above the module.
 dalembert::dynamics! {
     /// A flywheel that no body is, on a crane.
     #[allow(deprecated)]

@@ -48,17 +48,17 @@ where
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Reduced<T> {
+pub(super) struct ColumnBasis<T> {
     pub(super) pivots: Vec<usize>,
     /// Each column as a combination: places in `pivots`, with their factors.
     pub(super) coefficients: Vec<Vec<(usize, T)>>,
 }
 
-impl Reduced<Exact> {
+impl ColumnBasis<Exact> {
     pub(super) fn confirmed(
-        first: Reduced<Field>,
-        second: Reduced<ProofField>,
-    ) -> Option<Reduced<Exact>> {
+        first: ColumnBasis<Field>,
+        second: ColumnBasis<ProofField>,
+    ) -> Option<ColumnBasis<Exact>> {
         if first.pivots != second.pivots {
             return None;
         }
@@ -72,15 +72,15 @@ impl Reduced<Exact> {
             let terms: Option<Vec<(usize, Exact)>> = terms.collect();
             terms.filter(|_| own.len() == others.len())
         });
-        Some(Reduced {
+        Some(ColumnBasis {
             coefficients: coefficients.collect::<Option<_>>()?,
             pivots: first.pivots,
         })
     }
 }
 
-pub(super) fn reduced<const P: u64>(columns: Vec<Vec<Modulo<P>>>) -> Reduced<Modulo<P>> {
-    let mut found = Reduced {
+pub(super) fn reduced<const P: u64>(columns: Vec<Vec<Modulo<P>>>) -> ColumnBasis<Modulo<P>> {
+    let mut found = ColumnBasis {
         pivots: Vec::new(),
         coefficients: Vec::with_capacity(columns.len()),
     };

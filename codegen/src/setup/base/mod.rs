@@ -36,7 +36,7 @@ use dalembert_model::scalar::Scalar;
 use super::Setup;
 use crate::function::Quantity;
 use crate::words::Complaint;
-use elimination::{Reduced, reduced, values};
+use elimination::{ColumnBasis, reduced, values};
 use moments::{MAX_TERMS, Moment, kept, parts};
 
 /// A parameter of the robot file, of a link about the origin and in the axes of its own frame.
@@ -165,7 +165,7 @@ impl BaseParameters {
                            fraction, as odd angles between slides and the first axis give";
             no_base(message, "")
         };
-        let reduced = Reduced::confirmed(
+        let reduced = ColumnBasis::confirmed(
             reduced(values(setup, quantity, &candidates).ok_or_else(unfit)?),
             reduced(values(setup, quantity, &candidates).ok_or_else(unfit)?),
         )

@@ -18,70 +18,70 @@ const DIGITS: u32 = 16;
 
 /// A number in units of 2⁻²⁵⁶.
 #[derive(Clone, PartialEq)]
-struct Fixed(BigInt);
+struct FixedPoint(BigInt);
 
-impl From<i64> for Fixed {
-    fn from(whole: i64) -> Fixed {
-        Fixed(BigInt::from(whole) << BITS)
+impl From<i64> for FixedPoint {
+    fn from(whole: i64) -> FixedPoint {
+        FixedPoint(BigInt::from(whole) << BITS)
     }
 }
 
-impl Add for Fixed {
-    type Output = Fixed;
-    fn add(self, other: Fixed) -> Fixed {
-        Fixed(self.0 + other.0)
+impl Add for FixedPoint {
+    type Output = FixedPoint;
+    fn add(self, other: FixedPoint) -> FixedPoint {
+        FixedPoint(self.0 + other.0)
     }
 }
 
-impl Mul for Fixed {
-    type Output = Fixed;
-    fn mul(self, other: Fixed) -> Fixed {
-        Fixed((self.0 * other.0) >> BITS)
+impl Mul for FixedPoint {
+    type Output = FixedPoint;
+    fn mul(self, other: FixedPoint) -> FixedPoint {
+        FixedPoint((self.0 * other.0) >> BITS)
     }
 }
 
-impl Neg for Fixed {
-    type Output = Fixed;
-    fn neg(self) -> Fixed {
-        Fixed(-self.0)
+impl Neg for FixedPoint {
+    type Output = FixedPoint;
+    fn neg(self) -> FixedPoint {
+        FixedPoint(-self.0)
     }
 }
 
-impl Scalar for Fixed {}
+impl Scalar for FixedPoint {}
 
 struct Digits;
 
 impl Reading for Digits {
-    type Number = Fixed;
+    type Number = FixedPoint;
 
-    fn entry(&self, text: Option<&String>) -> Result<Fixed, String> {
-        Ok(Fixed(fixed(&number_of(text)?, BITS)))
+    fn entry(&self, text: Option<&String>) -> Result<FixedPoint, String> {
+        Ok(FixedPoint(fixed(&number_of(text)?, BITS)))
     }
 
-    fn sines(&self, text: Option<&String>) -> Result<[Fixed; 2], String> {
+    fn sines(&self, text: Option<&String>) -> Result<[FixedPoint; 2], String> {
         let text = text.map_or("0", String::as_str);
         let pair = Angle::read(text).and_then(|angle| angle.rounded());
-        let pair = pair.ok_or_else(|| format!("`{text}` is no angle up to 8 rad"))?;
-        Ok(pair.map(|own| Fixed(own >> (320 - BITS))))
+        let pair = pair.ok_or_else(|| format!("`{text}` is not an angle up to 8 rad"))?;
+        Ok(pair.map(|own| FixedPoint(own >> (320 - BITS))))
     }
 }
 
 /// Divides a direction by its length; zero stays.
-fn unit(axis: [Fixed; 3]) -> [Fixed; 3] {
+fn unit(axis: [FixedPoint; 3]) -> [FixedPoint; 3] {
     let square: BigInt = axis.iter().map(|x| &x.0 * &x.0).sum();
     let length = square.sqrt().max(BigInt::from(1));
-    axis.map(|x| Fixed((x.0 << BITS) / &length))
+    axis.map(|x| FixedPoint((x.0 << BITS) / &length))
 }
 
 struct Part {
     name: String,
-    values: Vec<Fixed>,
+    values: Vec<FixedPoint>,
     /// The size that digits are counted from, if that is not the largest value's.
     scale: BigInt,
 }
 
 impl Part {
-    fn new(name: impl Into<String>, values: impl Into<Vec<Fixed>>) -> Part {
+    fn new(name: impl Into<String>, values: impl Into<Vec<FixedPoint>>) -> Part {
         let (name, values) = (name.into(), values.into());
         let scale = largest(&values);
         Part {
@@ -92,19 +92,19 @@ impl Part {
     }
 }
 
-fn largest(values: &[Fixed]) -> BigInt {
+fn largest(values: &[FixedPoint]) -> BigInt {
     let sizes = values.iter().map(|value| value.0.abs());
     sizes.max().unwrap_or_default()
 }
 
 fn weighed(
     name: &str,
-    (body, centre): (Body<Fixed>, Pose<Fixed>),
-    frame: &Pose<Fixed>,
+    (body, centre): (Body<FixedPoint>, Pose<FixedPoint>),
+    frame: &Pose<FixedPoint>,
 ) -> [Part; 3] {
     let mut at = frame.then(&centre);
     let first = scaled(body.mass.clone(), at.origin);
-    at.origin = [0i64; 3].map(Fixed::from);
+    at.origin = [0i64; 3].map(FixedPoint::from);
     let named = |what: &str| format!("{what} of {name}");
     [
         Part::new(named("mass"), [body.mass.clone()]),
@@ -195,14 +195,14 @@ pub fn check(file: &File, aligned: &File, scene: Option<&str>) -> Result<(), Str
         let rows = 0..file.joint.len();
         let own = rows.map(|row| {
             let own = file.follows(row)?;
-            let mut sum = Fixed::from(0);
+            let mut sum = FixedPoint::from(0);
             for (factor, text) in &own.offsets {
                 let angle = file.joint[row].turns().then(|| Angle::read(text)).flatten();
                 let offset = match angle {
-                    Some(angle) => Fixed(angle.scaled(BITS)),
+                    Some(angle) => FixedPoint(angle.scaled(BITS)),
                     None => Digits.entry(Some(*text))?,
                 };
-                sum = sum + Fixed(fixed(factor, BITS)) * offset;
+                sum = sum + FixedPoint(fixed(factor, BITS)) * offset;
             }
             Ok((own.row, own.times, sum))
         });
@@ -241,7 +241,7 @@ pub fn check(file: &File, aligned: &File, scene: Option<&str>) -> Result<(), Str
         return Err("the rows have the payload on another link than the scene".into());
     }
     let (own, other) = (parts(file, given, true)?, parts(aligned, moved, false)?);
-    let double = |own: &Fixed| (&own.0 >> (BITS - 64)).to_f64().unwrap_or(0.0) / 2f64.powi(64);
+    let double = |own: &FixedPoint| (&own.0 >> (BITS - 64)).to_f64().unwrap_or(0.0) / 2f64.powi(64);
     for (own, other) in own.iter().zip(&other) {
         // Not of the claim, whose origins may stand anywhere along the axes.
         let slack: BigInt = &own.scale / BigInt::from(10).pow(DIGITS) + 1;

@@ -9,7 +9,7 @@ use num_traits::{ToPrimitive, Zero};
 
 use super::exact::Point;
 use super::number::Number;
-use super::robot::{File, Floating, Placement, Row, angle_of, number_of};
+use super::robot::{File, FloatingBase, Placement, Row, angle_of, number_of};
 use super::screw::{Body, Pose, Scalar, Screw, Vector, cross, dot, opposite, scaled, sum};
 use super::setting::Setting;
 use super::state::State;
@@ -181,7 +181,7 @@ impl Reading for Point {
 
 impl Point {
     /// A base that floats stays where it is: in its axes nothing but gravity depends on that.
-    fn floating(&self, file: &File, own: &Floating) -> Result<Body, String> {
+    fn floating(&self, file: &File, own: &FloatingBase) -> Result<Body, String> {
         let places = [&file.base, &file.tool, &file.payload_frame];
         let is_bare = own.com.is_none() || own.inertia.is_none();
         let has_mass = !number_of(Some(&own.mass))?.is_zero();

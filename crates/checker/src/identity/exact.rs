@@ -194,13 +194,13 @@ pub struct Exact(Arc<Sum>);
 #[derive(Debug)]
 struct Sum {
     terms: Vec<Term>,
-    rounded: OnceLock<Option<Rounded>>,
+    rounded: OnceLock<Option<Enclosure>>,
     double: OnceLock<Option<[f64; 2]>>,
 }
 
 /// over/under, and the constant is at most slack/under from it. Nothing is reduced to lowest terms.
 #[derive(Debug)]
-pub struct Rounded {
+pub struct Enclosure {
     over: BigInt,
     slack: BigInt,
     under: BigInt,
@@ -212,7 +212,7 @@ fn parts(value: f64) -> (BigInt, i64) {
     (BigInt::from(mantissa) * sign, i64::from(exponent))
 }
 
-impl Rounded {
+impl Enclosure {
     /// Compares (over + slack·sign)/under times two with the sum of two doubles.
     fn twice_against(&self, sign: i32, [a, b]: [f64; 2]) -> Ordering {
         let [(a, i), (b, k)] = [a, b].map(parts);
@@ -290,7 +290,7 @@ impl Exact {
 
     /// Rounds the constant once, by the sines that are known, to which it adds more; none if an
     /// angle is too far.
-    pub fn settle(&self, known: &mut Sines) -> Option<&Rounded> {
+    pub fn settle(&self, known: &mut Sines) -> Option<&Enclosure> {
         let rounded = &self.0.rounded;
         rounded.get_or_init(|| self.rounded(known)).as_ref()
     }
@@ -298,7 +298,7 @@ impl Exact {
     /// Returns a double, and how far the constant is from it at most; none if an angle is too far.
     pub fn double(&self) -> Option<[f64; 2]> {
         *self.0.double.get_or_init(|| {
-            let Rounded { over, slack, under } = self.settle(&mut Sines::new())?;
+            let Enclosure { over, slack, under } = self.settle(&mut Sines::new())?;
             let near = |over: BigInt, under: BigInt| Rational::new_raw(over, under).to_f64();
             let value = near(over.clone(), under.clone()).filter(|own| own.is_finite())?;
             let (m, e) = parts(value);
@@ -322,11 +322,11 @@ impl Exact {
         Arc::as_ptr(&self.0) as usize
     }
 
-    fn rounded(&self, known: &mut Sines) -> Option<Rounded> {
+    fn rounded(&self, known: &mut Sines) -> Option<Enclosure> {
         if let Some(own) = self.fraction() {
             let (over, under) = (own.numer().clone(), own.denom().clone());
             let slack = BigInt::zero();
-            return Some(Rounded { over, slack, under });
+            return Some(Enclosure { over, slack, under });
         }
         let (mut over, mut slack) = (BigInt::zero(), BigInt::one());
         for (factor, powers) in &self.0.terms {
@@ -344,7 +344,7 @@ impl Exact {
             over += product;
         }
         let under = BigInt::one() << PLACES;
-        Some(Rounded { over, slack, under })
+        Some(Enclosure { over, slack, under })
     }
 
     /// Compares a literal with the nearest float; between two as near, the even one counts.

@@ -21,7 +21,7 @@ pub struct File {
     pub(super) joint: Vec<Row>,
     /// The base, if it floats: the first joint of the file.
     #[serde(skip)]
-    pub(super) floating: Option<Floating>,
+    pub(super) floating: Option<FloatingBase>,
     pub(super) base: Option<Placement>,
     pub(super) payload_frame: Option<Placement>,
     pub(super) tool: Option<Placement>,
@@ -165,7 +165,7 @@ pub(super) struct Row {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 #[allow(dead_code, reason = "keys that the equations do not read")]
-pub(super) struct Floating {
+pub(super) struct FloatingBase {
     pub(super) name: Option<String>,
     kind: IgnoredAny,
     pub(super) mass: String,
@@ -314,12 +314,12 @@ pub fn read(source: &str) -> Result<File, String> {
 /// Reads a number; one that is missing is zero.
 pub(super) fn number_of(text: Option<&String>) -> Result<Rational, String> {
     let text = text.map_or("0", String::as_str);
-    number(text).ok_or_else(|| format!("`{text}` is no number"))
+    number(text).ok_or_else(|| format!("`{text}` is not a number"))
 }
 
 pub(super) fn angle_of(text: Option<&String>) -> Result<Angle, String> {
     let text = text.map_or("0", String::as_str);
-    Angle::read(text).ok_or_else(|| format!("`{text}` is no angle"))
+    Angle::read(text).ok_or_else(|| format!("`{text}` is not an angle"))
 }
 
 fn plain(value: &DeValue) -> Result<Value, String> {
@@ -336,7 +336,7 @@ fn plain(value: &DeValue) -> Result<Value, String> {
             .map(|(key, value)| Ok((key.get_ref().to_string(), plain(value.get_ref())?)))
             .collect::<Result<_, String>>()?,
         other => {
-            let why = format!("robot file: {other:?} is no number, text, list or table");
+            let why = format!("robot file: {other:?} is not a number, text, list or table");
             return Err(why);
         }
     })

@@ -133,7 +133,7 @@ impl File {
             };
             offsets.extend(mimic.offset.as_ref().map(|text| (times.clone(), text)));
             let factor = mimic.multiplier.as_ref().map_or("1", String::as_str);
-            times *= number(factor).ok_or_else(|| in_joint("`multiplier` is no number"))?;
+            times *= number(factor).ok_or_else(|| in_joint("`multiplier` is not a number"))?;
             let leader = self.row(&mimic.joint)?;
             if self.joint[leader].kind != self.joint[row].kind {
                 let why = "it turns and what it follows slides, or otherwise";

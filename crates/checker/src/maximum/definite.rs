@@ -8,7 +8,7 @@
 
 use super::climb::next;
 use super::corners::Factor;
-use super::search::{Aim, Search, Shown};
+use super::search::{Aim, Search, Verdict};
 use super::terms::{Key, Terms, group};
 use crate::polynomial::Polynomial;
 use crate::ring::Ring;
@@ -66,7 +66,7 @@ pub fn is_definite(entries: &[Polynomial], errors: &[f64], ring: &Ring) -> bool 
     least > 0.0
         && match search.is_constant() {
             true => search.is_at_most((largest - least).next_down()),
-            false => search.shows_all((largest - least).next_down()) == Shown::Yes,
+            false => search.shows_all((largest - least).next_down()) == Verdict::Yes,
         }
 }
 

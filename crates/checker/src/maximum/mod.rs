@@ -31,7 +31,7 @@ mod terms;
 
 pub use self::corners::corners;
 pub use self::definite::is_definite;
-use self::search::{Search, Shown};
+use self::search::{Search, Verdict};
 use self::terms::Terms;
 use crate::polynomial::Polynomial;
 use crate::ring::Ring;
@@ -89,9 +89,9 @@ pub fn decide(polynomial: &Polynomial, ring: &Ring, wanted: f64, purse: u64) -> 
     let [mut is_shown, mut is_open] = [false; 2];
     if reached <= wanted {
         match search.shows_all(wanted) {
-            Shown::Yes => is_shown = true,
-            Shown::Refuted => reached = search.climb_on(),
-            Shown::Unknown => is_open = true,
+            Verdict::Yes => is_shown = true,
+            Verdict::Refuted => reached = search.climb_on(),
+            Verdict::Unknown => is_open = true,
         }
     }
     let mut angles = vec![0.0; ring.angles.len()];
@@ -135,16 +135,16 @@ pub fn largest(polynomial: &Polynomial, ring: &Ring, wanted: f64, work: &Work) -
         for _ in 0..RETRIES {
             let goal = *reached * factor + 2.0 * search.slack;
             match search.shows_all(goal) {
-                Shown::Yes => shown = true,
+                Verdict::Yes => shown = true,
                 // Else it is above an inner B alone.
-                Shown::Refuted => {
+                Verdict::Refuted => {
                     let found = search.climb_on();
                     if found > *reached {
                         *reached = found;
                         continue;
                     }
                 }
-                Shown::Unknown => {}
+                Verdict::Unknown => {}
             }
             break;
         }
@@ -154,9 +154,9 @@ pub fn largest(polynomial: &Polynomial, ring: &Ring, wanted: f64, work: &Work) -
     if reached <= wanted && wanted < plain {
         let given = purse(&mut search, PURSE);
         match search.shows_all(wanted.next_down()) {
-            Shown::Yes => bound = wanted,
-            Shown::Refuted => reached = reached.max(search.climb_on()),
-            Shown::Unknown => {}
+            Verdict::Yes => bound = wanted,
+            Verdict::Refuted => reached = reached.max(search.climb_on()),
+            Verdict::Unknown => {}
         }
         spent(&search, given);
     }

@@ -36,7 +36,7 @@ pub(super) struct Level {
 
 /// The finding about one B.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Shown {
+pub(super) enum Verdict {
     Yes,
     /// F is above B at `above`.
     Refuted,
@@ -291,25 +291,25 @@ impl Search {
     }
 
     /// Shows F ≤ B everywhere.
-    pub(super) fn shows_all(&mut self, most: f64) -> Shown {
+    pub(super) fn shows_all(&mut self, most: f64) -> Verdict {
         self.above.clear();
         (1..self.columns.len()).for_each(|level| self.columns[level].clear());
         let shown = self.shows(0, most);
         match (shown, self.above.is_empty()) {
-            (Shown::Refuted, true) => Shown::Unknown,
+            (Verdict::Refuted, true) => Verdict::Unknown,
             _ => shown,
         }
     }
 
     /// Shows F ≤ B, the angles of the levels before being put in. A point above an inner B, which is
     /// less by what cells lose, refutes that alone.
-    fn shows(&mut self, level: usize, most: f64) -> Shown {
+    fn shows(&mut self, level: usize, most: f64) -> Verdict {
         if level == self.levels.len() {
             if self.is_at_most(most) {
-                return Shown::Yes;
+                return Verdict::Yes;
             }
             self.above.clone_from(&self.angles);
-            return Shown::Refuted;
+            return Verdict::Refuted;
         }
         let (is_small, bend) = match self.aim {
             Aim::Magnitude => {
@@ -322,13 +322,13 @@ impl Search {
             Aim::Eigenvalue { size, largest } => self.crude_matrix(level, size, largest - most),
         };
         if is_small {
-            return Shown::Yes;
+            return Verdict::Yes;
         }
         if self.steps == 0 {
-            return Shown::Unknown;
+            return Verdict::Unknown;
         }
         if !(most > 0.0) || level > 0 && self.is_above(level, most) {
-            return Shown::Refuted;
+            return Verdict::Refuted;
         }
         let Level { degree, range, .. } = self.levels[level];
         let [low, high] = range.unwrap_or([-PI, PI]);
@@ -336,7 +336,7 @@ impl Search {
             self.fix(level, end);
             self.angles[level] = end;
             match self.shows(level + 1, most) {
-                Shown::Yes => {}
+                Verdict::Yes => {}
                 other => return other,
             }
         }
@@ -356,7 +356,7 @@ impl Search {
                 self.put(level, &middles);
             }
             let Some((middle, half)) = cells.pop() else {
-                return Shown::Yes;
+                return Verdict::Yes;
             };
             let turn = degree * half * (1.0 + 1e-12);
             let bent = 0.5 * half * half * bend;
@@ -371,13 +371,13 @@ impl Search {
             let length = self.columns[level + 1].len() - self.len(level + 1);
             self.columns[level + 1].truncate(length);
             match found {
-                Shown::Yes => continue,
-                Shown::Unknown => return Shown::Unknown,
-                Shown::Refuted if lost <= least => return Shown::Refuted,
-                Shown::Refuted => {}
+                Verdict::Yes => continue,
+                Verdict::Unknown => return Verdict::Unknown,
+                Verdict::Refuted if lost <= least => return Verdict::Refuted,
+                Verdict::Refuted => {}
             }
             if self.steps == 0 {
-                return Shown::Unknown;
+                return Verdict::Unknown;
             }
             let third = half / 3.0;
             let cut = [-2.0, 0.0, 2.0].map(|k| middle + k * third);

@@ -10,7 +10,7 @@ use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Robot};
 use dalembert_model::scene::{Payload, Scene};
 use num_traits::{Zero, pow};
 
-use super::Held;
+use super::BoundKind;
 
 /// A change of the robot.
 #[derive(Clone, Copy, Debug)]
@@ -63,9 +63,9 @@ pub enum Motion {
 }
 
 /// A row of the table.
-pub type Case = (&'static str, Held, Change, Motion);
+pub type Case = (&'static str, BoundKind, Change, Motion);
 
-use Held::{Both, Entries, Vector, Weight};
+use BoundKind::{Both, Entries, Vector, Weight};
 use Motion::{Angles, Balanced, Inside, Stretched, Times, WristSingular};
 
 /// The extremes that torques are measured at.

@@ -8,9 +8,9 @@ pub mod cases;
 use std::fmt;
 
 use dalembert_codegen::workspace::{
-    Argument, Emitted, JointState, Quantity, Random, SEED, each, positions,
+    Argument, JointState, Quantity, Random, RunnableCode, SEED, each, positions,
 };
-use dalembert_codegen::{Function, GenerateError, Generated, Request, ScalarType, generate};
+use dalembert_codegen::{Function, GenerateError, GeneratedCode, Request, ScalarType, generate};
 use dalembert_model::robot::Robot;
 
 use crate::measure::{Bench, Code, ENTRY, VECTOR, Worst};
@@ -18,7 +18,7 @@ use cases::{CASES, Case, Change, Motion};
 
 /// The bounds that a row is held to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Held {
+pub enum BoundKind {
     /// [`VECTOR`] and [`ENTRY`].
     Both,
     /// [`VECTOR`]: one joint's loads say nothing about another's.
@@ -57,7 +57,7 @@ pub struct Row {
     /// The case.
     pub case: &'static str,
     /// The criterion that it is held to.
-    pub held: Held,
+    pub held: BoundKind,
     /// The errors that were measured, or why nothing is generated.
     pub worst: Result<Worst, GenerateError>,
     /// The outcome against the bounds.
@@ -65,10 +65,10 @@ pub struct Row {
 }
 
 impl Row {
-    fn new(case: &'static str, held: Held, worst: Result<Worst, GenerateError>) -> Row {
+    fn new(case: &'static str, held: BoundKind, worst: Result<Worst, GenerateError>) -> Row {
         let is_good = |worst: &Worst| {
-            (worst.vector <= VECTOR || matches!(held, Held::Entries | Held::Weight))
-                && (worst.entry <= ENTRY || held == Held::Vector)
+            (worst.vector <= VECTOR || matches!(held, BoundKind::Entries | BoundKind::Weight))
+                && (worst.entry <= ENTRY || held == BoundKind::Vector)
         };
         let verdict = match &worst {
             Ok(worst) if is_good(worst) => Verdict::Good,
@@ -90,24 +90,24 @@ const INSIDE: &str = "inside the limits";
 /// Measures functions inside the limits.
 pub fn inside<'e>(
     bench: &Bench,
-    functions: impl Iterator<Item = &'e Emitted>,
+    functions: impl Iterator<Item = &'e RunnableCode>,
     states: &[JointState],
 ) -> Vec<Row> {
-    let case = (INSIDE, Held::Vector);
+    let case = (INSIDE, BoundKind::Vector);
     measured(bench, functions, case, [states, states]).collect()
 }
 
 fn measured<'e>(
     bench: &Bench,
-    functions: impl Iterator<Item = &'e Emitted>,
-    (case, held): (&'static str, Held),
+    functions: impl Iterator<Item = &'e RunnableCode>,
+    (case, held): (&'static str, BoundKind),
     [states, scales]: [&[JointState]; 2],
 ) -> impl Iterator<Item = Row> {
     functions
         .flat_map(move |emitted| {
             let code = Code::emitted(emitted);
             let mut samples = bench.samples(code.function, code.scalar, states, scales);
-            if held == Held::Weight {
+            if held == BoundKind::Weight {
                 samples.relative_to_largest();
             }
             bench.compare(&code, &samples)
@@ -116,13 +116,13 @@ fn measured<'e>(
 }
 
 /// Functions as they were generated, all together or each scalar by itself.
-type Made = Vec<Result<Generated, GenerateError>>;
+type AskedCode = Vec<Result<GeneratedCode, GenerateError>>;
 
 /// Skips the load, which comes with whatever reads it.
 fn rows(
     bench: &Bench,
-    made: &Made,
-    case: (&'static str, Held),
+    made: &AskedCode,
+    case: (&'static str, BoundKind),
     states: [&[JointState]; 2],
 ) -> Vec<Row> {
     let mut rows = Vec::new();
@@ -187,7 +187,7 @@ pub fn torques(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Ro
 }
 
 /// Generates each scalar by itself where one of them cannot hold a constant.
-fn generated(robot: &Robot, request: &Request) -> Result<Made, GenerateError> {
+fn generated(robot: &Robot, request: &Request) -> Result<AskedCode, GenerateError> {
     let of = |scalars: &[ScalarType]| {
         let request = Request {
             scalars: scalars.to_vec(),
@@ -214,7 +214,7 @@ fn generated(robot: &Robot, request: &Request) -> Result<Made, GenerateError> {
 /// # Errors
 /// Those of generating the code that is run.
 pub fn divided(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Row>, GenerateError> {
-    const CASE: (&str, Held) = ("nearest to singular", Held::Vector);
+    const CASE: (&str, BoundKind) = ("nearest to singular", BoundKind::Vector);
     // What is damped inverts other matrices, which are near singular at other states.
     let is_damped = |own: &Function| own.arguments().contains(&Argument::Damping);
     let mut dividing = request.functions.clone();

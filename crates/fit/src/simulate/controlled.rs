@@ -4,14 +4,14 @@ use dalembert_model::reference::Reference;
 use dalembert_model::robot::Robot;
 use nalgebra::DVector;
 
-use super::{Log, Recording};
+use super::{Log, LogSettings};
 use crate::error::{Error, check};
 use crate::fourier::Trajectory;
 use crate::random::Random;
 
 /// An arm with what happens to it.
 #[derive(Clone, Debug)]
-pub struct Controlled {
+pub struct ControlledArm {
     /// The arm from each time on, s, in order; the first is the arm from the beginning.
     pub arms: Vec<(f64, Robot)>,
     /// The controller's model of it.
@@ -57,9 +57,9 @@ impl Collision {
 /// # Errors
 /// [`Error::Length`] and [`Error::Option`]; [`Error::Value`] where the arm gets out of control.
 pub fn control(
-    controlled: &Controlled,
+    controlled: &ControlledArm,
     trajectory: &Trajectory,
-    recording: &Recording,
+    recording: &LogSettings,
 ) -> Result<Log, Error> {
     let n = controlled.controller.joints.len();
     recording.check(n)?;

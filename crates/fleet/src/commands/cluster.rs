@@ -19,7 +19,7 @@ use crate::progress::Going;
 pub(super) struct SchedulerArgs {
     #[command(flatten)]
     robot: RobotArgs,
-    /// Where to listen; not secured: only where nobody else reaches it
+    /// The address to listen on; not secured: only where nobody else reaches it
     #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:50050")]
     listen: SocketAddr,
 }
@@ -31,13 +31,13 @@ pub(super) struct ExecutorArgs {
     /// The scheduler
     #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:50050")]
     scheduler: String,
-    /// Where to listen, with the port after it as well; not secured
+    /// The address to listen on, with the port after it as well; not secured
     #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:50051")]
     listen: SocketAddr,
     /// Tasks at once [default: the machine's threads]
     #[arg(long, value_name = "COUNT")]
     threads: Option<usize>,
-    /// How much memory queries may take, as 512M or 4G
+    /// The most memory that queries take, as 512M or 4G
     #[arg(long, value_name = "SIZE", default_value = "1G", value_parser = bytes)]
     memory: u64,
     /// Folder in which a folder for what stages pass on is created

@@ -27,7 +27,7 @@ pub(super) struct ResidualArgs {
     /// SVG of the worst files' residuals over time
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// How many files the SVG shows
+    /// The number of files that the SVG shows
     #[arg(long, value_name = "COUNT", default_value_t = 3)]
     worst: usize,
     /// List the times at which residuals change

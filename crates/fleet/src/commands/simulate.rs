@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use clap::Args;
 use dalembert_fit::random::{Random, normal, within};
-use dalembert_fit::simulate::{Collision, Controlled, Log, Recording, control};
+use dalembert_fit::simulate::{Collision, ControlledArm, Log, LogSettings, control};
 use dalembert_fit::{Effort, Model, Trajectory, excite};
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
@@ -36,7 +36,7 @@ pub(super) struct SimulateArgs {
     /// States a second
     #[arg(long, value_name = "HZ", default_value_t = 1000.0)]
     rate: f64,
-    /// What all that is random is drawn from
+    /// The seed of all that is random
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Noise of torques, as part of each joint's rms torque
@@ -173,8 +173,8 @@ impl Scene {
         })
     }
 
-    fn recording(&self, file: u64) -> Recording {
-        Recording {
+    fn recording(&self, file: u64) -> LogSettings {
+        LogSettings {
             period: 1.0 / self.args.rate,
             states: (self.args.seconds * self.args.rate) as usize,
             noise: self.noise.clone(),
@@ -264,7 +264,7 @@ impl Scene {
         Ok(said)
     }
 
-    fn controlled(&self, recording: &Recording, collisions: &[Collision]) -> Result<Log, Error> {
+    fn controlled(&self, recording: &LogSettings, collisions: &[Collision]) -> Result<Log, Error> {
         let mut arms = vec![(0.0, self.truth.clone())];
         if let Some(payload) = self.args.payload {
             let mut loaded = self.truth.clone();
@@ -273,7 +273,7 @@ impl Scene {
             }
             arms.push((0.5 * self.args.seconds, loaded));
         }
-        let controlled = Controlled {
+        let controlled = ControlledArm {
             arms,
             controller: self.controller.clone(),
             bandwidth: 20.0,
@@ -284,7 +284,7 @@ impl Scene {
 
     fn followed(
         &self,
-        recording: &Recording,
+        recording: &LogSettings,
         collisions: &[Collision],
         first: usize,
         time: &[f64],

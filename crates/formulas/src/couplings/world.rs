@@ -5,7 +5,7 @@
 
 use dalembert_codegen::workspace::Setup;
 use dalembert_model::equations::chain::Body;
-use dalembert_model::equations::following::Following;
+use dalembert_model::equations::following::FollowerLine;
 use dalembert_model::equations::matrix::Columns;
 use dalembert_model::equations::{Arm, JointPosition, SinCosPair};
 use dalembert_model::robot::{Inertia, JointKind};
@@ -166,7 +166,7 @@ impl<'a> Geometry<'a> {
     fn position(
         &self,
         points: &mut Points,
-        following: &[Following<Field>],
+        following: &[FollowerLine<Field>],
         locks: &[Option<JointPosition<Field>>],
     ) -> Vec<JointPosition<Field>> {
         let robot = self.setup.robot();

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::fmt::Display;
 
 use dalembert_model::number::parse::parse_decimal;
-use dalembert_model::number::{Angle, Snapped};
+use dalembert_model::number::{Angle, SnappedAngle};
 use dalembert_model::robot::Position;
 
 use crate::meant::meant;
@@ -98,5 +98,5 @@ pub(crate) fn right(angle: Angle) -> Angle {
     let Angle::Radians(value) = angle else {
         return angle;
     };
-    Snapped::of_radians(value).angle()
+    SnappedAngle::of_radians(value).angle()
 }

@@ -171,7 +171,7 @@ fn a_urdf_is_loaded() {
     let error = refusal(Arm::load(&urdf, &load));
     assert!(error.contains("panda_link9"), "{error}");
     let error = refusal(Arm::load(path("nowhere.toml"), &load));
-    assert!(error.contains("there is no file"), "{error}");
+    assert!(error.contains("does not exist"), "{error}");
     let error = refusal(Arm::parse("<robot", "it", None, &load));
     assert!(error.contains("error"), "{error}");
 }

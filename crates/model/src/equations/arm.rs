@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::iter::successors;
 
 use super::factor::picked;
-use super::following::Following;
+use super::following::FollowerLine;
 use super::frames::{Axes, Frames, Rows, View};
 use super::friction::Friction;
 use super::matrix::{ABOUT_X, ABOUT_Y, ABOUT_Z, Columns, Vector, from_hand, plus, zero_vector};
@@ -28,7 +28,7 @@ pub struct Arm<S> {
     /// Links from the base to the hand.
     pub links: Vec<Link<S>>,
     /// Those of them whose joints follow others.
-    pub following: Vec<Following<S>>,
+    pub following: Vec<FollowerLine<S>>,
     /// Frames that are fixed to them, and the one that is the hand.
     pub frames: Frames<S>,
 }
@@ -77,7 +77,7 @@ pub enum JointPosition<S> {
 impl<S: Scalar> JointPosition<S> {
     /// Returns where a joint is that follows one here, but for its offset, which is its row's.
     #[must_use]
-    pub fn followed_by(&self, follower: &Following<S>) -> JointPosition<S> {
+    pub fn followed_by(&self, follower: &FollowerLine<S>) -> JointPosition<S> {
         match self {
             JointPosition::Prismatic(q) => JointPosition::Prismatic(follower.motion(q)),
             JointPosition::Revolute(pair) => {

@@ -40,13 +40,13 @@ pub fn forward_dynamics<S: Divide>(
         frames[i].outward(before, moved)
     });
     let joints = arm.inward(|i, arrived: Vec<(usize, Biased<S>)>| {
-        let (mut body, mut bias) = (Articulated::zero(), Wrench::zero());
+        let (mut body, mut bias) = (ArticulatedInertia::zero(), Wrench::zero());
         for (_, (other, other_bias)) in &arrived {
             (body, bias) = (body.plus(other), bias.with(other_bias));
         }
         let (velocity, drift) = moving[i].clone();
         let (frame, link) = (&frames[i], &arm.links[i]);
-        let (own, own_bias) = Articulated::of(link, &velocity);
+        let (own, own_bias) = ArticulatedInertia::of(link, &velocity);
         let (whole, whole_bias) = (body.plus(&own), bias.with(&own_bias));
         let (whole, whole_bias) = frame.back_in(Convention::Standard, whole, whole_bias);
         let push = whole.times(&frame.along(&S::one()));
@@ -135,9 +135,9 @@ impl<'a, S: Divide> Frame<'a, S> {
     fn back_in(
         &self,
         convention: Convention,
-        body: Articulated<S>,
+        body: ArticulatedInertia<S>,
         bias: Wrench<S>,
-    ) -> (Articulated<S>, Wrench<S>) {
+    ) -> (ArticulatedInertia<S>, Wrench<S>) {
         if self.step.convention != convention {
             return (body, bias);
         }
@@ -148,21 +148,21 @@ impl<'a, S: Divide> Frame<'a, S> {
 }
 
 /// An articulated inertia and its bias p.
-type Biased<S> = (Articulated<S>, Wrench<S>);
+type Biased<S> = (ArticulatedInertia<S>, Wrench<S>);
 
 type Block<S> = [Vector<S>; 3];
 
 /// The articulated inertia: a moment `turn`·α + `mixed`·a, a force `mixed`ᵀ·α + `shift`·a.
-struct Articulated<S> {
+struct ArticulatedInertia<S> {
     turn: Block<S>,
     mixed: Block<S>,
     shift: Block<S>,
 }
 
-impl<S: Divide> Articulated<S> {
+impl<S: Divide> ArticulatedInertia<S> {
     fn zero() -> Self {
         let [turn, mixed, shift] = three(|_| three(|_| zero_vector()));
-        Articulated { turn, mixed, shift }
+        ArticulatedInertia { turn, mixed, shift }
     }
 
     fn of(link: &Link<S>, velocity: &Twist<S>) -> (Self, Wrench<S>) {
@@ -172,7 +172,7 @@ impl<S: Divide> Articulated<S> {
         // I + m (s̄·s̄ 1 − s̄ s̄ᵀ) = I − [m s̄]× [s̄]×
         let steiner = rows_crossed(&columns_crossed(&first, &identity()), com);
         let negated = steiner.map(|row| opposite(&row));
-        let body = Articulated {
+        let body = ArticulatedInertia {
             turn: block_sum(&about_centre, &negated),
             mixed: columns_crossed(&first, &identity()),
             shift: identity().map(|row| scaled(mass, &row)),
@@ -187,7 +187,7 @@ impl<S: Divide> Articulated<S> {
     }
 
     fn plus(&self, other: &Self) -> Self {
-        Articulated {
+        ArticulatedInertia {
             turn: block_sum(&self.turn, &other.turn),
             mixed: block_sum(&self.mixed, &other.mixed),
             shift: block_sum(&self.shift, &other.shift),
@@ -208,7 +208,7 @@ impl<S: Divide> Articulated<S> {
         let less = |block: &Block<S>, left: &Vector<S>, right: &Vector<S>| -> Block<S> {
             three(|i| difference(&block[i], &scaled(&left[i], right)))
         };
-        Articulated {
+        ArticulatedInertia {
             turn: less(&self.turn, &moment, &push.moment),
             mixed: less(&self.mixed, &moment, &push.force),
             shift: less(&self.shift, &force, &push.force),
@@ -224,7 +224,7 @@ impl<S: Divide> Articulated<S> {
         let mixed_there = block_sum(&mixed, &columns_crossed(p, &shift));
         let first = columns_crossed(p, &transposed(&mixed));
         let second = rows_crossed(&mixed_there, p);
-        Articulated {
+        ArticulatedInertia {
             turn: three(|i| difference(&sum(&turn[i], &first[i]), &second[i])),
             mixed: mixed_there,
             shift,

@@ -156,12 +156,12 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         // sum of q̇_j q̇_k z_{j−1} × z_{k−1} and (z × ω)·Iω = z·(ω × Iω); and a_s.
         let mut moments = Vec::with_capacity(n);
         let mut accelerations = Vec::with_capacity(n);
-        let at_rest = Carried {
+        let at_rest = LoadSums {
             omega: zero_vector(),
             alpha: zero_vector(),
             acceleration: zero_vector(),
         };
-        self.arm.outward(&at_rest, |s, before: &Carried<S>| {
+        self.arm.outward(&at_rest, |s, before: &LoadSums<S>| {
             let link = &self.arm.links[s];
             let mut own = before.clone();
             let rate = scaled(&qd[s], &self.axes[s]);
@@ -233,13 +233,13 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
 
 /// The motion that a link passes on: ω, the printed sum α, and the acceleration of its origin.
 #[derive(Clone)]
-struct Carried<S> {
+struct LoadSums<S> {
     omega: Vector<S>,
     alpha: Vector<S>,
     acceleration: Vector<S>,
 }
 
-impl<S: Scalar> Carried<S> {
+impl<S: Scalar> LoadSums<S> {
     /// Returns ω × (ω × v) + α × v.
     fn of(&self, v: &Vector<S>) -> Vector<S> {
         sum(&centripetal(&self.omega, v), &cross(&self.alpha, v))

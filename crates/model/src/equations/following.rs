@@ -18,7 +18,7 @@ use crate::scalar::Scalar;
 
 /// A joint that follows another.
 #[derive(Clone, Debug)]
-pub struct Following<S> {
+pub struct FollowerLine<S> {
     /// Its row, zero-based.
     pub row: usize,
     /// The row of its leader, which follows none.
@@ -29,11 +29,11 @@ pub struct Following<S> {
     pub turns: i32,
 }
 
-impl<S> Following<S> {
+impl<S> FollowerLine<S> {
     /// Returns those of a robot, as rows of its [`Arm`](super::Arm), multipliers sent through `scalar`.
-    pub fn of(robot: &Robot, scalar: &mut dyn FnMut(&Exact) -> S) -> Vec<Following<S>> {
+    pub fn of(robot: &Robot, scalar: &mut dyn FnMut(&Exact) -> S) -> Vec<FollowerLine<S>> {
         let followers = robot.followers.iter();
-        let following = followers.map(|follower| Following {
+        let following = followers.map(|follower| FollowerLine {
             row: robot.base_coordinates() + follower.row,
             leader: robot.base_coordinates() + robot.row_of(follower.leader),
             multiplier: scalar(&Exact::from(follower.multiplier.clone())),
@@ -43,8 +43,8 @@ impl<S> Following<S> {
     }
 
     /// Returns the multiplier through `f`.
-    pub fn map<T>(&self, f: impl FnOnce(&S) -> T) -> Following<T> {
-        Following {
+    pub fn map<T>(&self, f: impl FnOnce(&S) -> T) -> FollowerLine<T> {
+        FollowerLine {
             row: self.row,
             leader: self.leader,
             multiplier: f(&self.multiplier),
@@ -53,11 +53,11 @@ impl<S> Following<S> {
     }
 }
 
-impl<S: Clone> Following<S> {
+impl<S: Clone> FollowerLine<S> {
     /// Returns the follower among these rows alone, by their places there; none if it is not one.
-    pub fn among(&self, rows: &[usize]) -> Option<Following<S>> {
+    pub fn among(&self, rows: &[usize]) -> Option<FollowerLine<S>> {
         let place = |row: usize| rows.iter().position(|own| *own == row);
-        Some(Following {
+        Some(FollowerLine {
             row: place(self.row)?,
             leader: place(self.leader)?,
             ..self.clone()
@@ -65,7 +65,7 @@ impl<S: Clone> Following<S> {
     }
 }
 
-impl<S: Scalar> Following<S> {
+impl<S: Scalar> FollowerLine<S> {
     /// Returns its motion, from that of its leader.
     pub fn motion(&self, leader: &S) -> S {
         times(&self.multiplier, leader)
@@ -74,13 +74,13 @@ impl<S: Scalar> Following<S> {
 
 /// Adds loads of followers to their leaders', along an axis over these rows, of this stride.
 pub fn gather<S: Scalar>(
-    following: &[Following<S>],
+    following: &[FollowerLine<S>],
     rows: &[usize],
     stride: usize,
     values: &mut [S],
 ) {
     let following = following.iter().filter_map(|own| own.among(rows));
-    let following: Vec<Following<S>> = following.collect();
+    let following: Vec<FollowerLine<S>> = following.collect();
     for block in values.chunks_mut((rows.len() * stride).max(1)) {
         for own in &following {
             for i in 0..stride {
@@ -93,7 +93,7 @@ pub fn gather<S: Scalar>(
 }
 
 /// Returns Sᵀ b
-pub fn gathered<S: Scalar>(following: &[Following<S>], mut loads: Vec<S>) -> Vec<S> {
+pub fn gathered<S: Scalar>(following: &[FollowerLine<S>], mut loads: Vec<S>) -> Vec<S> {
     for own in following {
         let part = own.motion(&loads[own.row]);
         loads[own.leader] = plus(&loads[own.leader], &part);
@@ -102,13 +102,16 @@ pub fn gathered<S: Scalar>(following: &[Following<S>], mut loads: Vec<S>) -> Vec
 }
 
 /// Returns M S
-pub fn gathered_rows<S: Scalar>(following: &[Following<S>], rows: Vec<Vec<S>>) -> Vec<Vec<S>> {
+pub fn gathered_rows<S: Scalar>(following: &[FollowerLine<S>], rows: Vec<Vec<S>>) -> Vec<Vec<S>> {
     let rows = rows.into_iter();
     rows.map(|row| gathered(following, row)).collect()
 }
 
 /// Returns Sᵀ M
-pub fn gathered_columns<S: Scalar>(following: &[Following<S>], mut m: Vec<Vec<S>>) -> Vec<Vec<S>> {
+pub fn gathered_columns<S: Scalar>(
+    following: &[FollowerLine<S>],
+    mut m: Vec<Vec<S>>,
+) -> Vec<Vec<S>> {
     for own in following {
         let part: Vec<S> = m[own.row].iter().map(|x| own.motion(x)).collect();
         m[own.leader] = sums(&m[own.leader], &part);
@@ -117,12 +120,12 @@ pub fn gathered_columns<S: Scalar>(following: &[Following<S>], mut m: Vec<Vec<S>
 }
 
 /// Returns Sᵀ D S, symmetric.
-pub fn gathered_square<S: Scalar>(following: &[Following<S>], d: Vec<Vec<S>>) -> Vec<Vec<S>> {
+pub fn gathered_square<S: Scalar>(following: &[FollowerLine<S>], d: Vec<Vec<S>>) -> Vec<Vec<S>> {
     gathered_columns(following, gathered_rows(following, d))
 }
 
 /// Returns S ċ, from rates whose entries of followers mean nothing.
-pub fn spread<S: Scalar>(following: &[Following<S>], mut rates: Vec<S>) -> Vec<S> {
+pub fn spread<S: Scalar>(following: &[FollowerLine<S>], mut rates: Vec<S>) -> Vec<S> {
     for own in following {
         rates[own.row] = own.motion(&rates[own.leader]);
     }

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use num_traits::{One, Zero};
 
-use super::following::Following;
+use super::following::FollowerLine;
 use super::frames::{Frames, NamedFrame};
 use super::friction::{Coulomb, Friction};
 use super::matrix::*;
@@ -29,7 +29,7 @@ impl<S> Arm<S> {
         };
         let gravity = gravity.each_ref().map(&mut *scalar);
         let [base, tool] = [base, tool].map(|pose| pose.map(|pose| pose.map(&mut *scalar)));
-        let (following, rows) = (Following::of(robot, scalar), robot.rows());
+        let (following, rows) = (FollowerLine::of(robot, scalar), robot.rows());
         let places = places(&rows);
         let first = robot.base_coordinates();
         let body = robot.floating.iter().map(FloatingBase::body);

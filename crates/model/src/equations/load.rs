@@ -23,7 +23,7 @@ pub const BODY: usize = 10;
 pub struct LoadRow<S> {
     /// The number where all arguments are zero.
     pub own: S,
-    /// The places of parameters that change it among [`Loading::parameters`], each with its factor.
+    /// The places of parameters that change it among [`LoadArguments::parameters`], each with its factor.
     pub of: Vec<(usize, S)>,
 }
 
@@ -40,7 +40,7 @@ impl<S> LoadRow<S> {
 
 /// Parameters that are arguments, and the load that they are to an arm.
 #[derive(Clone, Debug)]
-pub struct Loading<S> {
+pub struct LoadArguments<S> {
     /// Those of each body in the order of [`LinkParameter::ALL`], about the origin and in the axes of its
     /// row's frame; then armatures and viscous friction.
     pub parameters: Vec<S>,
@@ -48,15 +48,15 @@ pub struct Loading<S> {
     pub rows: Vec<LoadRow<S>>,
 }
 
-impl<S: Scalar> Loading<S> {
+impl<S: Scalar> LoadArguments<S> {
     /// Makes it of links that bodies are on, and of the parameters of drives.
-    pub fn new(bodies: &[Link<S>], drives: Vec<S>, rows: Vec<LoadRow<S>>) -> Loading<S> {
+    pub fn new(bodies: &[Link<S>], drives: Vec<S>, rows: Vec<LoadRow<S>>) -> LoadArguments<S> {
         let of_body = |link: &Link<S>| {
             let body = Body::of(link);
             LinkParameter::ALL.map(|parameter| parameter.of_body(&body))
         };
         let parameters = bodies.iter().flat_map(of_body).chain(drives);
-        Loading {
+        LoadArguments {
             parameters: parameters.collect(),
             rows,
         }

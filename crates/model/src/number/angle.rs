@@ -242,7 +242,7 @@ impl fmt::Display for Angle {
 
 /// The reading of an angle.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Snapped {
+pub enum SnappedAngle {
     /// It stays as written, far from any right angle, or is exactly zero.
     Kept(Angle),
     /// It counts as this multiple of π/2: within 4 ulp of the multiple's double, at most 2e-15
@@ -260,11 +260,13 @@ pub enum Snapped {
     },
 }
 
-impl Snapped {
+impl SnappedAngle {
     /// Returns the angle that it is read as.
     pub fn angle(self) -> Angle {
         match self {
-            Snapped::Kept(angle) | Snapped::Taken(angle) | Snapped::Near { angle, .. } => angle,
+            SnappedAngle::Kept(angle)
+            | SnappedAngle::Taken(angle)
+            | SnappedAngle::Near { angle, .. } => angle,
         }
     }
 
@@ -272,10 +274,10 @@ impl Snapped {
     pub fn of_radians(radians: Rational) -> Self {
         // Beyond 1e15 doubles are further apart than the warning's distance.
         let Some(value) = radians.to_f64().filter(|v| v.abs() < 1e15) else {
-            return Snapped::Kept(Angle::Radians(radians));
+            return SnappedAngle::Kept(Angle::Radians(radians));
         };
         if radians.is_zero() {
-            return Snapped::Kept(Angle::default());
+            return SnappedAngle::Kept(Angle::default());
         }
         // Nonzero multiples up to ±2π, against their doubles. The
         // difference of two doubles this close is exact.
@@ -285,7 +287,7 @@ impl Snapped {
             let off = (value.abs() - multiple).abs();
             if off <= 4.0 * ulp && off <= 2e-15 && value.abs() <= core::f64::consts::TAU {
                 let n = if value < 0.0 { -n } else { n };
-                return Snapped::Taken(Angle::right_angles(n.into()));
+                return SnappedAngle::Taken(Angle::right_angles(n.into()));
             }
         }
         Self::near(Angle::Radians(radians))
@@ -299,10 +301,10 @@ impl Snapped {
         let multiple = Angle::PiTimes(&n * ratio(1, 2));
         let distance = (radians - n * quarter).abs();
         if angle.quarter_turns().is_some() || distance >= ratio(1, 1000) {
-            return Snapped::Kept(angle.canonical());
+            return SnappedAngle::Kept(angle.canonical());
         }
         let distance = distance.to_f64().unwrap_or(0.0);
-        Snapped::Near {
+        SnappedAngle::Near {
             angle,
             multiple,
             distance,

@@ -19,7 +19,7 @@ mod text;
 mod trig;
 mod wide;
 
-pub use angle::{Angle, Snapped};
+pub use angle::{Angle, SnappedAngle};
 pub use exact::Exact;
 pub use round::Rounded;
 pub use text::NotExact;

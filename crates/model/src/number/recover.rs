@@ -11,7 +11,7 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
-use super::{Angle, Rational, Rounded, Snapped, Wide, ratio};
+use super::{Angle, Rational, Rounded, SnappedAngle, Wide, ratio};
 use crate::scalar::Scalar;
 
 /// The most bits of the denominator of a fraction that was meant.
@@ -66,9 +66,9 @@ impl Angle {
             Some(multiple) => Angle::PiTimes(multiple),
             None => {
                 let meant = simple(&radians, &near()).unwrap_or_else(|| rounded(&radians));
-                match Snapped::of_radians(meant.clone()) {
+                match SnappedAngle::of_radians(meant.clone()) {
                     // Radians so near a right angle are read as that; multiples of π as written.
-                    Snapped::Taken(_) => Angle::PiTimes(rounded(&(radians / pi))),
+                    SnappedAngle::Taken(_) => Angle::PiTimes(rounded(&(radians / pi))),
                     _ => Angle::Radians(meant).canonical(),
                 }
             }

@@ -13,7 +13,7 @@ use core::cmp::Ordering;
 use core::hash::{Hash, Hasher};
 
 use super::bundle::{BundleError, camel, check_name, kept};
-use super::function::{Definition, Made};
+use super::function::{Definition, NamedFunction};
 use super::quantity::{Facts, FrameChoice};
 use super::{Axis, Function, Quantity, Regrouped, Shape, Written};
 use crate::equations::frames::{Axes, Rows, View};
@@ -24,12 +24,12 @@ const AT: char = '@';
 const OF: char = ':';
 const MAX_FRAMES: usize = 8;
 
-/// A quantity at a frame, kept for as long as the process runs, as a [`Made`] function is.
+/// A quantity at a frame, kept for as long as the process runs, as a [`NamedFunction`] function is.
 #[derive(Clone, Copy, Debug)]
-pub struct QuantityAt(&'static Viewed);
+pub struct QuantityAt(&'static FrameOutput);
 
 #[derive(Debug)]
-struct Viewed {
+struct FrameOutput {
     quantity: Quantity,
     view: View,
     facts: Facts,
@@ -161,7 +161,7 @@ impl Function {
         }
         let name = format!("{function}_{}{}", frame.replace(',', "_"), suffix('_'));
         let text = format!("{function}{AT}{frame}{}", suffix(OF));
-        Ok(Function::At(Made::once(text, || {
+        Ok(Function::At(NamedFunction::once(text, || {
             let view = View {
                 frame: kept(frame.to_string()),
                 axes,
@@ -326,7 +326,7 @@ fn seen(quantity: Quantity, view: View) -> Quantity {
         given: of.given.map(|key| kept(format!("{key}{AT}{at}"))),
         ..*of
     };
-    Quantity::At(QuantityAt(Box::leak(Box::new(Viewed {
+    Quantity::At(QuantityAt(Box::leak(Box::new(FrameOutput {
         quantity,
         view,
         facts,

@@ -11,7 +11,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::function::{Definition, Made};
+use super::function::{Definition, NamedFunction};
 use super::{Columns, Function, Quantity};
 use crate::robot::{ENDINGS, WORDS, is_snake};
 
@@ -86,7 +86,7 @@ impl Function {
         }
         let results: Vec<Quantity> = results.into_iter().map(|(quantity, _)| quantity).collect();
         let text = joined(name, &parts);
-        Ok(Function::Bundle(Made::once(text, || Definition {
+        Ok(Function::Bundle(NamedFunction::once(text, || Definition {
             name: kept(name.to_string()),
             summary: kept(summary(&parts)),
             results: Box::leak(results.into_boxed_slice()),
@@ -145,7 +145,7 @@ impl Function {
             }
             None if text.contains(PLUS) => {
                 let parts = text.trim();
-                let message = format!("`{parts}` has no name");
+                let message = format!("`{parts}` needs a name");
                 Err(BundleError::new(message, format!("write NAME = {parts}")))
             }
             None => named(text),
@@ -176,7 +176,7 @@ pub(super) fn check_name(name: &str) -> Result<(), BundleError> {
     if !is_snake(name) || bars || name.len() > MAX_BYTES {
         let name: String = name.chars().take(MAX_BYTES).collect();
         let help = "small letters, digits and single `_` between them, such as `servo_2`";
-        let message = format!("`{name}` is no name of a function");
+        let message = format!("`{name}` is not the name of a function");
         return Err(BundleError::new(message, help));
     }
     let structure = camel(name);
@@ -345,7 +345,7 @@ a bundle has two parts at least: ask for `gravity` by itself
 a=gravty+jacobian
 unknown output `gravty`: a bundle is NAME = OUTPUT + OUTPUT
 gravity+jacobian
-`gravity+jacobian` has no name: write NAME = gravity+jacobian
+`gravity+jacobian` needs a name: write NAME = gravity+jacobian
 gravity=inertia+jacobian
 `gravity` is an output by itself: call the bundle otherwise
 angles=inertia+jacobian
@@ -357,11 +357,11 @@ match=inertia+jacobian
 my_columns=inertia+jacobian
 `my_columns` would end as the other way to call `my` does, `_columns`: call the bundle otherwise
 Servo=inertia+jacobian
-`Servo` is no name of a function: small letters, digits and single `_` between them, such as `servo_2`
+`Servo` is not the name of a function: small letters, digits and single `_` between them, such as `servo_2`
 =inertia+jacobian
-`` is no name of a function: small letters, digits and single `_` between them, such as `servo_2`
+`` is not the name of a function: small letters, digits and single `_` between them, such as `servo_2`
 a__b=inertia+jacobian
-`a__b` is no name of a function: small letters, digits and single `_` between them, such as `servo_2`
+`a__b` is not the name of a function: small letters, digits and single `_` between them, such as `servo_2`
 gravity@camera
 `gravity` is of no frame: leave `@` and what follows out
 forward_kinematics@camera:local

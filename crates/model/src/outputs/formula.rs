@@ -10,8 +10,8 @@ use crate::equations::chain::composite::Composite;
 use crate::equations::chain::second_derivatives::SecondDerivatives;
 use crate::equations::chain::{Chain, Displacement, Form};
 use crate::equations::factor::picked;
-use crate::equations::following::{Following, gathered_square};
-use crate::equations::load::Loading;
+use crate::equations::following::{FollowerLine, gathered_square};
+use crate::equations::load::LoadArguments;
 use crate::equations::regressor::Column;
 use crate::equations::{Arm, At, Formulation, JointPosition};
 use crate::scalar::{Divide, Scalar};
@@ -71,7 +71,7 @@ pub struct Motion<S> {
     /// For each joint, true if it moves by itself; one that does not is held or follows another.
     pub moves: Vec<bool>,
     /// The parameters that are arguments, where some are.
-    pub loading: Option<Loading<S>>,
+    pub loading: Option<LoadArguments<S>>,
 }
 
 impl<S> Motion<S> {
@@ -125,7 +125,7 @@ impl<S: Scalar> Motion<S> {
     /// Returns the motion of all rows of an arm from that of the joints that move by themselves:
     /// those that follow move with their leaders, and no torque is theirs.
     #[must_use]
-    pub fn of_rows(mut self, following: &[Following<S>]) -> Motion<S> {
+    pub fn of_rows(mut self, following: &[FollowerLine<S>]) -> Motion<S> {
         for own in following {
             // In their order, so that each stands at its own row at last.
             self.insert_still(own.row);
@@ -191,7 +191,7 @@ pub struct Regrouped<'a, S> {
     /// The joints of the chain among those of the arm.
     pub joints: &'a [usize],
     /// Those of the chain that follow others, by their places in it.
-    pub following: &'a [Following<S>],
+    pub following: &'a [FollowerLine<S>],
     /// The second derivatives of λᵀτ and those of λᵀq̈, computed where they are first asked for.
     pub shared: [OnceCell<SecondDerivatives<S>>; 2],
 }

@@ -63,15 +63,15 @@ impl Definition {
 /// Its definition is kept for as long as the process runs: so a function is as small a
 /// value as a case of an enumeration, and a process names few. Two are equal if they say the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Made(pub(super) &'static Definition);
+pub struct NamedFunction(pub(super) &'static Definition);
 
-impl Made {
+impl NamedFunction {
     /// Remembered by text, so that loading a robot again leaks nothing; not without `std`.
-    pub(super) fn once(text: String, make: impl FnOnce() -> Definition) -> Made {
-        let made = || Made(Box::leak(Box::new(make())));
+    pub(super) fn once(text: String, make: impl FnOnce() -> Definition) -> NamedFunction {
+        let made = || NamedFunction(Box::leak(Box::new(make())));
         #[cfg(feature = "std")]
         {
-            static KNOWN: Mutex<BTreeMap<String, Made>> = Mutex::new(BTreeMap::new());
+            static KNOWN: Mutex<BTreeMap<String, NamedFunction>> = Mutex::new(BTreeMap::new());
             let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
             *known.entry(text).or_insert_with(made)
         }

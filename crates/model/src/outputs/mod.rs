@@ -49,7 +49,7 @@ pub use argument::Argument;
 pub use at::QuantityAt;
 pub use bundle::BundleError;
 pub use formula::{Motion, Regrouped, Written};
-pub use function::{Columns, Made};
+pub use function::{Columns, NamedFunction};
 pub use quantity::{ErrorScale, Facts, Index};
 pub use runtime::{PayloadDependence, RuntimeParameter};
 pub use shape::{Axis, Shape, Sizes};

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 
 use super::{Argument, Axis, PayloadDependence, Quantity, Shape, Sizes};
 use crate::equations::chain::HandChoice;
-use crate::equations::following::{Following, gather};
+use crate::equations::following::{FollowerLine, gather};
 use crate::equations::regressor::LinkParameter;
 use crate::robot::Robot;
 use crate::scalar::Scalar;
@@ -283,7 +283,7 @@ impl Quantity {
         self,
         mut values: Vec<S>,
         [from, to]: [&[usize]; 2],
-        following: &[Following<S>],
+        following: &[FollowerLine<S>],
         sizes: Sizes,
     ) -> Vec<S> {
         let shape = self.shape();

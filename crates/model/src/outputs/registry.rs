@@ -18,9 +18,9 @@ macro_rules! registry {
             /// The regrouped parameters of the arm with a payload.
             Load,
             /// Several of these in one, by a name of the user's.
-            Bundle(Made),
+            Bundle(NamedFunction),
             /// One of these at a frame.
-            At(Made),
+            At(NamedFunction),
         }
 
         /// A quantity that a function returns.

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::quantity::Facts;
 use super::{Argument, Axis, Shape, Written};
-use crate::equations::load::Loading;
+use crate::equations::load::LoadArguments;
 use crate::scalar::Divide;
 
 /// A parameter of the arm that generated functions can take as an argument.
@@ -99,6 +99,6 @@ impl Formula for Load {
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let loading = at.motion.loading.as_ref();
-        loading.map_or_else(Vec::new, Loading::load)
+        loading.map_or_else(Vec::new, LoadArguments::load)
     }
 }

@@ -136,17 +136,17 @@ pub(super) struct AccelerationByVelocities;
 pub(super) struct AccelerationByTorqueAndPosition;
 
 /// D⁻¹ as written, and μ = D⁻¹λ.
-struct Inverted<S> {
+struct InverseTerms<S> {
     inverse: Vec<Vec<S>>,
     raised: Vec<S>,
 }
 
-impl<S: Divide> Inverted<S> {
+impl<S: Divide> InverseTerms<S> {
     fn new(at: &Written<'_, S>) -> Self {
         let (form, motion) = (at.formulation, at.motion);
         let inverse = form.inertia_inverse(at.arm, at.at, &motion.moves);
         let raised = products(&inverse, &motion.multiplier);
-        Inverted { inverse, raised }
+        InverseTerms { inverse, raised }
     }
 
     fn driven(&self, at: &Written<'_, S>) -> Vec<Vec<S>> {
@@ -203,7 +203,7 @@ impl Formula for AccelerationByPositions {
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let (motion, form) = (at.motion, at.formulation);
-        let (qd, inverted) = (&motion.qd, Inverted::new(at));
+        let (qd, inverted) = (&motion.qd, InverseTerms::new(at));
         let qdd = form.forward_dynamics(at.arm, at.at, qd, &motion.tau, &motion.moves);
         let own = form.torque_by_positions(at.arm, at.at, [qd, &qdd, &inverted.raised]);
         let slopes = form.torque_by_position(at.arm, at.at, qd, &qdd);
@@ -230,7 +230,7 @@ impl Formula for AccelerationByPositionAndVelocity {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let (form, qd, inverted) = (at.formulation, &at.motion.qd, Inverted::new(at));
+        let (form, qd, inverted) = (at.formulation, &at.motion.qd, InverseTerms::new(at));
         let given = [&qd[..], &inverted.raised];
         let own = form.torque_by_position_and_velocity(at.arm, at.at, given);
         let slopes = form.torque_by_velocity(at.arm, at.at, qd);
@@ -255,7 +255,7 @@ impl Formula for AccelerationByVelocities {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let (form, inverted) = (at.formulation, Inverted::new(at));
+        let (form, inverted) = (at.formulation, InverseTerms::new(at));
         let given = [&at.motion.qd[..], &inverted.raised];
         let own = form.torque_by_velocities(at.arm, at.at, given);
         let all = inverted.of_accelerations(at);
@@ -286,13 +286,13 @@ impl Formula for AccelerationByTorqueAndPosition {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let all = Inverted::new(at).of_accelerations(at);
+        let all = InverseTerms::new(at).of_accelerations(at);
         all.by_torque_and_position().concat()
     }
 
     /// Returns D X + ∂(D μ)/∂q with D μ = λ, of the joints that move.
     fn residual<S: Divide>(at: &Written<'_, S>, values: &[S]) -> Vec<S> {
-        let mut driven = Inverted::new(at).driven(at);
+        let mut driven = InverseTerms::new(at).driven(at);
         hold(&mut driven, &at.motion.moves);
         defect(at, values, &driven)
     }

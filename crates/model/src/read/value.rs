@@ -15,7 +15,7 @@ use super::report::{Sink, quote};
 use super::table::Table;
 use super::{RobotWarning, foreign, suggest};
 use crate::number::parse::{parse_decimal, parse_fraction};
-use crate::number::{Angle, Rational, Snapped};
+use crate::number::{Angle, Rational, SnappedAngle};
 use crate::outputs::Function;
 use crate::robot::{BodyRange, Inertia, JointKind, Placement, Position, values};
 
@@ -179,7 +179,7 @@ impl Context {
     pub(super) fn angle(&mut self, value: &Value) -> Option<Angle> {
         let snapped = self.snapped(value)?;
         // A point of the circle is meant as it is written.
-        if let Snapped::Near {
+        if let SnappedAngle::Near {
             angle: Angle::PiTimes(_) | Angle::Radians(_),
             multiple,
             distance,
@@ -195,13 +195,13 @@ impl Context {
         Some(snapped.angle())
     }
 
-    fn snapped(&mut self, value: &Value) -> Option<Snapped> {
+    fn snapped(&mut self, value: &Value) -> Option<SnappedAngle> {
         let snapped = match value.as_ref() {
             ValueInner::Integer(_) | ValueInner::Float(_) => {
-                Snapped::of_radians(self.number(value)?)
+                SnappedAngle::of_radians(self.number(value)?)
             }
             ValueInner::String(text) if Angle::parse(text).is_ok() => {
-                Snapped::near(Angle::parse(text).unwrap_or_default())
+                SnappedAngle::near(Angle::parse(text).unwrap_or_default())
             }
             other => {
                 let text = match other {
@@ -218,7 +218,7 @@ impl Context {
                 return self.wanted(value, "an angle", &help);
             }
         };
-        if let Snapped::Taken(angle) = &snapped {
+        if let SnappedAngle::Taken(angle) = &snapped {
             let message = format!("{} is read as {angle}", self.literal(value));
             let help = format!("write {} to say so", values::angle(angle));
             self.sink.note(bytes_of(value.span), message, &help);

@@ -668,7 +668,7 @@ def load(
     else:
         path = os.fspath(source)
         if not os.path.exists(path):
-            raise FileNotFoundError(f"there is no file {path!r}")
+            raise FileNotFoundError(f"{path!r} does not exist")
     show: Line | Note | None = None
     if progress or (progress is None and effort == "thorough" and is_watched()):
         show = Line()

@@ -34,7 +34,7 @@ pub struct Composite<'a, S> {
 
 /// The effect of turning and driving a joint on its composite, about a frame's origin in its axes.
 #[derive(Clone)]
-pub(super) struct Acting<S, const WRENCHES: usize, const VECTORS: usize> {
+pub(super) struct JointEffect<S, const WRENCHES: usize, const VECTORS: usize> {
     pub(super) wrenches: [Wrench<S>; WRENCHES],
     pub(super) vectors: [Vector<S>; VECTORS],
 }
@@ -268,8 +268,8 @@ impl<'a, S: Scalar> Composite<'a, S> {
         &self,
         travel: CompositeOrder,
         earlier: &[[Twist<S>; TWISTS]],
-        later: Vec<Acting<S, WRENCHES, VECTORS>>,
-        mut enter: impl FnMut([usize; 2], &[Twist<S>; TWISTS], &Acting<S, WRENCHES, VECTORS>),
+        later: Vec<JointEffect<S, WRENCHES, VECTORS>>,
+        mut enter: impl FnMut([usize; 2], &[Twist<S>; TWISTS], &JointEffect<S, WRENCHES, VECTORS>),
     ) {
         let (chain, at) = (self.chain, self.at);
         for (k, mut own) in later.into_iter().enumerate() {

@@ -3,7 +3,7 @@
 
 use alloc::vec::Vec;
 
-use super::composite::{Acting, Composite, CompositeOrder};
+use super::composite::{Composite, CompositeOrder, JointEffect};
 use super::recursion::{AccelerationForm, MomentForm, Motion, Motions};
 use super::{Body, ChainLink, Displacement, Rotation};
 use crate::equations::matrix::*;
@@ -52,7 +52,7 @@ impl<S: Scalar> Composite<'_, S> {
             let [first, second] = joint.drift.clone();
             [self.twist(i, i), first, second]
         });
-        let acting = joints.iter().map(|joint| Acting {
+        let acting = joints.iter().map(|joint| JointEffect {
             wrenches: [&joint.position.1, &joint.velocity.1, &joint.push].map(Wrench::clone),
             vectors: [joint.swing.clone()],
         });
@@ -163,7 +163,7 @@ impl<S: Scalar> Composite<'_, S> {
             let twist = self.twist(i, i);
             let felt = flow.half_of_turn(&twist.turn);
             let felt = felt.with(&inertial(&self.bodies[i], &rate));
-            let acting = Acting {
+            let acting = JointEffect {
                 wrenches: [felt, push],
                 vectors: [flow.half_swing(link)],
             };
@@ -181,7 +181,7 @@ type Earlier<S> = [Twist<S>; 2];
 
 /// Half of the wrench per unit velocity that the joints before feel, the wrench of a unit
 /// acceleration, and half of the composite's rate along the joint per turn.
-type Later<S> = Acting<S, 2, 1>;
+type Later<S> = JointEffect<S, 2, 1>;
 
 /// Returns V × Δ: how the twist of a joint changes.
 pub(super) fn rate<S: Scalar>(link: &ChainLink<S>, velocity: &Twist<S>) -> Twist<S> {

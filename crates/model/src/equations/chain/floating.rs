@@ -3,7 +3,7 @@
 
 use alloc::vec::Vec;
 
-use super::composite::{Acting, Composite};
+use super::composite::{Composite, JointEffect};
 use super::derivatives::{Flow, Slopes, inertial};
 use super::recursion::Motion;
 use super::{Body, Chain};
@@ -163,8 +163,8 @@ impl<S: Scalar> Composite<'_, S> {
     pub(super) fn seen_from_base<const WRENCHES: usize, const VECTORS: usize>(
         &self,
         k: usize,
-        mut acting: Acting<S, WRENCHES, VECTORS>,
-    ) -> Acting<S, WRENCHES, VECTORS> {
+        mut acting: JointEffect<S, WRENCHES, VECTORS>,
+    ) -> JointEffect<S, WRENCHES, VECTORS> {
         for i in self.chain.way(k) {
             let link = &self.chain.links[i];
             acting.wrenches = (acting.wrenches).map(|own| self.chain.to_previous(i, self.at, &own));
@@ -222,7 +222,7 @@ impl<S: Scalar> Composite<'_, S> {
         let wrenches = [self.momentum(k)];
         let vectors = [];
         let [push] = self
-            .seen_from_base(k, Acting { wrenches, vectors })
+            .seen_from_base(k, JointEffect { wrenches, vectors })
             .wrenches;
         push
     }
@@ -234,7 +234,7 @@ impl<S: Scalar> Composite<'_, S> {
         &self,
         (body, flow): (&Body<S>, &Flow<S>),
         qd: &[S],
-        later: Vec<Acting<S, 3, 1>>,
+        later: Vec<JointEffect<S, 3, 1>>,
         joints: Slopes<S>,
     ) -> Slopes<S> {
         let later = self.all_seen_from_base(later);
@@ -276,7 +276,7 @@ impl<S: Scalar> Composite<'_, S> {
         &self,
         (body, flow): (&Body<S>, &Flow<S>),
         qd: &[S],
-        later: Vec<Acting<S, 2, 1>>,
+        later: Vec<JointEffect<S, 2, 1>>,
         joints: Vec<Vec<S>>,
     ) -> Vec<Vec<S>> {
         let later = self.all_seen_from_base(later);
@@ -296,8 +296,8 @@ impl<S: Scalar> Composite<'_, S> {
 
     fn all_seen_from_base<const WRENCHES: usize, const VECTORS: usize>(
         &self,
-        later: Vec<Acting<S, WRENCHES, VECTORS>>,
-    ) -> Vec<Acting<S, WRENCHES, VECTORS>> {
+        later: Vec<JointEffect<S, WRENCHES, VECTORS>>,
+    ) -> Vec<JointEffect<S, WRENCHES, VECTORS>> {
         let later = later.into_iter().enumerate();
         later.map(|(k, own)| self.seen_from_base(k, own)).collect()
     }

@@ -4,7 +4,7 @@
 use alloc::vec::Vec;
 
 use super::Body;
-use super::composite::{Acting, Composite, CompositeOrder};
+use super::composite::{Composite, CompositeOrder, JointEffect};
 use super::derivatives::{Flow, Joint, inertial, rate};
 use crate::equations::matrix::*;
 use crate::equations::screws::Twist;
@@ -29,7 +29,7 @@ type Earlier<S> = [Twist<S>; 4];
 /// The change of a joint's composite body as the joint turns and is driven: of the force ∫ a dm, of
 /// the momentum ∫ ℓ dm of Λ, of the force as the joint's velocity grows and as its acceleration does;
 /// of 2 ∫ v × ℓ dm, and of the same as its velocity grows.
-type Later<S> = Acting<S, 4, 2>;
+type Later<S> = JointEffect<S, 4, 2>;
 
 impl<S: Scalar> Composite<'_, S> {
     /// Returns the second derivatives of λᵀτ; `driven` is ∂(D λ)/∂q, row i that of entry i.
@@ -118,7 +118,7 @@ fn later<S: Scalar>(
     let turned = flow.wrench().turned(own);
     let within = difference(&joint.flow.across(virtually), &flow.across(first));
     let changed = sum(&cross(&own.turn, couple), &within);
-    Acting {
+    JointEffect {
         wrenches: [
             joint.position.1.clone(),
             turned.with(&inertial(body, virtually)),

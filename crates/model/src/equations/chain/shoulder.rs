@@ -138,10 +138,10 @@ impl<S: Divide> Composite<'_, S> {
         let (about, rest) = right.split_at(3);
         let inertia = Inertia::symmetric(|i, k| beyond.left(k, i).clone());
         let moment = three(|axis| negative(&about[axis]));
-        let mut hinged = Hinged { inertia, moment };
+        let mut hinged = HingedBody { inertia, moment };
         hinged = hinged.carried(&chain.links[first], &self.at[first]);
 
-        let mut solved: Vec<Option<Solved<S>>> = Vec::with_capacity(first);
+        let mut solved: Vec<Option<HingeSolution<S>>> = Vec::with_capacity(first);
         for (i, link) in chain.links[..first].iter().enumerate().rev() {
             hinged = hinged.with(&link.body, &heights[i], &wrench(i));
             let mut own = None;
@@ -159,7 +159,7 @@ impl<S: Divide> Composite<'_, S> {
         let mut omega = zero_vector();
         for (i, joint) in solved.iter().enumerate() {
             omega = chain.links[i].inward(&self.at[i], &omega);
-            if let Some(Solved { own, shares }) = joint {
+            if let Some(HingeSolution { own, shares }) = joint {
                 let [x, y] = [0, 1].map(|axis| times(&shares[axis], &omega[axis]));
                 let own = minus(&minus(own, &x), &y);
                 found[i] = minus(&own, &times(&shares[2], &omega[2]));
@@ -235,19 +235,19 @@ fn taken_back<S: Scalar>(mut matrix: Vec<Vec<S>>) -> Vec<Vec<S>> {
 /// A joint about z that is given the torque τ turns with ω̇_z = w_z + q̈, w being what the
 /// joints before bring along, so that D q̈ = τ − p_z − (I w)_z with D = I_zz + A, A its rotor.
 /// The joints before feel I′ w + p′ with I′ = I − I_z I_zᵀ/D and p′ = p + I_z (τ − p_z)/D.
-struct Hinged<S> {
+struct HingedBody<S> {
     inertia: Inertia<S>,
     moment: Vector<S>,
 }
 
-struct Solved<S> {
+struct HingeSolution<S> {
     /// (τ − p_z) / D
     own: S,
     /// I_xz / D, I_yz / D, I_zz / D
     shares: Vector<S>,
 }
 
-impl<S: Scalar> Hinged<S> {
+impl<S: Scalar> HingedBody<S> {
     fn carried(&self, link: &ChainLink<S>, at: &Displacement<S>) -> Self {
         // A tensor turns as second moments do.
         let body = Body {
@@ -259,7 +259,7 @@ impl<S: Scalar> Hinged<S> {
             Displacement::Slide(_) => body.second,
         };
         let moment = link.outward(at, &self.moment);
-        Hinged { inertia, moment }
+        HingedBody { inertia, moment }
     }
 
     fn with(&self, body: &Body<S>, height: &S, wrench: &Wrench<S>) -> Self {
@@ -269,14 +269,14 @@ impl<S: Scalar> Hinged<S> {
         let inertia = Inertia::symmetric(both);
         let moment = sum(&wrench.moment, &cross(&lever, &wrench.force));
         let moment = sum(&self.moment, &moment);
-        Hinged { inertia, moment }
+        HingedBody { inertia, moment }
     }
 }
 
-impl<S: Divide> Hinged<S> {
+impl<S: Divide> HingedBody<S> {
     /// Eliminates a joint about z with this rotor and torque; the first that moves divides alone.
-    fn eliminated(self, rotor: &S, given: &S, is_first: bool) -> (Self, Solved<S>) {
-        let Hinged { inertia, moment } = self;
+    fn eliminated(self, rotor: &S, given: &S, is_first: bool) -> (Self, HingeSolution<S>) {
+        let HingedBody { inertia, moment } = self;
         let pivot = plus(&inertia.zz, rotor);
         let inverse = over(&S::one(), &pivot);
         let left = minus(given, &moment[2]);
@@ -307,6 +307,9 @@ impl<S: Divide> Hinged<S> {
             false => times(&left, &inverse),
         };
         let shares = [x, y, z];
-        (Hinged { inertia, moment }, Solved { own, shares })
+        (
+            HingedBody { inertia, moment },
+            HingeSolution { own, shares },
+        )
     }
 }

@@ -52,7 +52,7 @@ impl<S: Scalar> Skeleton<S> {
         columns: &[Column<S>],
     ) -> Skeleton<S> {
         let mut links: Vec<Segment<S>> = Vec::with_capacity(arm.links.len());
-        let base = Held {
+        let base = SegmentFrame {
             carrier: None,
             turned: identity(),
             moved: zero_vector(),
@@ -64,12 +64,12 @@ impl<S: Scalar> Skeleton<S> {
         if let Some(body) = floating {
             base_probes.extend(probes(columns, body, &identity(), &zero_vector()));
         }
-        arm.outward(&base, |joint, before: &Held<S>| {
+        arm.outward(&base, |joint, before: &SegmentFrame<S>| {
             if Some(joint) <= floating {
                 return base.clone();
             }
             let link = &arm.links[joint];
-            let Held {
+            let SegmentFrame {
                 carrier,
                 mut turned,
                 mut moved,
@@ -111,7 +111,7 @@ impl<S: Scalar> Skeleton<S> {
                     let own = probes(columns, joint, &turned, &moved);
                     others.extend(own.filter(Probe::is_body));
                 }
-                return Held {
+                return SegmentFrame {
                     carrier,
                     turned,
                     moved,
@@ -160,7 +160,7 @@ impl<S: Scalar> Skeleton<S> {
                 dh: (turned.clone(), moved.clone()),
                 link: own,
             });
-            Held {
+            SegmentFrame {
                 carrier: Some(links.len() - 1),
                 turned,
                 moved,
@@ -180,7 +180,7 @@ impl<S: Scalar> Skeleton<S> {
 /// The frame of a row in the frame of the segment that carries it, or of the base, and
 /// whether rows that are locked lie between.
 #[derive(Clone)]
-struct Held<S> {
+struct SegmentFrame<S> {
     carrier: Option<usize>,
     turned: Rotation<S>,
     moved: Vector<S>,
