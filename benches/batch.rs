@@ -73,7 +73,7 @@ macro_rules! bench {
      $clock:ident, $compiled:ident, $place:expr, is_alone: $is_alone:expr) => {{
         type Kind = $module::$kind;
         const LINE: usize = 64 / size_of::<$scalar>();
-        let own = |states: usize| {
+        let padded = |states: usize| {
             let cast = |column: Vec<f64>| {
                 let mut column: Vec<_> = column.into_iter().map(|x| x as $scalar).collect();
                 column.extend([0.0; LINE]);
@@ -81,7 +81,7 @@ macro_rules! bench {
             };
             numbers(states).map(|columns| columns.map(cast))
         };
-        let (mut few, mut many) = (own(STATES), own(MANY));
+        let (mut few, mut many) = (padded(STATES), padded(MANY));
         let columns = few
             .each_mut()
             .map(|argument| argument.each_mut().map(|column| &*aligned(column, STATES)));
@@ -115,7 +115,8 @@ macro_rules! bench {
                     continue;
                 }
                 let mut slices = in_columns.each_mut().map(|column| aligned(column, STATES));
-                let arguments = black_box(columns.each_ref().map(|own| Argument::Columns(own)));
+                let arguments =
+                    black_box(columns.each_ref().map(|column| Argument::Columns(column)));
                 rounds.time(name, || {
                     columns_in::<Kind, 18, $results, 4, 0>(vectors, &arguments, &mut slices)
                         .unwrap();
@@ -128,9 +129,9 @@ macro_rules! bench {
                 if let Some(time) = time.and_then(|program| program.run($place)) {
                     rounds.note(gcc, time);
                 }
-                let own = slices.each_ref().map(|column| column.to_vec());
-                let expected = expected.get_or_insert_with(|| own.clone());
-                assert!(own == *expected);
+                let results = slices.each_ref().map(|column| column.to_vec());
+                let expected = expected.get_or_insert_with(|| results.clone());
+                assert!(results == *expected);
             }
         }
         let operations = ports::operations::<Kind, 18, $results, 4>();
@@ -148,7 +149,7 @@ macro_rules! bench {
                 std::array::from_fn(|_| vec![0.0; MANY + LINE]);
             for _ in 0..ROUNDS / 4 {
                 let mut slices = in_columns.each_mut().map(|column| aligned(column, MANY));
-                let many = many.each_ref().map(|own| Argument::Columns(own));
+                let many = many.each_ref().map(|column| Argument::Columns(column));
                 rounds.time("one thread", || {
                     let widest = Vectors::widest();
                     columns_in::<Kind, 18, $results, 4, 0>(widest, &many, &mut slices).unwrap();

@@ -32,7 +32,7 @@ impl Gcc {
             .filter(|line| line.contains("_any(const int far"));
         let (mut loops, mut cases) = (String::new(), String::new());
         for (index, head) in heads.enumerate() {
-            let own = head.split('(').next()?.rsplit(' ').next()?;
+            let function = head.split('(').next()?.rsplit(' ').next()?;
             let scalar = if head.contains("float") {
                 "float"
             } else {
@@ -51,7 +51,8 @@ impl Gcc {
                 passed += &format!(", r + {at}");
                 at += length;
             }
-            loops += &format!("LOOP(loop{index}, {scalar}, {at}, {own}(0, q, qd, last{passed}))\n");
+            loops +=
+                &format!("LOOP(loop{index}, {scalar}, {at}, {function}(0, q, qd, last{passed}))\n");
             cases += &format!("case {index}: run_{scalar}(loop{index}); break; ");
         }
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));

@@ -16,7 +16,7 @@ fn searches(name: &str) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let file = RobotFile::read(&root.join(format!("generated/robots/{name}.toml")));
     let RobotFile { robot, plan, .. } = file.expect("a checked-in robot");
-    let all = Request {
+    let six_functions = Request {
         functions: Function::ALL[..6].to_vec(),
         ..Request::default()
     };
@@ -28,7 +28,7 @@ fn searches(name: &str) {
     let mut rounds = Rounds::of(1);
     for _ in 0..ROUNDS {
         for (what, request) in [
-            ("six functions", &all),
+            ("six functions", &six_functions),
             ("inverse_dynamics", &torques),
             ("inverse_dynamics, by its plan", &planned),
         ] {

@@ -80,9 +80,9 @@ pub struct CountedBits;
 
 fn count(kind: usize) {
     COUNTED.with(|counted| {
-        let mut all = counted.get();
-        all[kind] += 1;
-        counted.set(all);
+        let mut counts = counted.get();
+        counts[kind] += 1;
+        counted.set(counts);
     });
 }
 
@@ -196,25 +196,27 @@ pub fn limit<T: Angle>(operations: &Operations, width: u32, clock: f64) -> Optio
     let about = fs::read_to_string("/proc/cpuinfo").ok()?;
     let field = |name: &str| {
         let mut fields = about.lines().filter_map(|line| line.split_once(':'));
-        let (_, value) = fields.find(|(own, _)| own.trim() == name)?;
+        let (_, value) = fields.find(|(key, _)| key.trim() == name)?;
         Some(value.trim())
     };
     let vendor = field("vendor_id")?;
     let family: u32 = field("cpu family")?.parse().ok()?;
     let model: u32 = field("model")?.parse().ok()?;
     let row = ROWS.iter().find(|row| {
-        let (own, of, models) = row.cores;
+        let (row_vendor, of, models) = row.cores;
         let is_one = |(first, last): &(u32, u32)| (*first..=*last).contains(&model);
-        (own, of, row.width) == (vendor, family, width) && models.iter().any(is_one)
+        (row_vendor, of, row.width) == (vendor, family, width) && models.iter().any(is_one)
     })?;
     let scalar = usize::from(size_of::<T>() == 4);
     let plain = row.ports.map(|ports| (ports, row.cycles));
     let divided = row.divider.map(|cycles| (DIVIDER, cycles[scalar]));
     let kinds = [&plain[..], &divided].concat();
     let busy = |ports: u8| {
-        let own = kinds.iter().zip(operations);
-        let own = own.filter(|((own, _), _)| own & !ports == 0);
-        let cycles: f64 = own.map(|((_, cycles), count)| cycles * *count as f64).sum();
+        let pairs = kinds.iter().zip(operations);
+        let port_pairs = pairs.filter(|((mask, _), _)| mask & !ports == 0);
+        let cycles: f64 = port_pairs
+            .map(|((_, cycles), count)| cycles * *count as f64)
+            .sum();
         cycles / f64::from(ports.count_ones())
     };
     let cycles = (1..=u8::MAX).map(busy).fold(0.0, f64::max);

@@ -26,12 +26,15 @@ impl Rounds {
 
     /// The nanoseconds that one run of a variant took, once a round.
     pub fn note(&mut self, name: &'static str, time: f64) {
-        let place = self.names.iter().position(|known| *known == name);
-        let place = place.unwrap_or_else(|| {
-            self.names.push(name);
-            self.times.push(Vec::new());
-            self.names.len() - 1
-        });
+        let place = self
+            .names
+            .iter()
+            .position(|known| *known == name)
+            .unwrap_or_else(|| {
+                self.names.push(name);
+                self.times.push(Vec::new());
+                self.names.len() - 1
+            });
         self.times[place].push(time / self.units as f64);
     }
 

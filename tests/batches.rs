@@ -247,18 +247,18 @@ fn all_cores_have_the_same_bits() {
     for count in [0, 1, 8192, 8193, 20_000] {
         let values = numbers(3 * count, 11);
         let q: Vec<[f64; 3]> = (0..count).map(|k| from_fn(|i| values[3 * k + i])).collect();
-        let q = columns(&q);
-        let q = q.each_ref().map(|column| column.as_slice());
+        let positions = columns(&q);
+        let q = positions.each_ref().map(|column| column.as_slice());
         let mut one = [(); 3].map(|()| vec![0.0; count]);
         let mut slices = one.each_mut().map(|column| column.as_mut_slice());
         together::inverse_dynamics_columns(&q, &q, &q, &mut slices).unwrap();
-        let mut all = [(); 3].map(|()| vec![1.0; count]);
-        let mut slices = all.each_mut().map(|column| column.as_mut_slice());
+        let mut parallel = [(); 3].map(|()| vec![1.0; count]);
+        let mut slices = parallel.each_mut().map(|column| column.as_mut_slice());
         type Kind = together::InverseDynamicsBatch;
         let arguments = [Argument::Columns(&q); 3];
         batch::parallel::columns::<Kind, 9, 3, _, 0>(&arguments, &mut slices).unwrap();
-        let mut pairs = one.iter().flatten().zip(all.iter().flatten());
-        assert!(pairs.all(|(one, all)| same(one, all)), "{count}");
+        let mut pairs = one.iter().flatten().zip(parallel.iter().flatten());
+        assert!(pairs.all(|(one, parallel)| same(one, parallel)), "{count}");
     }
 }
 
@@ -285,9 +285,9 @@ macro_rules! loads {
         let wrenches: Vec<[$scalar; 6]> = (0..count).map(|_| from_fn(|_| 9.0 * unit())).collect();
         let [q, qd, qdd] =
             [0, 1, 2].map(|i| columns(&states.iter().map(|x| x[i]).collect::<Vec<_>>()));
-        let [q, qd, qdd] = [&q, &qd, &qdd].map(|own| own.each_ref().map(Vec::as_slice));
-        let wrench = columns(&wrenches);
-        let wrench = wrench.each_ref().map(Vec::as_slice);
+        let [q, qd, qdd] = [&q, &qd, &qdd].map(|columns| columns.each_ref().map(Vec::as_slice));
+        let by_entry = columns(&wrenches);
+        let wrench = by_entry.each_ref().map(Vec::as_slice);
         for (loads, gravity) in [
             (&loads[..], &gravity[..]),
             (&loads[..1], &gravity[..]),
@@ -359,18 +359,18 @@ fn bases_that_float_have_batches() {
     let numbers = numbers(15 * COUNT, 3);
     let state = |k: usize| -> [f64; 15] { from_fn(|i| numbers[15 * k + i]) };
     let states: Vec<[f64; 15]> = (0..COUNT).map(state).collect();
-    let all = columns(&states);
-    let all = all.each_ref().map(Vec::as_slice);
-    let (q, rest) = all.split_first_chunk().unwrap();
+    let by_entry = columns(&states);
+    let slices = by_entry.each_ref().map(Vec::as_slice);
+    let (q, rest) = slices.split_first_chunk().unwrap();
     let (qd, qdd) = rest.split_at(7);
-    let mut found = [(); 7].map(|()| vec![0.0; COUNT]);
-    let mut slices = found.each_mut().map(Vec::as_mut_slice);
+    let mut results = [(); 7].map(|()| vec![0.0; COUNT]);
+    let mut slices = results.each_mut().map(Vec::as_mut_slice);
     let gravity = swimmer::Gravity([0.0, 1.0, -9.81]);
-    let [qd, qdd] = [qd, qdd].map(|own| own.first_chunk().unwrap());
+    let [qd, qdd] = [qd, qdd].map(|part| part.first_chunk().unwrap());
     swimmer::inverse_dynamics_columns(q, qd, qdd, &[gravity], &mut slices).unwrap();
     for (k, state) in states.iter().enumerate() {
         let [qd, qdd] = [1, 8].map(|from| *state[from..].first_chunk().unwrap());
         let tau = swimmer::inverse_dynamics(&[state[0]], &qd, &qdd, &gravity);
-        assert!((0..7).all(|i| same(&tau[i], &found[i][k])), "{k}");
+        assert!((0..7).all(|i| same(&tau[i], &results[i][k])), "{k}");
     }
 }

@@ -25,8 +25,8 @@ macro_rules! run {
     ($module:ident, $float:ty) => {
         |motion| {
             use dalembert_generated::$module as arm;
-            let own = |x: &Vec<f64>| std::array::from_fn(|i| x[i] as $float);
-            let [q, qd, qdd]: [[$float; arm::N]; 3] = motion.each_ref().map(own);
+            let array = |x: &Vec<f64>| std::array::from_fn(|i| x[i] as $float);
+            let [q, qd, qdd]: [[$float; arm::N]; 3] = motion.each_ref().map(array);
             let vector = |x: [$float; arm::N]| x.map(f64::from).to_vec();
             let matrix = |x: [[$float; arm::N]; arm::N]| x.map(vector).concat();
             let both = arm::manipulator_equation(&q, &qd);
@@ -102,9 +102,9 @@ fn six_robots_against_the_files() {
         for state in &states {
             let motion = ["q", "qd", "qdd"].map(|key| numbers(&state[key]));
             for (run, bound) in [(robot.double, DOUBLE), (robot.single, SINGLE)] {
-                for (key, found) in run(&motion) {
+                for (key, values) in run(&motion) {
                     let what = format!("{} {key}", robot.name);
-                    close(&found, &numbers(&state[key]), bound, &what);
+                    close(&values, &numbers(&state[key]), bound, &what);
                 }
             }
         }

@@ -11,13 +11,13 @@ dalembert::dynamics! {
 #[test]
 fn rows_stay_rows() {
     let known = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]];
-    let found: SMatrix<f64, 2, 3> = matrix(known);
+    let matrix: SMatrix<f64, 2, 3> = matrix(known);
     let expected = SMatrix::<f64, 2, 3>::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0);
-    assert_eq!(found, expected);
-    assert_eq!(rows(&found), known);
+    assert_eq!(matrix, expected);
+    assert_eq!(rows(&matrix), known);
     // What nalgebra's own conversion makes of the same array.
     let turned: SMatrix<f64, 3, 2> = SMatrix::from(known);
-    assert_eq!(turned.transpose(), found);
+    assert_eq!(turned.transpose(), matrix);
     let three = vector([7.0f32, 8.0, 9.0]);
     assert_eq!((array(&three), three[2]), (&[7.0, 8.0, 9.0], 9.0));
 }
@@ -31,8 +31,8 @@ fn results_are_what_formulas_take() {
     let qdd = SVector::<f64, 2>::new(-0.4, 1.1);
     let state = planar2r::state(array(&q), array(&qd));
     let tau = planar2r::inverse_dynamics(array(&q), array(&qd), array(&qdd));
-    let found = matrix(state.d) * qdd + vector(state.h) + vector(state.c);
-    let off = vector(tau) - found;
+    let torque = matrix(state.d) * qdd + vector(state.h) + vector(state.c);
+    let off = vector(tau) - torque;
     assert!(off.iter().all(|x| x.abs() < 1e-13), "{off}");
     let jacobian: SMatrix<f64, 6, 2> = matrix(state.jacobian);
     let wrench = SVector::<f64, 6>::from_fn(|i, _| 1.0 + i as f64);

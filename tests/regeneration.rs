@@ -30,7 +30,7 @@ fn pages_have_the_counts_of_the_plans() {
     let robots = robots();
     assert_eq!(robots.len(), 6);
     let mut stale = Vec::new();
-    let mut all = BTreeMap::new();
+    let mut table = BTreeMap::new();
     for (name, file) in robots {
         let read = RobotFile::read(&file).unwrap();
         let request = Request {
@@ -39,12 +39,12 @@ fn pages_have_the_counts_of_the_plans() {
         };
         let mut functions = generate(&read.robot, &request).unwrap().functions;
         functions.extend(others(&read.robot, &request));
-        all.insert(name, functions);
+        table.insert(name, functions);
     }
     for page in ["README.md", "docs/src/how-it-works.md"] {
         let page = root().join(page);
         let old = fs::read_to_string(&page).unwrap();
-        let text = updated(&old, &all);
+        let text = updated(&old, &table);
         if text != old {
             fs::write(&page, text).unwrap();
             stale.push(page);
@@ -63,10 +63,10 @@ fn others(robot: &Robot, request: &Request) -> Vec<GeneratedFunction> {
     let entries = || plan.entries.iter().filter(|entry| entry.scene.is_none());
     let generated = |parameters: &[RuntimeParameter]| {
         let taken = |entry: &&Entry| match &entry.parameters {
-            Some(own) => parameters
+            Some(key) => parameters
                 .iter()
-                .map(|own| own.argument())
-                .eq(own.taken.iter().copied()),
+                .map(|parameter| parameter.argument())
+                .eq(key.taken.iter().copied()),
             None => parameters.is_empty(),
         };
         let mut functions: Vec<Function> = Vec::new();
@@ -88,20 +88,20 @@ fn others(robot: &Robot, request: &Request) -> Vec<GeneratedFunction> {
         }
         generated.functions
     };
-    let own = generated(&[]);
+    let functions = generated(&[]);
     // Proved, and not in the guide's table, which has one row a function.
     let mut parameters = entries().filter_map(|entry| entry.parameters.as_ref());
-    assert!(parameters.all(|own| own.taken == [Argument::Load]));
+    assert!(parameters.all(|key| key.taken == [Argument::Load]));
     generated(&[RuntimeParameter::Payload]);
-    own
+    functions
 }
 
-fn updated(page: &str, all: &Table) -> String {
+fn updated(page: &str, table: &Table) -> String {
     let mut text = String::new();
     let mut columns: Vec<&str> = Vec::new();
     for line in page.lines() {
         let cells: Vec<&str> = line.split('|').map(str::trim).collect();
-        if cells.get(2).is_some_and(|cell| all.contains_key(*cell)) {
+        if cells.get(2).is_some_and(|cell| table.contains_key(*cell)) {
             columns = cells[2..cells.len() - 1].to_vec();
         }
         // `function` in the first column, or several that are one.
@@ -111,20 +111,20 @@ fn updated(page: &str, all: &Table) -> String {
         };
         text += &match columns.is_empty() || named.is_empty() {
             true => format!("{line}\n"),
-            false => counts(cells[1], &named, &columns, all),
+            false => counts(cells[1], &named, &columns, table),
         };
     }
     text
 }
 
-fn counts(first: &str, named: &[Function], robots: &[&str], all: &Table) -> String {
+fn counts(first: &str, named: &[Function], robots: &[&str], table: &Table) -> String {
     let mut row = format!("| {first} |");
     for robot in robots {
         let is_it = |f: &&GeneratedFunction| match named {
             [function] => f.function == *function,
             parts => f.function.parts() == parts,
         };
-        let counts = all[*robot].iter().find(is_it).unwrap().counts();
+        let counts = table[*robot].iter().find(is_it).unwrap().counts();
         row += &match counts.div {
             0 => format!(" **{}/{}** |", counts.mul, counts.add),
             div => format!(" **{}/{}**, {div} |", counts.mul, counts.add),

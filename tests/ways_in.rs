@@ -44,8 +44,7 @@ dalembert::dynamics! {
 #[test]
 fn one_robot_by_every_way() {
     let source = include_str!("../generated/robots/planar2r.toml");
-    let robot = dalembert::read::parse(source);
-    let robot = robot.unwrap().robot;
+    let robot = dalembert::read::parse(source).unwrap().robot;
     assert_eq!(robot.joints[0].alpha, Angle::default());
     let runtime = Reference::<f64>::from_robot(&robot);
     for step in 0..100 {

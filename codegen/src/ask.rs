@@ -40,14 +40,19 @@ pub fn ask(
     if !request.has_no_plan {
         request.plan = file.plan.clone();
     }
-    let generated = generate_anew(&file.robot, &request, shown);
-    let generated = generated.map_err(|error| vec![Problem::from_error(&error, &request)])?;
-    let notes = file.notes.iter();
-    let notes = notes.filter(|note| note.severity == Severity::Warning);
+    let generated = generate_anew(&file.robot, &request, shown)
+        .map_err(|error| vec![Problem::from_error(&error, &request)])?;
+    let notes = file
+        .notes
+        .iter()
+        .filter(|note| note.severity == Severity::Warning);
     let mut warnings: Vec<String> = notes
         .map(|note| {
-            let help = note.help.as_ref().map(|help| format!("\n  = help: {help}"));
-            let help = help.unwrap_or_default();
+            let help = note
+                .help
+                .as_ref()
+                .map(|help| format!("\n  = help: {help}"))
+                .unwrap_or_default();
             format!("{shown}:{}: {}{help}", note.line, note.message)
         })
         .collect();
@@ -65,7 +70,10 @@ impl Problem {
         let (option, item) = match (error, error.function()) {
             (GenerateError::Parameter(..), _) => {
                 let first = request.parameters.first();
-                ("parameters", first.map_or("", |own| own.name()).to_owned())
+                (
+                    "parameters",
+                    first.map_or("", |parameter| parameter.name()).to_owned(),
+                )
             }
             (GenerateError::SinCos(..), _) if request.sincos_error.is_some() => {
                 ("sincos_error", String::new())

@@ -45,63 +45,78 @@ impl ConstantTable {
 
 pub(crate) fn code(program: &Program, constants: &mut ConstantTable) -> [String; 2] {
     let Steps { steps, outputs } = program.dag.steps();
-    let steps = steps.iter().map(|step| {
-        let [left, right] = [&step.left, &step.right].map(|own| constants.word(own));
-        format!("{left}{}{right}", step.operation.symbol())
-    });
-    let steps: Vec<String> = steps.collect();
-    let returns = outputs.iter().map(|output| {
-        let sign = if output.negative { "-" } else { "" };
-        format!("{sign}{}", constants.word(&output.value))
-    });
-    let returns: Vec<String> = returns.collect();
+    let steps: Vec<String> = steps
+        .iter()
+        .map(|step| {
+            let [left, right] = [&step.left, &step.right].map(|operand| constants.word(operand));
+            format!("{left}{}{right}", step.operation.symbol())
+        })
+        .collect();
+    let returns: Vec<String> = outputs
+        .iter()
+        .map(|output| {
+            let sign = if output.negative { "-" } else { "" };
+            format!("{sign}{}", constants.word(&output.value))
+        })
+        .collect();
     [steps, returns].map(|words| words.join(" "))
 }
 
 pub(crate) fn of_setup(
-    own: &Program,
+    program: &Program,
     setup: &Setup,
     constants: &mut ConstantTable,
 ) -> FunctionClaim {
     let scene = setup.scene().map(|scene| &*scene.name);
-    let claimed = claimed(own, scene, constants);
-    let base = setup.base_of(own.function).ok().flatten();
+    let claimed = claimed(program, scene, constants);
+    let base = setup.base_of(program.function).ok().flatten();
     let combinations = base.map_or(&[][..], |base| &base.combinations);
-    let terms = combinations.iter().map(|terms| {
-        let terms = terms.iter();
-        let terms = terms.map(|(parameter, factor)| match factor.is_one() {
-            true => parameter.to_string(),
-            false => format!("#{}*{parameter}", constants.place(factor)),
-        });
-        terms.collect::<Vec<String>>().join(" ")
-    });
-    let terms = terms.collect();
-    let values = base.map_or_else(Vec::new, |base| base.values(&setup.arm(Exact::clone)));
-    let values = values
+    let terms = combinations
         .iter()
-        .map(|own| format!("#{}", constants.place(own)));
+        .map(|terms| {
+            let terms = terms
+                .iter()
+                .map(|(parameter, factor)| match factor.is_one() {
+                    true => parameter.to_string(),
+                    false => format!("#{}*{parameter}", constants.place(factor)),
+                });
+            terms.collect::<Vec<String>>().join(" ")
+        })
+        .collect();
+    let values = base
+        .map_or_else(Vec::new, |base| base.values(&setup.arm(Exact::clone)))
+        .iter()
+        .map(|constant| format!("#{}", constants.place(constant)))
+        .collect::<Vec<String>>();
     FunctionClaim {
-        values: values.collect::<Vec<String>>().join(" "),
+        values: values.join(" "),
         base: terms,
-        bodies: match own.arguments.contains(&Argument::Bodies) {
+        bodies: match program.arguments.contains(&Argument::Bodies) {
             true => setup.body_links(),
             false => Vec::new(),
         },
-        keeps_zeros: own.arguments.contains(&Argument::Bodies) && !setup.zeros().is_empty(),
+        keeps_zeros: program.arguments.contains(&Argument::Bodies) && !setup.zeros().is_empty(),
         ..claimed
     }
 }
 
 pub(crate) fn claimed(
-    own: &Program,
+    program: &Program,
     scene: Option<&str>,
     constants: &mut ConstantTable,
 ) -> FunctionClaim {
-    let [steps, returns] = code(own, constants);
-    let arguments = own.arguments.iter().map(|own| own.name().to_owned());
-    let results = own.function.quantities().iter().map(|own| result(*own));
+    let [steps, returns] = code(program, constants);
+    let arguments = program
+        .arguments
+        .iter()
+        .map(|argument| argument.name().to_owned());
+    let results = program
+        .function
+        .quantities()
+        .iter()
+        .map(|quantity| result(*quantity));
     FunctionClaim {
-        function: own.function.name().to_owned(),
+        function: program.function.name().to_owned(),
         scene: scene.map(str::to_owned),
         arguments: arguments.collect(),
         results: results.collect(),
@@ -114,10 +129,11 @@ pub(crate) fn claimed(
 fn result(quantity: Quantity) -> String {
     let (of, view) = match quantity {
         Quantity::At(at) => (at.quantity(), format!("@{}", at.words())),
-        own => (own, String::new()),
+        quantity => (quantity, String::new()),
     };
-    let mut all = Function::ALL.iter();
-    let first = all.find(|function| function.quantities().contains(&of));
-    let first = first.map_or_else(String::new, |function| format!("{function}."));
+    let mut functions = Function::ALL.iter();
+    let first = functions
+        .find(|function| function.quantities().contains(&of))
+        .map_or_else(String::new, |function| format!("{function}."));
     format!("{first}{}{view}", of.field())
 }

@@ -9,8 +9,9 @@ fn rounded(x: f64, digits: usize, side: i64) -> f64 {
     let near = format!("{x:.*e}", digits.saturating_sub(1));
     let read = near.parse().unwrap_or(x);
     let good = if side == ABOVE { read >= x } else { read <= x };
-    let parts = near.split_once('e');
-    let parts = parts.map(|(digits, power)| (digits.replace('.', ""), power.parse::<i32>()));
+    let parts = near
+        .split_once('e')
+        .map(|(digits, power)| (digits.replace('.', ""), power.parse::<i32>()));
     let (false, Some((mantissa, Ok(power)))) = (good, parts) else {
         return read;
     };

@@ -43,10 +43,9 @@ impl RobotFile {
     /// # Errors
     /// As [`RobotFile::read`].
     pub fn read_as(path: &Path, shown: &str) -> Result<RobotFile, RobotFileError> {
-        let bytes = plan::file::bytes(path, read::MAX_BYTES);
-        let bytes = bytes.map_err(|error| RobotFileError::of_system(path, shown, &error))?;
-        let plan = plan::file::beside(path);
-        let plan = plan.map_err(|why| RobotFileError::new(why.to_string()))?;
+        let bytes = plan::file::bytes(path, read::MAX_BYTES)
+            .map_err(|error| RobotFileError::of_system(path, shown, &error))?;
+        let plan = plan::file::beside(path).map_err(|why| RobotFileError::new(why.to_string()))?;
         let file = Self::parse_bytes(&bytes, shown)?;
         Ok(RobotFile { plan, ..file })
     }

@@ -207,8 +207,9 @@ fn range(joint: &Joint, argument: Argument) -> [f64; 2] {
 /// Returns the range of a coordinate of a base that floats; none of positions.
 fn base_range(robot: &Robot, argument: Argument, coordinate: usize) -> Option<[f64; 2]> {
     let limit = argument.limit().filter(|limit| *limit != Limit::Position)?;
-    let most = robot.limit_of(coordinate, limit);
-    let most = most.map_or(argument.reach(), f64::nearest_rational);
+    let most = robot
+        .limit_of(coordinate, limit)
+        .map_or(argument.reach(), f64::nearest_rational);
     Some([-most, most])
 }
 

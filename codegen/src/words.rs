@@ -22,8 +22,8 @@ pub trait Word: Copy {
 
     /// Returns the value of a word.
     fn from_name(text: &str) -> Option<Self> {
-        let mut all = Self::all().into_iter();
-        all.find_map(|(word, value)| (word == text).then_some(value))
+        let mut words = Self::all().into_iter();
+        words.find_map(|(word, value)| (word == text).then_some(value))
     }
 }
 

@@ -18,8 +18,8 @@ fn found(source: &str, output: &str, prefer: &str) -> GeneratedFunction {
     Case::read(source, &asked).generated().functions.remove(0)
 }
 
-fn operations(own: &GeneratedFunction) -> usize {
-    own.counts().operations()
+fn operations(function: &GeneratedFunction) -> usize {
+    function.counts().operations()
 }
 
 fn heavier(source: &str, factor: f64) -> String {
@@ -38,7 +38,7 @@ daily_and_campaign! {
 
 fn neighbours_cost_about_the_same(places: Range<usize>) {
     let file = source("gen3", "");
-    let own = operations(&found(&file, TORQUES, "accuracy"));
+    let count = operations(&found(&file, TORQUES, "accuracy"));
     let neighbours = [
         file.replace("9.81", "9.80665"),
         heavier(&file, 1.01),
@@ -50,7 +50,7 @@ fn neighbours_cost_about_the_same(places: Range<usize>) {
     for neighbour in &neighbours[places] {
         assert_ne!(*neighbour, file);
         let other = operations(&found(neighbour, TORQUES, "accuracy"));
-        assert!(own.abs_diff(other) * 50 <= own, "{own} and {other}");
+        assert!(count.abs_diff(other) * 50 <= count, "{count} and {other}");
     }
 }
 
@@ -90,8 +90,8 @@ fn the_estimate_is_what_is_observed() {
         for state in seeded(robot, 300, 7) {
             let state = state.in_scalar(ScalarType::F32);
             let truth = runtime.run(Function::InverseDynamics, &state);
-            let found = generated.emitted[0].run(&state);
-            let errors: Vec<f64> = found.iter().zip(&truth).map(|(x, y)| x - y).collect();
+            let torques = generated.emitted[0].run(&state);
+            let errors: Vec<f64> = torques.iter().zip(&truth).map(|(x, y)| x - y).collect();
             let error = largest(&errors) / largest(&truth);
             observed = observed.max(error / ScalarType::F32.unit_roundoff());
         }
@@ -120,10 +120,13 @@ fn rotors_of_random_arms_cost_few_digits(seeds: Range<u64>) {
             let program = &generated.functions[0].program;
             Rounding::estimate(&Setup::whole(&robot), program).worst()
         };
-        let own = error(Start::Auto);
+        let auto_error = error(Start::Auto);
         let textbook = error(Start::Only(Formulation::NewtonEulerLink));
         let most = 4.0 * textbook.max(4.0);
-        assert!(own <= most, "seed {seed}: {own} u, not {most}");
+        assert!(
+            auto_error <= most,
+            "seed {seed}: {auto_error} u, not {most}"
+        );
     }
 }
 
@@ -151,9 +154,12 @@ fn heavy_rotors_cost_few_digits(cases: &[[&str; 3]]) {
             let program = &case.generated().functions[0].program;
             Rounding::estimate(&Setup::whole(case.robot()), program).worst()
         };
-        let [own, textbook] = ["", "; formulation: newton_euler"].map(error);
+        let [default_error, textbook] = ["", "; formulation: newton_euler"].map(error);
         let most = 4.0 * textbook.max(4.0);
         let what = format!("{name} {output} {armature}");
-        assert!(own <= most, "{what}: {own} u, not {most}");
+        assert!(
+            default_error <= most,
+            "{what}: {default_error} u, not {most}"
+        );
     }
 }

@@ -11,8 +11,8 @@ use crate::support::{self, Case, hold, is_close, largest};
 
 fn in_the_file(robot: &Robot, state: &JointState) -> Robot {
     let number = |x: &f64| Rational::from_float(*x).unwrap();
-    let payload = state.payload.as_chunks::<10>().0.first().map(|all| {
-        let [mass, x, y, z, inertia @ ..] = all.each_ref().map(number);
+    let payload = state.payload.as_chunks::<10>().0.first().map(|numbers| {
+        let [mass, x, y, z, inertia @ ..] = numbers.each_ref().map(number);
         Payload {
             mass,
             com: [x, y, z],
@@ -31,8 +31,8 @@ fn in_the_file(robot: &Robot, state: &JointState) -> Robot {
 
 fn run(generated: &GeneratedCode, emitted: &RunnableCode, state: &JointState) -> Vec<f64> {
     let mut state = state.clone();
-    let mut all = generated.emitted.iter();
-    let load = all.find(|e| e.function == Function::Load && e.scalar == emitted.scalar);
+    let mut codes = generated.emitted.iter();
+    let load = codes.find(|e| e.function == Function::Load && e.scalar == emitted.scalar);
     if let Some(load) = load {
         state.load = load.run(&state);
     }
@@ -49,8 +49,8 @@ fn check(case: &Case, count: usize) {
         scene: case.request.scene.clone(),
         ..Request::default()
     };
-    let all = generated.emitted.iter();
-    for emitted in all.filter(|own| own.function != Function::Load) {
+    let codes = generated.emitted.iter();
+    for emitted in codes.filter(|code| code.function != Function::Load) {
         let function = emitted.function;
         let compared = states.iter().map(|state| {
             let state = state.in_scalar(emitted.scalar);
@@ -66,7 +66,7 @@ fn check(case: &Case, count: usize) {
 
 #[test]
 fn a_load_is_the_payload_in_the_robot_file() {
-    let all = "inverse_dynamics, gravity, inertia, coriolis, manipulator_equation, \
+    let many = "inverse_dynamics, gravity, inertia, coriolis, manipulator_equation, \
         dynamic_coefficients, kinetic_energy, momentum, coriolis_matrix, \
         inverse_dynamics_derivatives, passivity, forward_dynamics, inertia_inverse; \
         parameters: payload, gravity";
@@ -74,7 +74,7 @@ fn a_load_is_the_payload_in_the_robot_file() {
     let still = "lock = { 4 = 0, 5 = 0, 6 = 0 }; velocity = \"zero\"";
     let in_it = "inverse_dynamics, inertia; parameters: payload";
     for (name, scene, asked, count) in [
-        ("planar3r", "", all, 20),
+        ("planar3r", "", many, 20),
         ("puma560", "", few, 10),
         ("stanford", "", few, 10),
         ("puma560", still, in_it, 10),
@@ -98,8 +98,8 @@ fn a_payload_is_in_the_links_own_frame() {
 
     let mut rows = Case::new("payload_frame", "", &format!("{asked}; scalar: f64"));
     let of_frames = rows.generated();
-    let own = rows.reading.robot.payload_frame.take().unwrap();
-    assert_eq!(own.rpy[0], Angle::right_angles(1));
+    let frame = rows.reading.robot.payload_frame.take().unwrap();
+    assert_eq!(frame.rpy[0], Angle::right_angles(1));
     let of_rows = rows.generated();
     for state in case.runtime(10, 7).1 {
         let &[mass, x, y, z, xx, yy, zz, xy, yz, xz] = state.payload.as_slice() else {

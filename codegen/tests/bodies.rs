@@ -11,8 +11,8 @@ use crate::support::{self, Case, daily_and_campaign, hold, read, read_robot};
 
 fn run(generated: &GeneratedCode, emitted: &RunnableCode, state: &JointState) -> Vec<f64> {
     let mut state = state.clone();
-    let mut all = generated.emitted.iter();
-    let load = all.find(|own| own.function == Function::Load && own.scalar == emitted.scalar);
+    let mut codes = generated.emitted.iter();
+    let load = codes.find(|code| code.function == Function::Load && code.scalar == emitted.scalar);
     if let Some(load) = load {
         state.load = load.run(&state);
     }
@@ -30,7 +30,7 @@ fn with_bodies(source: &str, state: &JointState, links: &[usize]) -> String {
         0
     };
     let body = |link: i64| {
-        let place = links.iter().position(|own| *own as i64 == link)?;
+        let place = links.iter().position(|number| *number as i64 == link)?;
         state.bodies.chunks(10).nth(place)
     };
     let drives = |link: i64| {
@@ -83,13 +83,15 @@ fn check(source: &str, asked: &str, count: usize) -> GeneratedCode {
         parameters: case.request.parameters.clone(),
         ..Request::default()
     };
-    let given = |own: &RuntimeParameter| own.given().is_none() || *own == RuntimeParameter::Payload;
+    let is_plain = |parameter: &RuntimeParameter| {
+        parameter.given().is_none() || *parameter == RuntimeParameter::Payload
+    };
     let plain = Request {
-        parameters: plain.parameters.iter().copied().filter(given).collect(),
+        parameters: plain.parameters.iter().copied().filter(is_plain).collect(),
         ..plain
     };
-    let all = generated.emitted.iter();
-    for emitted in all.filter(|own| own.function != Function::Load) {
+    let codes = generated.emitted.iter();
+    for emitted in codes.filter(|code| code.function != Function::Load) {
         let function = emitted.function;
         let compared = states.iter().map(|state| {
             let mut state = state.in_scalar(emitted.scalar);
@@ -125,9 +127,9 @@ fn a_load_is_the_bodies_in_the_robot_file() {
         let source = support::source(name, "");
         check(&source, &format!("{MOST}; parameters: bodies"), 4);
     }
-    let all = "outputs: inverse_dynamics, coriolis, manipulator_equation, kinetic_energy, momentum, \
+    let request = "outputs: inverse_dynamics, coriolis, manipulator_equation, kinetic_energy, momentum, \
         coriolis_matrix, inverse_dynamics_derivatives, passivity, inertia_inverse; parameters: bodies, gravity";
-    check(&support::source("planar2r", ""), all, 4);
+    check(&support::source("planar2r", ""), request, 4);
 }
 
 #[test]
@@ -154,9 +156,9 @@ fn some_links_alone_have_other_bodies() {
         &format!("{MOST}; parameters: bodies; bodies: 2, 5"),
         4,
     );
-    let all = check(&source, &format!("{MOST}; parameters: bodies"), 4);
-    let load = |own: &GeneratedCode| own.functions[0].program.load;
-    assert!(load(&some) < load(&all));
+    let full = check(&source, &format!("{MOST}; parameters: bodies"), 4);
+    let load = |code: &GeneratedCode| code.functions[0].program.load;
+    assert!(load(&some) < load(&full));
 }
 
 /// A PUMA with other numbers where it has some costs hardly more than the PUMA.
@@ -166,9 +168,9 @@ fn zeros_may_stay_zeros() {
     let kept = format!("{MOST}; parameters: bodies; keep_zeros: on");
     let counts = |asked: &str| -> usize {
         let generated = check(&source, asked, 4);
-        let mut all = generated.functions.iter();
-        let own = all.find(|own| own.function == Function::InverseDynamics);
-        let counts = own.unwrap().program.counts();
+        let mut functions = generated.functions.iter();
+        let function = functions.find(|function| function.function == Function::InverseDynamics);
+        let counts = function.unwrap().program.counts();
         counts.mul + counts.add
     };
     let (kept, free) = (
@@ -270,24 +272,25 @@ daily_and_campaign! {
 /// Rounding is bounded for the bodies of a link's limits, or for those around the file's.
 #[test]
 fn bodies_have_ranges() {
-    let own = support::source("planar2r", "");
+    let file = support::source("planar2r", "");
     let limits = "\"pi\"], body = { mass = [1, 30], radius = 1.5 } }";
-    let source = own.replacen("\"pi\"] }", limits, 1);
+    let source = file.replacen("\"pi\"] }", limits, 1);
     let asked = "outputs: inverse_dynamics; parameters: bodies; scalar: f64";
-    let (around, given) = (report(&own, asked), report(&source, asked));
+    let (around, explicit) = (report(&file, asked), report(&source, asked));
     assert!(
-        around.passes(false) && given.passes(false),
+        around.passes(false) && explicit.passes(false),
         "{:?}",
-        given.lines
+        explicit.lines
     );
-    let ranges = |own: &Report| -> Vec<(usize, [f64; 2], f64)> {
-        let all = own.bodies.iter();
-        all.map(|(link, body)| (*link, body.mass, body.radius))
+    let ranges = |report: &Report| -> Vec<(usize, [f64; 2], f64)> {
+        let bodies = report.bodies.iter();
+        bodies
+            .map(|(link, body)| (*link, body.mass, body.radius))
             .collect()
     };
-    let (around, given) = (ranges(&around), ranges(&given));
-    assert_eq!(given[0], (1, [1.0, 30.0], 1.5));
-    assert_eq!(given[1], around[1]);
+    let (around, explicit_ranges) = (ranges(&around), ranges(&explicit));
+    assert_eq!(explicit_ranges[0], (1, [1.0, 30.0], 1.5));
+    assert_eq!(explicit_ranges[1], around[1]);
     assert!(around[0].1[0] < around[0].1[1] && around[0].2 > 0.0);
     let empty = source.replace("[1, 30]", "[30, 1]");
     let why = dalembert_model::read::parse(&empty)
@@ -321,7 +324,7 @@ fn ranges_hold_the_robots_numbers() {
     let ranges: Vec<_> = report
         .bodies
         .iter()
-        .map(|(_, own)| (own.mass, own.radius))
+        .map(|(_, body)| (body.mass, body.radius))
         .collect();
     assert_eq!(ranges, [([450.0, 1800.0], 0.6), ([0.0, 2.0], 0.6)]);
 }
@@ -336,7 +339,7 @@ fn loads_that_are_measured_have_their_signs() {
         let report = report(&source, asked);
         let lines = &report.lines;
         let is_small = |line: &Line| match &line.result {
-            Ok(own) => own.costs[0].rounding < 1e-10,
+            Ok(findings) => findings.costs[0].rounding < 1e-10,
             Err(_) => false,
         };
         assert!(lines.iter().all(is_small), "{lines:?}");
@@ -366,7 +369,7 @@ fn plans_tell_loads_apart() {
         None,
     )
     .plan;
-    let is_planned = |own: &GeneratedCode| own.functions[1].planned;
+    let is_planned = |code: &GeneratedCode| code.functions[1].planned;
     assert!(is_planned(&armature.by(&plan)) && !is_planned(&case("viscous").by(&plan)));
 }
 
@@ -410,18 +413,18 @@ fn requests_that_cannot_be_are_refused() {
             "no regrouped parameters",
         ),
     ] {
-        let found = said("", asked);
-        assert!(found.contains(why), "{asked}: {found}");
+        let refusal = said("", asked);
+        assert!(refusal.contains(why), "{asked}: {refusal}");
     }
     let payload = "payload = { mass = 2.5, com = [0.05, 0, 0.1] }";
-    let found = said(payload, "gravity; parameters: bodies");
+    let payload_refusal = said(payload, "gravity; parameters: bodies");
     assert!(
-        found.contains("has a payload, which is part of a link"),
-        "{found}"
+        payload_refusal.contains("has a payload, which is part of a link"),
+        "{payload_refusal}"
     );
     let tolerance = "tolerance = { value = 1e-3, relative_to = \"range\" }\n\
                      box = { velocity = [1, 1], acceleration = [1, 1] }";
-    let found = said(tolerance, "gravity; parameters: bodies");
-    assert!(found.contains("bodies"), "{found}");
+    let tolerance_refusal = said(tolerance, "gravity; parameters: bodies");
+    assert!(tolerance_refusal.contains("bodies"), "{tolerance_refusal}");
     assert!(read(FLOATING).robot.floating.is_some());
 }

@@ -88,8 +88,8 @@ fn headers() -> Vec<String> {
         let asked = format!("sincos: {sincos}; batch: on; language: c");
         ("sines".to_owned(), Case::new("planar2r", "", &asked))
     });
-    let all = changes("c", "on").into_iter().chain(sines);
-    all.map(|(_, case)| case.generated().text()).collect()
+    let cases = changes("c", "on").into_iter().chain(sines);
+    cases.map(|(_, case)| case.generated().text()).collect()
 }
 
 pub fn with_main(name: &str, text: &str, rest: &str) -> PathBuf {
@@ -256,8 +256,11 @@ fn processors_with_other_digits_are_refused() {
         for (flags, is_taken) in [("-O2", true), ("-O2 -mfpmath=387", false)] {
             let flags = format!("{flags} -fsyntax-only arm.c");
             let mut command = Command::new(compiler);
-            let output = command.args(flags.split(' ')).current_dir(&folder).output();
-            let output = output.unwrap();
+            let output = command
+                .args(flags.split(' '))
+                .current_dir(&folder)
+                .output()
+                .unwrap();
             let said = String::from_utf8_lossy(&output.stderr);
             assert_eq!(output.status.success(), is_taken, "{said}");
             let is_said = said.contains("not rounded to their type");

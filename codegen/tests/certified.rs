@@ -45,26 +45,28 @@ impl Certified {
         scene: Option<&str>,
     ) -> Vec<Certified> {
         let claim = claim(case.robot(), robot, &case.request, generated).unwrap();
-        let files = generated.files(&case.request, "robot.toml", robot);
-        let files = files.into_iter().map(|text| Certified {
-            text,
-            claim: claim.write(),
-            robot: robot.to_owned(),
-            scene: scene.map(str::to_owned),
-        });
+        let files = generated
+            .files(&case.request, "robot.toml", robot)
+            .into_iter()
+            .map(|text| Certified {
+                text,
+                claim: claim.write(),
+                robot: robot.to_owned(),
+                scene: scene.map(str::to_owned),
+            });
         files.collect()
     }
 
     /// The scene is the only one of the robot file.
-    pub fn variant(robot: &str, own: &Variant) -> Certified {
+    pub fn variant(robot: &str, variant: &Variant) -> Certified {
         let reading = support::read(robot);
         let [scene] = reading.scenes.as_slice() else {
             panic!("several scenes")
         };
         let setup = Setup::in_scene(&reading.robot, Some(scene)).unwrap();
         Certified {
-            text: own.text.clone(),
-            claim: claim_of(&reading.robot, robot, &setup, own).write(),
+            text: variant.text.clone(),
+            claim: claim_of(&reading.robot, robot, &setup, variant).write(),
             robot: robot.to_owned(),
             scene: Some(scene.name.clone()),
         }
@@ -112,8 +114,9 @@ impl Certified {
 
     #[track_caller]
     fn shown(&self, what: &str) -> Vec<Findings> {
-        let report = self.report();
-        let report = report.unwrap_or_else(|fault| panic!("{what}: {fault}"));
+        let report = self
+            .report()
+            .unwrap_or_else(|fault| panic!("{what}: {fault}"));
         let shown = report.lines.into_iter().map(|line| {
             let result = line.result;
             result.unwrap_or_else(|fault| panic!("{what}: `{}`: {fault}", line.name))
@@ -128,8 +131,11 @@ impl Certified {
 
     #[track_caller]
     fn holds(&self, count: usize, what: &str) {
-        let results = self.shown(what).into_iter().flat_map(|own| own.results);
-        let results: Vec<ResultBound> = results.collect();
+        let results: Vec<ResultBound> = self
+            .shown(what)
+            .into_iter()
+            .flat_map(|findings| findings.results)
+            .collect();
         assert_eq!(results.len(), count, "{what}");
         assert!(
             results.iter().all(ResultBound::is_shown),
@@ -180,7 +186,7 @@ fn in_both(robot: &str, scene: Option<&str>, asked: &str) -> Vec<(Certified, usi
         case.request.plan = plan.take();
         let generated = case.generated();
         let written = Certified::of_generated(&case, &generated, robot, scene);
-        files.extend(written.into_iter().map(|own| (own, scalars)));
+        files.extend(written.into_iter().map(|file| (file, scalars)));
         plan = Some(keep(case.robot(), &case.request, &generated, None).plan);
     }
     assert_eq!(files.len(), 3, "{asked}");
@@ -205,8 +211,8 @@ support::daily_and_campaign! {
 fn every_function_is_shown_in_both_scalars_and_languages(robots: &str) {
     let asked = format!("outputs: {}", every_output());
     for name in robots.split(' ') {
-        for (own, scalars) in in_both(&source(name, ""), None, &asked) {
-            own.is_shown(41 * scalars, name);
+        for (file, scalars) in in_both(&source(name, ""), None, &asked) {
+            file.is_shown(41 * scalars, name);
         }
     }
 }
@@ -248,8 +254,8 @@ EYE := [[frame]]; name = "eye"; link = 2; xyz = [0.1, 0.2, 0]; rpy = [0, 0.3, 0.
         let (robot, asked) = in_scene(&name, &lines, &format!("{asked}; name: p"));
         let scene = asked.starts_with("scene: ").then_some("test");
         let count: usize = count.parse().unwrap();
-        for (own, scalars) in in_both(&robot, scene, &asked) {
-            own.is_shown(count * scalars, &format!("{name} {lines} {asked}"));
+        for (file, scalars) in in_both(&robot, scene, &asked) {
+            file.is_shown(count * scalars, &format!("{name} {lines} {asked}"));
         }
     }
 }
@@ -272,8 +278,8 @@ fn variants_that_a_tolerance_admits_are_shown(scenes: &[(&str, usize)]) {
     let scara =
         std::fs::read_to_string(path("../crates/checker/tests/data/attacks/scara.toml")).unwrap();
     for &(scene, count) in scenes {
-        for (own, scalars) in in_both(&scara, Some(scene), &format!("scene: {scene}")) {
-            own.holds(scalars * count, scene);
+        for (file, scalars) in in_both(&scara, Some(scene), &format!("scene: {scene}")) {
+            file.holds(scalars * count, scene);
         }
     }
 }
@@ -286,8 +292,8 @@ fn variants_of_plans_are_shown(robots: &[(&str, usize)]) {
         let plan = std::fs::read_to_string(path(&format!("../generated/robots/{name}.plan")));
         let mut case = Case::read(&robot, "scene: swing; scalar: f64");
         case.request.plan = Some(Plan::parse(&plan.unwrap()).unwrap());
-        for own in Certified::from(&case, &robot, Some("swing")) {
-            own.holds(count, name);
+        for file in Certified::from(&case, &robot, Some("swing")) {
+            file.holds(count, name);
         }
     }
 }
@@ -295,16 +301,16 @@ fn variants_of_plans_are_shown(robots: &[(&str, usize)]) {
 const FEW: &str = "inverse_dynamics, gravity, inertia, forward_kinematics, link_poses";
 
 fn others_than_few() -> String {
-    let all = every_output();
+    let outputs = every_output();
     let is_few = |name: &str| FEW.split(", ").any(|few| few == name);
-    let others: Vec<&str> = all.split(", ").filter(|name| !is_few(name)).collect();
+    let others: Vec<&str> = outputs.split(", ").filter(|name| !is_few(name)).collect();
     others.join(", ")
 }
 
 fn robots_that_are_others(outputs: &str) {
     let robot = std::fs::read_to_string(path("../crates/checker/tests/data/hand.toml")).unwrap();
-    let own = &Certified::of(&robot, None, &format!("outputs: {outputs}; scalar: f64"))[0];
-    own.is_shown(outputs.split(", ").count(), "hand");
+    let file = &Certified::of(&robot, None, &format!("outputs: {outputs}; scalar: f64"))[0];
+    file.is_shown(outputs.split(", ").count(), "hand");
     for [from, to, kept] in rows(
         "
 0, 0.107]      | 0, 0.1071]                      | inertia coriolis
@@ -315,7 +321,7 @@ viscous = 0.4  | viscous = 0.4000000000000000001 | gravity kinetic_energy
 ",
     ) {
         assert!(robot.contains(&from), "{from}");
-        let mut other = own.clone();
+        let mut other = file.clone();
         other.robot = robot.replacen(&from, &to, 1);
         let report = other.report().unwrap();
         let mut lines = report.lines.iter();
@@ -327,9 +333,9 @@ viscous = 0.4  | viscous = 0.4000000000000000001 | gravity kinetic_energy
 
 #[test]
 fn rows_that_are_not_those_of_the_robot_file() {
-    let own = &Certified::all("open_manipulator", "", "gravity; scalar: f64")[0];
-    own.is_shown(1, "placed");
-    own.refuses_claims(
+    let file = &Certified::all("open_manipulator", "", "gravity; scalar: f64")[0];
+    file.is_shown(1, "placed");
+    file.refuses_claims(
         r#"
 mass = 0.0984       | mass = 0.0985       | mass of joint 1: [0.0984
 velocity = 4.8      | viscous = 1         | aligned
@@ -410,9 +416,9 @@ fn payloads_in_tilted_frames() {
     let robot = source("planar2r", "").replacen("[[joint]]", &format!("{frame}\n[[joint]]"), 1);
     let robot = robot + "\n[scene.s]\npayload = { mass = 1.5, com = [0.01, 0.02, 0.1] }\n";
     let asked = "outputs: inverse_dynamics; scene: s; scalar: f64";
-    let own = &Certified::of(&robot, Some("s"), asked)[0];
-    own.is_shown(1, "tilted");
-    own.refuses_claims(
+    let file = &Certified::of(&robot, Some("s"), asked)[0];
+    file.is_shown(1, "tilted");
+    file.refuses_claims(
         "
 payload = { mass = 1.5 | payload = { mass = 1.4 | mass of the payload: [1.5] in the file, [1.4] claimed
 [scene.s] | [scene.t] | result 1 is not that of the robot
@@ -430,9 +436,9 @@ tolerance = { value = 5e-2, relative_to = "range" }
 "#;
     let robot = source("planar2r", scene);
     let asked = "outputs: inverse_dynamics; scene: s; parameters: payload; scalar: f64";
-    let own = &Certified::of(&robot, Some("s"), asked)[0];
-    own.is_shown(2, "payload");
-    let report = own.report().unwrap();
+    let file = &Certified::of(&robot, Some("s"), asked)[0];
+    file.is_shown(2, "payload");
+    let report = file.report().unwrap();
     let (body, is_default) = report.payloads.unwrap();
     assert_eq!(
         (body.mass, body.radius, is_default),
@@ -446,7 +452,7 @@ mass = [0, 2], radius = 0.1 | mass = [0, 2] | missing field `radius`
 ",
     ) {
         assert!(robot.contains(&from), "{from}");
-        let mut other = own.clone();
+        let mut other = file.clone();
         other.robot = robot.replacen(&from, &to, 1);
         let why = other.refusal().unwrap();
         assert!(why.contains(&words), "{why}");
@@ -467,9 +473,9 @@ fn no_line_of_a_function_can_say_something_else(is_tried: fn(usize) -> bool) {
     for name in every_output().split(", ") {
         for language in ["rust", "c"] {
             let asked = format!("{name}; scalar: f64; name: p; language: {language}");
-            let own = Certified::planar2r(&asked);
-            own.is_shown(1, &asked);
-            count += own.every_line_counts(is_tried, CHANGES, is_code);
+            let file = Certified::planar2r(&asked);
+            file.is_shown(1, &asked);
+            count += file.every_line_counts(is_tried, CHANGES, is_code);
         }
     }
     let least = (0..17_000).filter(|place| is_tried(*place)).count();

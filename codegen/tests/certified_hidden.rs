@@ -41,8 +41,8 @@ fn spelled(number: &str, way: &str) -> Vec<String> {
     let mut steps: Vec<String> = Vec::new();
     let push = |word: &str, base: usize, steps: &mut Vec<String>| {
         let last = steps.len();
-        let named = [("uN", last), ("uM", base), ("uL", last.saturating_sub(1))];
-        let named = named.map(|(name, step)| (name, format!("u{step}")));
+        let named = [("uN", last), ("uM", base), ("uL", last.saturating_sub(1))]
+            .map(|(name, step)| (name, format!("u{step}")));
         let word = named.iter().fold(word.to_owned(), |word, (name, step)| {
             word.replace(name, step)
         });
@@ -71,8 +71,8 @@ fn spelled(number: &str, way: &str) -> Vec<String> {
 }
 
 /// Puts steps behind those of a file's function, and their last value in the place of a result.
-fn hidden(own: &Certified, added: &[String]) -> Certified {
-    let mut claim: Value = serde_json::from_str(&own.claim).unwrap();
+fn hidden(file: &Certified, added: &[String]) -> Certified {
+    let mut claim: Value = serde_json::from_str(&file.claim).unwrap();
     let mut constants: Vec<Value> = claim["constants"].as_array().unwrap().clone();
     let function = &claim["functions"][0];
     let [steps, returns] =
@@ -102,7 +102,7 @@ fn hidden(own: &Certified, added: &[String]) -> Certified {
             None => {
                 let step = word
                     .strip_prefix('u')
-                    .map(|own| own.parse::<usize>().unwrap());
+                    .map(|digits| digits.parse::<usize>().unwrap());
                 let word = match (step, word) {
                     (Some(step), _) => format!("t{}", count + step),
                     (None, "x") => bare.clone(),
@@ -121,10 +121,10 @@ fn hidden(own: &Certified, added: &[String]) -> Certified {
     function["steps"] = json!(words);
     function["returns"] = json!(returns.replacen(&bare, &last, 1));
     claim["constants"] = json!(constants);
-    let end = own.text.rfind(&format!("    [{first},")).unwrap();
-    let (before, results) = own.text.split_at(end);
+    let end = file.text.rfind(&format!("    [{first},")).unwrap();
+    let (before, results) = file.text.split_at(end);
     let results = results.replacen(&bare, &last, 1);
-    let mut other = own.with(&format!("{before}{lines}{results}"));
+    let mut other = file.with(&format!("{before}{lines}{results}"));
     other.claim = claim.to_string();
     other
 }
@@ -132,15 +132,15 @@ fn hidden(own: &Certified, added: &[String]) -> Certified {
 #[test]
 fn numbers_that_cancel_are_not_shown() {
     for (asked, divides) in [("gravity", false), ("forward_dynamics", true)] {
-        let own = Certified::planar2r(&format!("{asked}; scalar: f64"));
-        assert_eq!(own.report().unwrap().passes(true), !divides, "{asked}");
-        assert!(own.report().unwrap().passes(false), "{asked}");
+        let file = Certified::planar2r(&format!("{asked}; scalar: f64"));
+        assert_eq!(file.report().unwrap().passes(true), !divides, "{asked}");
+        assert!(file.report().unwrap().passes(false), "{asked}");
         // With nothing hidden it is shown; but what divides has no steps that come back.
-        let same = hidden(&own, &["x*{3/4}".into(), "u1*{4/3}".into()]);
+        let same = hidden(&file, &["x*{3/4}".into(), "u1*{4/3}".into()]);
         assert_eq!(same.refusal().is_some(), divides, "{asked}");
         for number in NUMBERS {
             for way in WAYS {
-                let other = hidden(&own, &spelled(number, way));
+                let other = hidden(&file, &spelled(number, way));
                 let why = other.refusal();
                 let what = format!("{asked}: {number}, then {way}: {}", other.text);
                 assert!(why.is_some(), "{what}");
@@ -154,36 +154,36 @@ fn numbers_that_cancel_are_not_shown() {
 #[test]
 fn a_bound_that_says_little_needs_the_users_word() {
     let asked = "inverse_dynamics_second_derivatives; scalar: f32";
-    let own = &Certified::all("coulomb", "", asked)[0];
-    let why = own.refusal().unwrap();
+    let file = &Certified::all("coulomb", "", asked)[0];
+    let why = file.refusal().unwrap();
     assert!(why.contains("of its largest value, over 1.6e-2"), "{why}");
     let passes = |worst: f64| {
         let demand = Demand {
             worst: Some(worst),
             ..Demand::default()
         };
-        let report = certify(&own.text, &own.claim, &own.robot, &demand).unwrap();
+        let report = certify(&file.text, &file.claim, &file.robot, &demand).unwrap();
         report.passes(true)
     };
     assert!(passes(0.1) && !passes(0.001));
 }
 
 /// Puts a difference of two steps into lanes that both add the same number, which cancels.
-fn in_lanes(own: &Certified) -> Certified {
+fn in_lanes(file: &Certified) -> Certified {
     let step = |word: &str| word.strip_prefix('t')?.parse::<usize>().ok();
-    let mut lines = own.text.lines();
-    let found = lines.find_map(|line| {
+    let mut lines = file.text.lines();
+    let difference = lines.find_map(|line| {
         let (name, value) = line.trim().strip_prefix("let ")?.split_once(" = ")?;
         let (left, right) = value.strip_suffix(';')?.split_once(" - ")?;
         Some((line, step(name)?, step(left)?, step(right)?))
     });
-    let (line, name, left, right) = found.unwrap();
+    let (line, name, left, right) = difference.unwrap();
     let lanes = format!(
         "    let u1 = [\n        [t{left}, t{right}],\n    ];\n    let mut w1 = [[0.0; 2]; 1];\n    for l in 0..2 {{\n        \
          let t900 = c1 * 8192.5;\n        let t901 = u1[0][l] + t900;\n        w1[0][l] = t901;\n    }}\n    \
          let t{name} = w1[0][0] - w1[0][1];"
     );
-    let mut claim: Value = serde_json::from_str(&own.claim).unwrap();
+    let mut claim: Value = serde_json::from_str(&file.claim).unwrap();
     let mut constants: Vec<Value> = claim["constants"].as_array().unwrap().clone();
     constants.push(json!("16385/2"));
     let number = constants.len() - 1;
@@ -194,7 +194,7 @@ fn in_lanes(own: &Certified) -> Certified {
         let moved = pieces.map(|piece| {
             let end = piece.find(['+', '-', '*', '/']).unwrap_or(piece.len());
             match step(&piece[..end]) {
-                Some(own) if own >= name => format!("t{}{}", own + 4, &piece[end..]),
+                Some(operand) if operand >= name => format!("t{}{}", operand + 4, &piece[end..]),
                 _ => piece.to_owned(),
             }
         });
@@ -214,7 +214,7 @@ fn in_lanes(own: &Certified) -> Certified {
     function["steps"] = json!(steps.join(" "));
     let returns: Vec<String> = returns.split(' ').map(moved).collect();
     function["returns"] = json!(returns.join(" "));
-    let mut other = own.with(&own.text.replacen(line, &lanes, 1));
+    let mut other = file.with(&file.text.replacen(line, &lanes, 1));
     other.claim = claim.to_string();
     other
 }
@@ -222,8 +222,8 @@ fn in_lanes(own: &Certified) -> Certified {
 /// Lanes may compute the same value, but not one that cancels between them.
 #[test]
 fn numbers_that_cancel_between_lanes_are_not_shown() {
-    let own = Certified::planar2r("forward_dynamics; scalar: f64");
-    let other = in_lanes(&own);
+    let file = Certified::planar2r("forward_dynamics; scalar: f64");
+    let other = in_lanes(&file);
     let why = other.refusal().unwrap();
     assert!(
         why.contains("with its like in other lanes"),

@@ -16,9 +16,9 @@ fn attack(name: &str) -> String {
 }
 
 fn planar2r(asked: &str, count: usize) -> Certified {
-    let own = Certified::planar2r(asked);
-    own.is_shown(count, asked);
-    own
+    let file = Certified::planar2r(asked);
+    file.is_shown(count, asked);
+    file
 }
 
 const HEADERS: &str = r#"
@@ -50,9 +50,9 @@ result->tau[0] =· → result->tau[1] =· … result[P_RESTRICT 1] → result[P_
 #[test]
 fn headers_that_are_not_generated() {
     let asked = "gravity, servo=inverse_dynamics+gravity; scalar: f64, f32; name: p; language: c";
-    let own = planar2r(asked, 4);
-    own.refuses(&HEADERS.replace("HEAD", "static inline void p_gravity("));
-    own.refuses(FUNCTIONS);
+    let file = planar2r(asked, 4);
+    file.refuses(&HEADERS.replace("HEAD", "static inline void p_gravity("));
+    file.refuses(FUNCTIONS);
 }
 
 const AROUND: &str = "
@@ -89,15 +89,15 @@ fn lines_around_functions_that_are_something_else(is_tried: fn(usize) -> bool) {
     for options in ["together", "together; batch: on"] {
         let asked = "gravity, kinetic_energy, servo=inertia+gravity; scalar: f64; name: p";
         let asked = format!("{asked}; sincos: {options}; language: c");
-        let own = planar2r(&asked, 3);
-        let count = own.every_line_counts(is_tried, AROUND, is_around);
+        let file = planar2r(&asked, 3);
+        let count = file.every_line_counts(is_tried, AROUND, is_around);
         assert!(count > 60, "{count}");
     }
 }
 
 #[test]
 fn items_that_are_not_generated() {
-    let own = planar2r("gravity, regressor, model=inertia+gravity; scalar: f64", 3);
+    let file = planar2r("gravity, regressor, model=inertia+gravity; scalar: f64", 3);
     for item in [
         "use evil as libm;",
         "pub struct libm;",
@@ -111,47 +111,47 @@ fn items_that_are_not_generated() {
         "pub fn gravity\u{a0}() {}",
     ] {
         let first = "pub const N: usize = 2;";
-        own.refuses(&format!("{first} → {item}↵{first}"));
+        file.refuses(&format!("{first} → {item}↵{first}"));
     }
-    own.refuses(
+    file.refuses(
         "
 pub const N: usize = 2; → pub const N: usize = 3;
 BASE_PARAMETERS: [f64;· → BASE_PARAMETERS: [f32;·
 ·BASE_PARAMETERS → ·PASSIVITY_PARAMETERS
 ",
     );
-    let values = own.text.find("BASE_PARAMETERS: [").unwrap();
-    let (before, values) = own.text.split_at(values);
+    let values = file.text.find("BASE_PARAMETERS: [").unwrap();
+    let (before, values) = file.text.split_at(values);
     let changed = values.replacen("\n    ", "\n    1", 1);
-    assert!(own.with(&format!("{before}{changed}")).refusal().is_some());
+    assert!(file.with(&format!("{before}{changed}")).refusal().is_some());
 }
 
 #[test]
 fn what_stands_beside_functions_has_no_room() {
-    let own = planar2r("gravity; scalar: f64; parameters: payload, gravity", 2);
+    let file = planar2r("gravity; scalar: f64; parameters: payload, gravity", 2);
     let table = "
 [f64; 3] → [f64; { use evil as libm; 3 }] … [f64; 3] → [f64; 4] … &self.0 → &[0.0; 3]
 [0.0; 10] → [1.0; 10] … Payload([mass, x, y, z → Payload([mass, y, x, z
 Payload([f64; → Payload(pub [f64; … (mass >= 0.0) → (mass >= -1.0) … 0.5000005 → 1.0
 ";
     for [from, to] in changes(table) {
-        assert!(own.text.contains(&from), "{from}");
-        let other = own.with(&own.text.replace(&from, &to));
+        assert!(file.text.contains(&from), "{from}");
+        let other = file.with(&file.text.replace(&from, &to));
         assert!(other.refusal().is_some(), "{from} → {to}");
     }
-    let own = planar2r("regressor; scalar: f64; name: p; language: c", 1);
-    own.refuses(
+    let header = planar2r("regressor; scalar: f64; name: p; language: c", 1);
+    header.refuses(
         "
 ····pi[0] =· → ····pi[1] =· … ····pi[0] =· → ····return;↵····pi[0] =·
 pi[P_RESTRICT → pi[Q_RESTRICT … p_base_parameters( → p_passivity_parameters(
 p_base_parameters(double → p_base_parameters(float
 ",
     );
-    let own = planar2r(
+    let load_header = planar2r(
         "gravity; scalar: f64; name: p; parameters: payload; language: c",
         2,
     );
-    own.refuses(
+    load_header.refuses(
         "
 is_body = 0; → is_body = 1; … (mass >= 0.0) → (mass >= -1.0) … numbers[3]; → numbers[2];
 payload[10]; → payload[11]; … p_load_t; → p_payload_t; … payload->payload[0] = mass → numbers[0] = mass
@@ -160,26 +160,26 @@ const p_load_t load[ → const double load[ … load->load[ → load->payload[
     );
     // A name that ends as the one of the box does is looked at.
     for asked in ["", "; name: p; language: c"] {
-        let own = planar2r(&format!("gravity; scalar: f64{asked}"), 1);
+        let file = planar2r(&format!("gravity; scalar: f64{asked}"), 1);
         let prefix = if asked.is_empty() { "" } else { "p_" };
         let name = format!("{prefix}gravity(");
         let others = ["gravity_in_box", "angles"].map(|other| name.replace("gravity", other));
-        own.refuses(&format!("{name} → {} … {name} → {}", others[0], others[1]));
+        file.refuses(&format!("{name} → {} … {name} → {}", others[0], others[1]));
     }
 }
 
 #[test]
 fn a_box_hides_nothing() {
-    let own = planar2r(
+    let file = planar2r(
         "gravity; scalar: f64; name: p; sincos: together; batch: on; language: c",
         1,
     );
-    let (before, behind) = own.text.split_at(own.text.rfind("#if ").unwrap());
+    let (before, behind) = file.text.split_at(file.text.rfind("#if ").unwrap());
     let evil =
         "static inline double p_evil_any(const int far, const double x)\n{\n    return x;\n}\n";
     let inside = "static inline int p_in_box(const double q[P_RESTRICT 2])\n{\n    int inside = 1;\n\
          \x20   return inside;\n}\n";
-    let refusal = |item: &str| own.with(&format!("{before}{item}{behind}")).refusal();
+    let refusal = |item: &str| file.with(&format!("{before}{item}{behind}")).refusal();
     assert_eq!(refusal(inside), None);
     for hidden in [
         format!("{evil}{inside}"),
@@ -219,8 +219,8 @@ task               | q qd qdd | reaction_wrenches.wrenches@eye | there is no res
 ";
     for [name, arguments, result, why] in rows(table) {
         let arguments: Vec<String> = arguments.split(' ').map(str::to_owned).collect();
-        let found = Function::named(&name, &arguments, &[result]);
-        assert_eq!(found.err().unwrap_or_default(), why, "{name}");
+        let function = Function::named(&name, &arguments, &[result]);
+        assert_eq!(function.err().unwrap_or_default(), why, "{name}");
     }
 }
 
@@ -252,13 +252,13 @@ NONE := nothing is claimed of `gravity`
 
 #[test]
 fn claims_that_are_not_written_by_a_generator() {
-    let own = planar2r("gravity, regressor; scalar: f64", 2);
+    let file = planar2r("gravity, regressor; scalar: f64", 2);
     let with = |claim: String| {
-        let mut other = own.clone();
+        let mut other = file.clone();
         other.claim = claim;
         other.refusal().expect("shown")
     };
-    let honest: Value = serde_json::from_str(&own.claim).unwrap();
+    let honest: Value = serde_json::from_str(&file.claim).unwrap();
     let refused = |place: &str, value: Value, words: &str| {
         let mut claim = honest.clone();
         let (parent, key) = place.rsplit_once('/').unwrap();
@@ -280,7 +280,7 @@ fn claims_that_are_not_written_by_a_generator() {
     let gravity = &honest["functions"][0];
     let twice = json!([gravity, gravity]);
     refused("/functions", twice, "is defined twice");
-    let mut other = own.with(&own.text.replace("pub fn gravity(", "pub fn pull("));
+    let mut other = file.with(&file.text.replace("pub fn gravity(", "pub fn pull("));
     let mut claim = honest.clone();
     claim["functions"][0]["function"] = json!("pull");
     claim["functions"][0]["results"] = json!([]);
@@ -291,8 +291,8 @@ fn claims_that_are_not_written_by_a_generator() {
             .unwrap()
             .contains("`pull`: it has no results")
     );
-    for cut in (0..own.claim.len() - 2).step_by(own.claim.len() / 40) {
-        with(own.claim[..cut].to_owned());
+    for cut in (0..file.claim.len() - 2).step_by(file.claim.len() / 40) {
+        with(file.claim[..cut].to_owned());
     }
     let deep = with("[".repeat(100_000));
     assert!(deep.starts_with("claim: "), "{deep}");
@@ -302,14 +302,14 @@ fn claims_that_are_not_written_by_a_generator() {
 
 #[test]
 fn constants_that_are_aimed_at_primes() {
-    let own = planar2r("gravity; scalar: f64", 1);
-    assert!(own.claim.contains("2943/200"), "the constant 14.715");
+    let file = planar2r("gravity; scalar: f64", 1);
+    assert!(file.claim.contains("2943/200"), "the constant 14.715");
     for digits in [
         "0000000000000000001",
         "00000000000000000000000000000000000000001",
     ] {
-        let mut other = own.clone();
-        other.claim = own
+        let mut other = file.clone();
+        other.claim = file
             .claim
             .replacen("2943/200", &format!("14.715{digits}"), 1);
         let why = other.refusal().unwrap();
@@ -318,23 +318,23 @@ fn constants_that_are_aimed_at_primes() {
 }
 
 #[track_caller]
-fn refusal(own: &Certified, texts: &[[&str; 2]], claims: &[[&str; 2]]) -> String {
-    let changed = |text: &str, all: &[[&str; 2]]| {
-        all.iter().fold(text.to_owned(), |text, [from, to]| {
+fn refusal(file: &Certified, texts: &[[&str; 2]], claims: &[[&str; 2]]) -> String {
+    let changed = |text: &str, changes: &[[&str; 2]]| {
+        changes.iter().fold(text.to_owned(), |text, [from, to]| {
             assert!(text.contains(from), "{from}");
             text.replacen(from, to, 1)
         })
     };
-    let mut other = own.with(&changed(&own.text, texts));
-    other.claim = changed(&own.claim, claims);
+    let mut other = file.with(&changed(&file.text, texts));
+    other.claim = changed(&file.claim, claims);
     other.refusal().expect("shown")
 }
 
-fn through(own: &Certified, more: &[(char, &str)]) -> Certified {
-    let mut claim: Value = serde_json::from_str(&own.claim).unwrap();
+fn through(file: &Certified, more: &[(char, &str)]) -> Certified {
+    let mut claim: Value = serde_json::from_str(&file.claim).unwrap();
     let constants = claim["constants"].as_array_mut().unwrap();
     let numbers = constants.len()..;
-    constants.extend(more.iter().map(|own| json!(own.1)));
+    constants.extend(more.iter().map(|step| json!(step.1)));
     let function = &mut claim["functions"][0];
     let word = |key: &str| function[key].as_str().unwrap().to_owned();
     let (mut steps, returns, mut lines) = (word("steps"), word("returns"), String::new());
@@ -348,10 +348,10 @@ fn through(own: &Certified, more: &[(char, &str)]) -> Certified {
     }
     function["returns"] = json!(returns.replacen(bare, &last, 1));
     function["steps"] = json!(steps);
-    let (before, results) = own
+    let (before, results) = file
         .text
-        .split_at(own.text.rfind(&format!("    [{first},")).unwrap());
-    let mut other = own.with(&format!(
+        .split_at(file.text.rfind(&format!("    [{first},")).unwrap());
+    let mut other = file.with(&format!(
         "{before}{lines}{}",
         results.replacen(bare, &last, 1)
     ));
@@ -362,25 +362,26 @@ fn through(own: &Certified, more: &[(char, &str)]) -> Certified {
 #[test]
 fn programs_that_lose_what_they_compute() {
     let cancelled = [('+', "1e40"), ('-', "1e40")];
-    let overflown = ["*", "*", "/", "/"].map(|own| (own.chars().next().unwrap(), "1e200"));
-    let own = planar2r("forward_dynamics; scalar: f64", 1);
+    let overflown =
+        ["*", "*", "/", "/"].map(|operator| (operator.chars().next().unwrap(), "1e200"));
+    let dynamics = planar2r("forward_dynamics; scalar: f64", 1);
     for more in [&cancelled[..], &overflown] {
-        let why = through(&own, more).refusal().expect("shown");
+        let why = through(&dynamics, more).refusal().expect("shown");
         assert!(
             why.contains("may hide a number") || why.contains("has no bound"),
             "{why}"
         );
     }
-    let own = planar2r("gravity; scalar: f64; sincos: polynomial", 1);
-    let why = through(&own, &cancelled).refusal().expect("shown");
+    let gravity = planar2r("gravity; scalar: f64; sincos: polynomial", 1);
+    let why = through(&gravity, &cancelled).refusal().expect("shown");
     assert!(why.contains("has a bound of"), "{why}");
-    let own = Certified::of(
+    let slide = Certified::of(
         SLIDE,
         None,
         "outputs: inverse_dynamics; scalar: f64; parameters: payload",
     )
     .remove(0);
-    own.is_shown(2, "slide");
+    slide.is_shown(2, "slide");
     let text = [
         ["payload[0] + 1.0", "payload[0] + 1e17"],
         [
@@ -396,7 +397,7 @@ fn programs_that_lose_what_they_compute() {
             "load[0]-#1 t1+#0 qdd[0]*t2\",\"returns\":\"t3",
         ],
     ];
-    assert!(refusal(&own, &text, &claims).contains("has a bound of"));
+    assert!(refusal(&slide, &text, &claims).contains("has a bound of"));
     let text =
         "payload[0] * 1.7e308;\n    let t2 = t1 / 1.7e308;\n    let t3 = t2 + 1.0;\n    Load([t3])";
     let text = [["payload[0] + 1.0;\n    Load([t1])", text]];
@@ -407,10 +408,12 @@ fn programs_that_lose_what_they_compute() {
             "payload[0]*#1 t1/#1 t2+#0\",\"returns\":\"t3",
         ],
     ];
-    refusal(&own, &text, &claims);
+    refusal(&slide, &text, &claims);
     // Without what computes it, nobody knows which load a function takes.
-    let (before, behind) = own.text.split_at(own.text.find("pub fn load(").unwrap());
-    let other = own.with(&format!(
+    let (before, behind) = slide
+        .text
+        .split_at(slide.text.find("pub fn load(").unwrap());
+    let other = slide.with(&format!(
         "{before}{}",
         &behind[behind.find("pub fn inverse").unwrap()..]
     ));
@@ -435,8 +438,8 @@ inertia = [0.1, 0.1, 0.1, 0, 0, 0]
 /// Each of these was shown once.
 #[test]
 fn programs_that_go_wrong_somewhere() {
-    let own = planar2r("gravity, regressor; scalar: f64", 2);
-    let why = |texts: &[[&str; 2]], claims: &[[&str; 2]]| refusal(&own, texts, claims);
+    let file = planar2r("gravity, regressor; scalar: f64", 2);
+    let why = |texts: &[[&str; 2]], claims: &[[&str; 2]]| refusal(&file, texts, claims);
     let result = "    [-t6, -t4]";
     let quotient = "    let t7 = s1 / s1;\n    let t8 = t6 * t7;\n    [-t8, -t4]";
     let claims = [["t4-t5", "t4-t5 s1/s1 t6*t7"], ["-t6 -t4", "-t8 -t4"]];
@@ -454,15 +457,15 @@ fn programs_that_go_wrong_somewhere() {
     let head = ["fn gravity(q:", "fn held(_qd:"];
     let claims = [["\"gravity\"", "\"held\""], ["[\"q\"]", "[\"qd\"]"]];
     assert!(why(&[head], &claims).contains("no result of it takes `qd`"));
-    let mut claim: Value = serde_json::from_str(&own.claim).unwrap();
+    let mut claim: Value = serde_json::from_str(&file.claim).unwrap();
     let mut other = claim["functions"][1].clone();
     other["function"] = json!("other");
     other["symbols"] = json!([]);
     other["values"] = json!("#2 #6 #3 #7 #8 #3");
     claim["functions"].as_array_mut().unwrap().push(other);
     let value = "1.3333333333333333,";
-    assert!(own.text.contains(value));
-    let mut other = own.with(&own.text.replacen(value, "9.81,", 1));
+    assert!(file.text.contains(value));
+    let mut other = file.with(&file.text.replacen(value, "9.81,", 1));
     other.claim = claim.to_string();
     let why = other.refusal().unwrap();
     assert!(why.contains("it does not follow"), "{why}");
@@ -471,8 +474,8 @@ fn programs_that_go_wrong_somewhere() {
 #[test]
 fn boxes_and_modules() {
     let asked = "gravity; scalar: f64; sincos: polynomial";
-    let own = planar2r(asked, 1);
-    own.refuses(
+    let rust = planar2r(asked, 1);
+    rust.refuses(
         "
 [-3.141592653589793, 3.141592653589793], → [f64::NEG_INFINITY, f64::INFINITY],
 [-3.141592653589793, 3.141592653589793], → [-3.141592653589793, 4.0],
@@ -489,19 +492,20 @@ int p_in_box( → int P_in_box(
 ",
     );
     let is_code = |line: &&str| !line.starts_with("//") && !line.starts_with("#![");
-    let body: Vec<&str> = own.text.lines().filter(is_code).collect();
+    let body: Vec<&str> = rust.text.lines().filter(is_code).collect();
     let [module, body] = [
         format!("pub mod a {{\n{}\n}}\n", body.join("\n")),
         body.join("\n"),
     ];
-    assert_eq!(own.with(&module).refusal(), None);
-    assert!(own.with(&format!("{module}{module}")).refusal().is_some());
-    assert!(own.with(&format!("{module}{body}")).refusal().is_some());
+    assert_eq!(rust.with(&module).refusal(), None);
+    assert!(rust.with(&format!("{module}{module}")).refusal().is_some());
+    assert!(rust.with(&format!("{module}{body}")).refusal().is_some());
     // What functions call for sines is not another function.
     let asked = "gravity; scalar: f64; sincos: together; name: p; language: c";
-    let own = planar2r(asked, 1);
-    let [text, claim] = [&own.text, &own.claim].map(|own| own.replace("p_gravity", "p_sines_3"));
-    let mut other = own.with(&text);
+    let header = planar2r(asked, 1);
+    let [text, claim] =
+        [&header.text, &header.claim].map(|content| content.replace("p_gravity", "p_sines_3"));
+    let mut other = header.with(&text);
     other.claim = claim;
     let why = other.refusal().unwrap();
     assert!(why.contains("nothing that is generated"), "{why}");
@@ -513,17 +517,17 @@ fn functions_of_frames_keep_their_names() {
     let frames = "[[frame]]\nname = \"foot\"\nlink = 1\n[[frame]]\nname = \"foot2\"\nlink = 2\n";
     let robot = support::source("planar2r", "") + frames;
     let asked = "outputs: jacobian@foot, jacobian@foot2; scalar: f64; batch: on; language: c";
-    let own = Certified::of(&robot, None, asked).remove(0);
-    own.is_shown(2, asked);
+    let file = Certified::of(&robot, None, asked).remove(0);
+    file.is_shown(2, asked);
     for (end, name) in [("_batch(", "the batch"), ("(", "the function")] {
         let [one, other] = ["foot", "foot2"].map(|frame| format!("jacobian_{frame}{end}"));
-        let text = own
+        let text = file
             .text
             .replace(&one, "jacobian_fot(")
-            .replace(&other, &one);
-        let text = text.replace("jacobian_fot(", &format!("jacobian_fot{end}"));
-        assert_ne!(text, own.text);
-        assert!(own.with(&text).refusal().is_some(), "{name}");
+            .replace(&other, &one)
+            .replace("jacobian_fot(", &format!("jacobian_fot{end}"));
+        assert_ne!(text, file.text);
+        assert!(file.with(&text).refusal().is_some(), "{name}");
     }
 }
 
@@ -532,11 +536,11 @@ fn files_of_attacks() {
     let pend = attack("pend.toml");
     let asked = "outputs: gravity, forward_dynamics; scalar: f64";
     let [rust, c] = ["", "; name: two; language: c"].map(|more| {
-        let own = Certified::of(&pend, None, &format!("{asked}{more}")).remove(0);
-        own.is_shown(2, more);
-        own
+        let file = Certified::of(&pend, None, &format!("{asked}{more}")).remove(0);
+        file.is_shown(2, more);
+        file
     });
-    for (own, name, words) in [
+    for (file, name, words) in [
         (&rust, "ulp.rs", "not of the grammar: `q` expected"),
         (&rust, "far32.rs", "not of the grammar: `q` expected"),
         (
@@ -547,7 +551,7 @@ fn files_of_attacks() {
         (&rust, "n1.rs", ""),
         (&c, "hide.h", ""),
     ] {
-        let other = own.with(&attack(name));
+        let other = file.with(&attack(name));
         let why = format!("{:?}", other.report());
         let is_refused = other.refusal().is_some() && why.contains(words);
         assert!(is_refused, "{name}: {why}");
@@ -559,11 +563,11 @@ fn files_of_attacks() {
 fn joints_without_limits_have_no_tolerance() {
     let robot = attack("r2_conf.toml");
     let asked = "outputs: coriolis; scene: pick; scalar: f64";
-    let mut own = Certified::of(&robot, Some("pick"), asked).remove(0);
-    assert_eq!(own.refusal(), None);
-    own.robot = robot.replacen("velocity = 2, ", "", 1);
-    assert_ne!(own.robot, robot);
-    let why = own.refusal().unwrap();
+    let mut file = Certified::of(&robot, Some("pick"), asked).remove(0);
+    assert_eq!(file.refusal(), None);
+    file.robot = robot.replacen("velocity = 2, ", "", 1);
+    assert_ne!(file.robot, robot);
+    let why = file.refusal().unwrap();
     assert!(why.contains("a tolerance needs the range of `qd`"), "{why}");
 }
 
@@ -575,9 +579,9 @@ fn joints_that_are_locked_are_not_read() {
     for more in ["", tolerance] {
         let scene = format!("lock = {{ 2 = 0.3 }}{more}");
         let asked = "inverse_dynamics; scalar: f64; sincos: libm";
-        let mut own = Certified::all("planar3r", &scene, asked).remove(0);
-        assert_eq!(own.refusal(), None);
-        let mut claim: Value = serde_json::from_str(&own.claim).unwrap();
+        let mut file = Certified::all("planar3r", &scene, asked).remove(0);
+        assert_eq!(file.refusal(), None);
+        let mut claim: Value = serde_json::from_str(&file.claim).unwrap();
         let function = &mut claim["functions"][0];
         let [steps, returns] =
             ["steps", "returns"].map(|key| function[key].as_str().unwrap().to_owned());
@@ -587,12 +591,12 @@ fn joints_that_are_locked_are_not_read() {
         let [square, sum] = [count + 1, count + 2].map(|step| format!("t{step}"));
         function["steps"] = format!("{steps} qd[1]*qd[1] {first}+{square}").into();
         function["returns"] = returns.replacen(first, &sum, 1).into();
-        own.claim = claim.to_string();
-        let last = own.text.rfind("    [").unwrap();
-        let (before, results) = own.text.split_at(last);
+        file.claim = claim.to_string();
+        let last = file.text.rfind("    [").unwrap();
+        let (before, results) = file.text.split_at(last);
         let lines = format!("let {square} = qd[1] * qd[1];\n    let {sum} = {first} + {square};");
-        own.text = format!("{before}    {lines}\n{}", results.replacen(first, &sum, 1));
-        let why = own.refusal().unwrap();
+        file.text = format!("{before}    {lines}\n{}", results.replacen(first, &sum, 1));
+        let why = file.refusal().unwrap();
         assert!(why.contains("it reads a joint that is locked"), "{why}");
     }
 }

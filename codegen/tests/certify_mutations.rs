@@ -78,8 +78,10 @@ static HONEST: LazyLock<[Variant; 3]> = LazyLock::new(|| {
 });
 
 fn variants() -> Vec<Certified> {
-    let all = HONEST.iter().map(|own| Certified::variant(ROBOT, own));
-    all.collect()
+    let files = HONEST
+        .iter()
+        .map(|variant| Certified::variant(ROBOT, variant));
+    files.collect()
 }
 
 /// Names are looked up in a map, blocks are entered as they come: it knows no program.
@@ -101,8 +103,9 @@ fn execute(text: &str, state: &JointState) -> Option<Vec<f64>> {
         }
         let Some(rest) = line.strip_prefix("let ") else {
             let words = line.trim_matches(['(', ')', '[', ']']).split(", ");
-            let values = words.map(|word| value(word, &names));
-            let values: Vec<f64> = values.collect::<Option<_>>()?;
+            let values: Vec<f64> = words
+                .map(|word| value(word, &names))
+                .collect::<Option<_>>()?;
             match pending.take() {
                 Some(targets) => names.extend(targets.into_iter().zip(values)),
                 None => return Some(values),
@@ -110,9 +113,11 @@ fn execute(text: &str, state: &JointState) -> Option<Vec<f64>> {
             continue;
         };
         let (left, right) = rest.split_once(" = ")?;
-        let targets = left.trim_matches(['(', ')']).split(", ");
-        let targets = targets.map(|name| name.trim_matches(['[', ']']).to_owned());
-        let targets: Vec<String> = targets.collect();
+        let targets: Vec<String> = left
+            .trim_matches(['(', ')'])
+            .split(", ")
+            .map(|name| name.trim_matches(['[', ']']).to_owned())
+            .collect();
         if right == "{" {
             pending = Some(targets);
             continue;
@@ -129,8 +134,9 @@ fn execute(text: &str, state: &JointState) -> Option<Vec<f64>> {
             }
         } else if let Some(call) = right.strip_prefix("dalembert_sines::sincos(&[") {
             let angles = call.strip_suffix("])")?.split(", ");
-            let pairs = angles.map(|angle| value(angle, &names).map(libm::sincos));
-            let pairs: Vec<(f64, f64)> = pairs.collect::<Option<_>>()?;
+            let pairs: Vec<(f64, f64)> = angles
+                .map(|angle| value(angle, &names).map(libm::sincos))
+                .collect::<Option<_>>()?;
             let (sines, cosines): (Vec<f64>, Vec<f64>) = pairs.into_iter().unzip();
             [sines, cosines].concat()
         } else {
@@ -152,13 +158,13 @@ fn execute(text: &str, state: &JointState) -> Option<Vec<f64>> {
     None
 }
 
-fn shown(own: &Certified) -> Option<Vec<ResultBound>> {
-    let [line]: [_; 1] = own.report().ok()?.lines.try_into().ok()?;
+fn shown(file: &Certified) -> Option<Vec<ResultBound>> {
+    let [line]: [_; 1] = file.report().ok()?.lines.try_into().ok()?;
     Some(line.result.ok()?.results)
 }
 
-fn is_true(own: &Certified, results: &[ResultBound]) -> bool {
-    let robot = read(&own.robot);
+fn is_true(file: &Certified, results: &[ResultBound]) -> bool {
+    let robot = read(&file.robot);
     let setup = Setup::in_scene(&robot.robot, Some(&robot.scenes[0])).unwrap();
     let limits = InputBox::within(&setup, Function::InverseDynamics).unwrap();
     let ranges = [&limits.position, &limits.velocity, &limits.acceleration];
@@ -182,34 +188,34 @@ fn is_true(own: &Certified, results: &[ResultBound]) -> bool {
             qdd,
             ..JointState::default()
         };
-        let Some(found) = execute(&own.text, &state) else {
+        let Some(torques) = execute(&file.text, &state) else {
             return false;
         };
         let truth = runtime.run(Function::InverseDynamics, &state);
         let size = largest(&truth).max(1.0);
-        found.len() == truth.len()
+        torques.len() == truth.len()
             && (0..truth.len()).all(|i| {
                 let allowed = results[i].bound.total();
-                (found[i] - truth[i]).abs() <= allowed * (1.0 + 1e-9) + 1e-12 * size
+                (torques[i] - truth[i]).abs() <= allowed * (1.0 + 1e-9) + 1e-12 * size
             })
     })
 }
 
 /// Asserts that a variant is refused, or true; returns whether it is refused.
-fn is_refused(own: &Certified) -> bool {
-    let Some(results) = shown(own) else {
+fn is_refused(file: &Certified) -> bool {
+    let Some(results) = shown(file) else {
         return true;
     };
-    let (text, claim) = (&own.text, &own.claim);
+    let (text, claim) = (&file.text, &file.claim);
     assert!(
-        is_true(own, &results),
+        is_true(file, &results),
         "accepted, and false:\n{text}\n{claim}"
     );
     false
 }
 
-fn one_of<'a, T>(all: &'a [T], random: &mut Random) -> &'a T {
-    &all[random.below(all.len())]
+fn one_of<'a, T>(choices: &'a [T], random: &mut Random) -> &'a T {
+    &choices[random.below(choices.len())]
 }
 
 fn programs(mutations: &Range<usize>, change: impl Fn(&mut [Node], &mut Random)) -> usize {
@@ -230,45 +236,49 @@ fn claims(
     let honest = variants();
     let mut random = Random::new(0xbad);
     let refused = (0..mutations.end).filter(|index| {
-        let mut own = honest[index % honest.len()].clone();
-        let mut json: Value = serde_json::from_str(&own.claim).unwrap();
+        let mut file = honest[index % honest.len()].clone();
+        let mut json: Value = serde_json::from_str(&file.claim).unwrap();
         let place = one_of(&places(&json, "", &pick), &mut random).clone();
         let value = json.pointer_mut(&place).unwrap();
         *value = with(value, &mut random);
-        own.claim = json.to_string();
-        mutations.contains(index) && is_refused(&own)
+        file.claim = json.to_string();
+        mutations.contains(index) && is_refused(&file)
     });
     refused.count()
 }
 
 fn places(value: &Value, path: &str, pick: &impl Fn(&str, &Value) -> bool) -> Vec<String> {
     let parts: Vec<(String, &Value)> = match value {
-        Value::Array(all) => (0..)
+        Value::Array(elements) => (0..)
             .map(|index: usize| index.to_string())
-            .zip(all)
+            .zip(elements)
             .collect(),
-        Value::Object(all) => all.iter().map(|(key, part)| (key.clone(), part)).collect(),
+        Value::Object(fields) => fields
+            .iter()
+            .map(|(key, part)| (key.clone(), part))
+            .collect(),
         _ => Vec::new(),
     };
-    let own = pick(path, value).then(|| path.to_owned());
-    let parts = parts.iter();
-    let parts = parts.flat_map(|(key, part)| places(part, &format!("{path}/{key}"), pick));
-    own.into_iter().chain(parts).collect()
+    let place = pick(path, value).then(|| path.to_owned());
+    let parts = parts
+        .iter()
+        .flat_map(|(key, part)| places(part, &format!("{path}/{key}"), pick));
+    place.into_iter().chain(parts).collect()
 }
 
 #[test]
 fn honest_variants_are_shown_and_the_judge_can_tell() {
-    for own in variants() {
-        let results = shown(&own).unwrap();
+    for file in variants() {
+        let results = shown(&file).unwrap();
         assert!(results.iter().all(ResultBound::is_shown), "{results:?}");
-        assert!(is_true(&own, &results));
+        assert!(is_true(&file, &results));
         let mut lie = results.clone();
-        for own in &mut lie {
-            own.bound.real *= 1e-3;
-            own.bound.rounding *= 1e-3;
+        for result in &mut lie {
+            result.bound.real *= 1e-3;
+            result.bound.rounding *= 1e-3;
         }
-        assert!(!is_true(&own, &lie));
-        let mut lie = own.with(&own.text.replacen(" + ", " - ", 1));
+        assert!(!is_true(&file, &lie));
+        let mut lie = file.with(&file.text.replacen(" + ", " - ", 1));
         assert!(!is_true(&lie, &results));
         // Whoever names no scene is held to no tolerance.
         lie.scene = None;
@@ -287,12 +297,14 @@ daily_and_campaign! {
 /// Operations and their operands: one in ten is the same again, or within the tolerance.
 fn operations(mutations: &Range<usize>) {
     let refused = programs(mutations, |nodes, random| {
-        let applied = nodes.iter().enumerate();
-        let applied = applied.filter_map(|(place, own)| match own {
-            Node::Apply(operation, _) => Some((place, *operation)),
-            _ => None,
-        });
-        let applied: Vec<_> = applied.collect();
+        let applied: Vec<_> = nodes
+            .iter()
+            .enumerate()
+            .filter_map(|(place, node)| match node {
+                Node::Apply(operation, _) => Some((place, *operation)),
+                _ => None,
+            })
+            .collect();
         let (place, _) = *one_of(&applied, random);
         let Node::Apply(operation, operands) = &mut nodes[place] else {
             return;
@@ -318,11 +330,13 @@ fn constants(mutations: &Range<usize>) {
     let refused = programs(mutations, |nodes, random| {
         let [over, under] = *one_of(&SHARES, random);
         let factor = Exact::from(Rational::new((over + under).into(), under.into()));
-        let constants = nodes.iter_mut().filter_map(|own| match own {
-            Node::Constant(own) => Some(own),
-            _ => None,
-        });
-        let mut constants: Vec<&mut Exact> = constants.collect();
+        let mut constants: Vec<&mut Exact> = nodes
+            .iter_mut()
+            .filter_map(|node| match node {
+                Node::Constant(constant) => Some(constant),
+                _ => None,
+            })
+            .collect();
         let place = random.below(constants.len());
         *constants[place] = constants[place].mul(&factor);
     });
@@ -353,20 +367,23 @@ fn words(mutations: &Range<usize>) {
 fn scenes(mutations: &Range<usize>) {
     let honest = variants();
     let mut random = Random::new(0x5ce2e);
-    let digits = ROBOT.char_indices().filter(|(_, c)| c.is_ascii_digit());
-    let digits: Vec<usize> = digits.map(|(at, _)| at).collect();
+    let digits: Vec<usize> = ROBOT
+        .char_indices()
+        .filter(|(_, c)| c.is_ascii_digit())
+        .map(|(at, _)| at)
+        .collect();
     let (mut tried, mut refused) = (0, 0);
     while tried < mutations.end {
         let at = *one_of(&digits, &mut random);
         let digit = random.below(10).to_string();
-        let mut own = honest[tried % 2].clone();
-        own.robot.replace_range(at..=at, &digit);
-        let robot = parse(&own.robot).ok();
-        let Some(robot) = robot.filter(|_| own.robot != ROBOT) else {
+        let mut file = honest[tried % 2].clone();
+        file.robot.replace_range(at..=at, &digit);
+        let robot = parse(&file.robot).ok();
+        let Some(robot) = robot.filter(|_| file.robot != ROBOT) else {
             continue;
         };
         if Setup::in_scene(&robot.robot, Some(&robot.scenes[0])).is_ok() {
-            refused += usize::from(mutations.contains(&tried) && is_refused(&own));
+            refused += usize::from(mutations.contains(&tried) && is_refused(&file));
             tried += 1;
         }
     }
@@ -376,9 +393,11 @@ fn scenes(mutations: &Range<usize>) {
 
 fn other_word(text: &str, random: &mut Random, words: &str) -> String {
     let is_word = |c: char| !c.is_whitespace() && !"\"{}:,".contains(c);
-    let found = text.split(|c| !is_word(c)).filter(|own| !own.is_empty());
-    let found: Vec<&str> = found.collect();
-    let old = *one_of(&found, random);
+    let tokens: Vec<&str> = text
+        .split(|c| !is_word(c))
+        .filter(|token| !token.is_empty())
+        .collect();
+    let old = *one_of(&tokens, random);
     let place = old.as_ptr() as usize - text.as_ptr() as usize;
     let words: Vec<&str> = words.split(' ').collect();
     let new = one_of(&words, random);
@@ -409,8 +428,8 @@ fn plans(mutations: &Range<usize>) {
         match generate(case.robot(), &case.request) {
             Err(_) => refused += 1,
             Ok(generated) => {
-                let own = Certified::variant(ROBOT, variant(&generated));
-                assert!(!is_refused(&own), "{changed}");
+                let file = Certified::variant(ROBOT, variant(&generated));
+                assert!(!is_refused(&file), "{changed}");
             }
         }
     }

@@ -47,18 +47,18 @@ fn by(case: &Case, plan: &str) -> Result<GeneratedCode, GenerateError> {
 #[test]
 fn bounds_are_found_anew() {
     for scene in ["pick", "push"] {
-        let (case, found, plan) = planned(scene);
+        let (case, original, plan) = planned(scene);
         let again = by(&case, &plan).unwrap();
         assert!(again.functions[0].planned);
-        assert_eq!(again.text(), found.text());
-        let [first, again] = [&found, &again].map(|own| own.functions[0].admitted.as_ref());
-        let [first, again] = [first, again].map(|own| &own.unwrap().variants);
+        assert_eq!(again.text(), original.text());
+        let [first, again] = [&original, &again].map(|code| code.functions[0].admitted.as_ref());
+        let [first, again] = [first, again].map(|set| &set.unwrap().variants);
         assert_eq!(again, first);
-        let other = changed(&plan, |own| {
-            let count = own.returns.split(' ').count();
-            own.returns = vec!["#0"; count].join(" ");
+        let other = changed(&plan, |claim| {
+            let count = claim.returns.split(' ').count();
+            claim.returns = vec!["#0"; count].join(" ");
         });
-        assert_eq!(by(&case, &other).unwrap().text(), found.text());
+        assert_eq!(by(&case, &other).unwrap().text(), original.text());
     }
 }
 
@@ -85,7 +85,7 @@ fn with_steps(plan: &str, constants: &[String], steps: &[String]) -> String {
 
 #[test]
 fn variants_that_grow_without_end() {
-    let (case, found, plan) = planned("pick");
+    let (case, original, plan) = planned("pick");
     let first = |first: &str, rest: Vec<String>| [vec![first.to_owned()], rest].concat();
     let squares = (1..20).map(|step| format!("t{step}*t{step}")).collect();
     let factors = (1..5).map(|step| format!("t{step}*$0")).collect();
@@ -102,12 +102,13 @@ fn variants_that_grow_without_end() {
         let begun = Instant::now();
         // What the checker does not show gives way to another search.
         let again = by(&case, &with_steps(&plan, &constants, &steps)).unwrap();
-        assert_eq!(again.text(), found.text());
+        assert_eq!(again.text(), original.text());
         assert!(begun.elapsed() < Duration::from_secs(20), "{}", steps[0]);
     }
     // A text that reading alone would multiply out is none.
-    let squares = (10..200).map(|n| format!("*sin(1/{n})*sin(1/{n})"));
-    let squares: String = squares.collect();
+    let squares: String = (10..200)
+        .map(|n| format!("*sin(1/{n})*sin(1/{n})"))
+        .collect();
     assert!(format!("1{squares}").parse::<Exact>().is_err());
 }
 

@@ -13,8 +13,8 @@ fn check(table: &str) {
         let case = Case::in_scene(&file, &scene, &format!("{asked}; scalar: f64"));
         let functions = case.generated().functions;
         assert_eq!(functions.len(), most.split(' ').count(), "{file} {asked}");
-        for (own, most) in functions.iter().zip(most.split(' ')) {
-            let (function, counts) = (own.function, own.counts());
+        for (code, most) in functions.iter().zip(most.split(' ')) {
+            let (function, counts) = (code.function, code.counts());
             let (operations, sines) = most.split_once('/').unwrap_or((most, "99"));
             let most_of = |most: &str| most.parse::<usize>().unwrap();
             let (operations, sines) = (most_of(operations), most_of(sines));
@@ -150,8 +150,9 @@ fn operations(file: &str, outputs: &str) -> usize {
 #[test]
 fn what_is_not_asked_for_is_not_computed() {
     let outputs = "jacobian@camera jacobian@camera:angular jacobian@elbow".split(' ');
-    let counts = outputs.map(|own| operations("frames/puma560", own));
-    let counts: Vec<usize> = counts.collect();
+    let counts: Vec<usize> = outputs
+        .map(|output| operations("frames/puma560", output))
+        .collect();
     let is_less = counts[1] < counts[0] && 2 * counts[2] < counts[0];
     assert!(is_less, "{counts:?}");
 }

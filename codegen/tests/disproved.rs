@@ -38,14 +38,14 @@ fn proof(case: &Case, program: &Program) -> Result<(), Disproof> {
 
 /// The search cannot tell a constant that is off by its prime.
 fn faults(step: &Step) -> Vec<(&'static str, Step)> {
-    let mut all = Vec::new();
+    let mut faults = Vec::new();
     let with = |operation| Step {
         operation,
         ..step.clone()
     };
     match step.operation {
-        Operation::Add => all.push(("sign", with(Operation::Sub))),
-        Operation::Sub => all.push(("sign", with(Operation::Add))),
+        Operation::Add => faults.push(("sign", with(Operation::Sub))),
+        Operation::Sub => faults.push(("sign", with(Operation::Add))),
         Operation::Mul | Operation::Fused | Operation::Div => {}
     }
     let with_right = |constant| Step {
@@ -53,22 +53,28 @@ fn faults(step: &Step) -> Vec<(&'static str, Step)> {
         ..step.clone()
     };
     if step.operation != Operation::Mul {
-        all.push(("term", with_right(Exact::zero())));
+        faults.push(("term", with_right(Exact::zero())));
     }
-    let ulp = |own: &Exact| Exact::from(Rational::from_float(f64::nearest(own).next_up()).unwrap());
-    if let Operand::Constant(own) = &step.left {
+    let ulp = |constant: &Exact| {
+        Exact::from(Rational::from_float(f64::nearest(constant).next_up()).unwrap())
+    };
+    if let Operand::Constant(constant) = &step.left {
         let mut wrong = step.clone();
-        wrong.left = Operand::Constant(ulp(own));
-        all.push(("ulp", wrong));
+        wrong.left = Operand::Constant(ulp(constant));
+        faults.push(("ulp", wrong));
     }
-    if let Operand::Constant(own) = &step.right {
-        let false_one = own.add(&Exact::from(Rational::from_integer(Field::P.into())));
+    if let Operand::Constant(constant) = &step.right {
+        let false_one = constant.add(&Exact::from(Rational::from_integer(Field::P.into())));
         let print = |x: &Exact| Points::SEARCH.constant(x);
-        assert_eq!(print(own), print(&false_one), "no difference to the search");
-        all.push(("ulp", with_right(ulp(own))));
-        all.push(("prime", with_right(false_one)));
+        assert_eq!(
+            print(constant),
+            print(&false_one),
+            "no difference to the search"
+        );
+        faults.push(("ulp", with_right(ulp(constant))));
+        faults.push(("prime", with_right(false_one)));
     }
-    all
+    faults
 }
 
 #[test]
@@ -81,10 +87,10 @@ fn every_fault_of_a_step() {
         for index in (0..count).step_by((count / 60).max(1)) {
             for (fault, step) in faults(&steps.steps[index]) {
                 let wrong = with_step(program, &steps, index, step);
-                let found = proof(case, &wrong);
-                let is_seen = matches!(found, Err(Disproof::Output { .. }));
+                let outcome = proof(case, &wrong);
+                let is_seen = matches!(outcome, Err(Disproof::Output { .. }));
                 let name = &case.robot().name;
-                assert!(is_seen, "{name} step {index} {fault}: {found:?}");
+                assert!(is_seen, "{name} step {index} {fault}: {outcome:?}");
                 kinds.insert(fault);
             }
         }
@@ -99,8 +105,8 @@ fn every_fault_of_a_result() {
             let mut wrong = program.clone();
             wrong.dag.outputs[index].negative ^= true;
             let is_zero = program.dag.is_zero(program.dag.outputs[index]);
-            let found = proof(case, &wrong);
-            assert_eq!(found.is_ok(), is_zero, "{} {index}", case.robot().name);
+            let outcome = proof(case, &wrong);
+            assert_eq!(outcome.is_ok(), is_zero, "{} {index}", case.robot().name);
         }
         let mut short = program.clone();
         short.dag.outputs.pop();
@@ -133,8 +139,8 @@ fn every_fault_of_a_quotient() {
                     right: other.clone(),
                 };
                 let wrong = with_step(&right, &steps, index, step);
-                let found = proof(&case, &wrong);
-                assert!(found.is_err(), "{} t{index}", right.function);
+                let outcome = proof(&case, &wrong);
+                assert!(outcome.is_err(), "{} t{index}", right.function);
             }
         }
     }
@@ -194,15 +200,15 @@ puma560 | joints = [1, 2]; lock = { 3 = "pi/2" }; payload = { mass = 2, com = [0
 fn another_arm_or_scene() {
     for [file, scene, asked, changes] in rows(CHANGED) {
         let (source, asked) = in_scene(&file, &scene, &asked);
-        let own = Case::read(&source, &asked);
-        let program = &own.generated().functions[0].program;
-        assert_eq!(proof(&own, program), Ok(()));
+        let case = Case::read(&source, &asked);
+        let program = &case.generated().functions[0].program;
+        assert_eq!(proof(&case, program), Ok(()));
         for change in changes.split(" … ") {
             let (from, to) = change.split_once(" → ").unwrap();
             let other = source.replacen(from, to, 1);
             assert_ne!(other, source, "{from}");
-            let found = proof(&Case::read(&other, &asked), program);
-            assert!(found.is_err(), "{file} {change}");
+            let outcome = proof(&Case::read(&other, &asked), program);
+            assert!(outcome.is_err(), "{file} {change}");
         }
     }
 }

@@ -20,10 +20,14 @@ const REFUSED: [(&str, &str); 4] = [
 ];
 
 fn every_output() -> String {
-    let is_there = |function: &Function| REFUSED.iter().all(|own| own.0 != function.name());
-    let names = Function::ALL.into_iter().filter(is_there).map(|own| {
-        let at = if own.is_of_hand() { "@left_foot" } else { "" };
-        format!("{}{at}", own.name())
+    let is_there = |function: &Function| REFUSED.iter().all(|refusal| refusal.0 != function.name());
+    let names = Function::ALL.into_iter().filter(is_there).map(|function| {
+        let at = if function.is_of_hand() {
+            "@left_foot"
+        } else {
+            ""
+        };
+        format!("{}{at}", function.name())
     });
     names.collect::<Vec<_>>().join(", ")
 }
@@ -86,7 +90,7 @@ fn a_box_bounds_the_rates_of_the_base() {
     let scene = reading.scenes.iter().find(|scene| scene.name == "test");
     let held = scene.unwrap().apply(&reading.robot);
     let base = held.floating.unwrap().limits.velocity.unwrap();
-    let of_joint = |own: &Joint| own.limits.velocity.clone().unwrap();
+    let of_joint = |joint: &Joint| joint.limits.velocity.clone().unwrap();
     let rates = base.into_iter().chain(held.joints.iter().map(of_joint));
     let expected = (1..=10).map(|rate| Rational::from_integer(rate.into()));
     assert!(rates.eq(expected));

@@ -74,11 +74,12 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
             [t6 * t4, -t6]
         }};
     }
-    let states = (0..200).map(|k| JointState {
-        q: vec![f64::from(k as f32 * 0.03 - 3.0), 0.0],
-        ..JointState::default()
-    });
-    let states: Vec<JointState> = states.collect();
+    let states: Vec<JointState> = (0..200)
+        .map(|k| JointState {
+            q: vec![f64::from(k as f32 * 0.03 - 3.0), 0.0],
+            ..JointState::default()
+        })
+        .collect();
     let columns = text.run_at_many(&states);
     let mut twice = 0;
     for (k, state) in states.iter().enumerate() {
@@ -104,22 +105,23 @@ fn bounds_are_of_one_rounding() {
     let scene = "\n[scene.hold]\ntolerance = { value = 1e-2, relative_to = \"range\" }\n";
     let asked = "outputs: gravity; scene: hold; scalar: f64, f32; fma: ";
     let [off, on] = ["off", "on"].map(|fma| Case::new("puma560", scene, &format!("{asked}{fma}")));
-    let (plain, found) = (off.generated(), on.generated());
-    assert_eq!(variants(&found).len(), variants(&plain).len());
-    for (variant, plain) in variants(&found).iter().zip(variants(&plain)) {
+    let (plain, fma) = (off.generated(), on.generated());
+    assert_eq!(variants(&fma).len(), variants(&plain).len());
+    for (variant, plain) in variants(&fma).iter().zip(variants(&plain)) {
         assert!(variant.emitted.fuses() && variant.text.contains(".mul_add("));
         assert_eq!(variant.emitted, plain.emitted.fused());
-        assert_eq!(variant.emitted, found.functions[0].program);
+        assert_eq!(variant.emitted, fma.functions[0].program);
         let mut smaller = 0;
-        for (own, other) in variant.bounds.iter().zip(&plain.bounds) {
-            assert!(own.rounding <= other.rounding && own.real == other.real);
-            smaller += usize::from(own.rounding < other.rounding);
+        for (bound, other) in variant.bounds.iter().zip(&plain.bounds) {
+            assert!(bound.rounding <= other.rounding && bound.real == other.real);
+            smaller += usize::from(bound.rounding < other.rounding);
         }
         assert!(smaller > 0);
         Certified::variant(&support::source("puma560", scene), variant).is_shown(1, "fused");
     }
-    let kept = |case: &Case, own: &GeneratedCode| keep(case.robot(), &case.request, own, None).plan;
-    assert_eq!(kept(&on, &found).write(), kept(&off, &plain).write());
+    let kept =
+        |case: &Case, code: &GeneratedCode| keep(case.robot(), &case.request, code, None).plan;
+    assert_eq!(kept(&on, &fma).write(), kept(&off, &plain).write());
 }
 
 #[test]

@@ -37,14 +37,14 @@ fn asked(key: &str) -> Option<(Function, Quantity)> {
             Function::parse(&text).unwrap_or_else(|error| panic!("{error}"))
         }
     };
-    let mut own = function.quantities().iter();
-    let quantity = own.find(|quantity| quantity.facts().given == Some(key))?;
+    let mut quantities = function.quantities().iter();
+    let quantity = quantities.find(|quantity| quantity.facts().given == Some(key))?;
     Some((function, *quantity))
 }
 
-fn off(found: &[f64], known: &[f64]) -> f64 {
-    assert_eq!(found.len(), known.len());
-    let differences = found.iter().zip(known).map(|(a, b)| (a - b).abs());
+fn off(results: &[f64], known: &[f64]) -> f64 {
+    assert_eq!(results.len(), known.len());
+    let differences = results.iter().zip(known).map(|(a, b)| (a - b).abs());
     let worst = differences.fold(0.0, |most: f64, x| if x.is_nan() { x } else { most.max(x) });
     worst / largest(known).max(LEAST)
 }
@@ -76,11 +76,11 @@ fn compare(
             let state = given(json);
             let known = numbers(&json[key.as_str()]);
             let most = FILES * runtime.granted(function, &state).factor(quantity);
-            let found = match code {
+            let results = match code {
                 Some(code) => code.emitted[0].run(&state),
                 None => runtime.run(function, &state),
             };
-            let error = off(&found[range.clone()], &known);
+            let error = off(&results[range.clone()], &known);
             assert!(error <= most, "{name} {key} {options:?}: {error:e}");
         }
         compared[1] += 1;

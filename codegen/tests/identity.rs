@@ -38,12 +38,13 @@ impl Findings {
 fn shown(file: &Certified) -> Vec<Findings> {
     let claim = Claim::read(&file.claim).unwrap();
     let constants = claim.constants(&Work::default()).unwrap();
-    let shown = claim.functions.iter().map(|own| Findings {
+    let shown = claim.functions.iter().map(|function| Findings {
         // Axes of length one, where those of the file are not.
         source: claim.aligned.clone().unwrap_or_else(|| file.robot.clone()),
-        function: Function::named(&own.function, &own.arguments, &own.results).unwrap(),
-        program: own.program(&constants).unwrap(),
-        base: own.base(&constants, Robot::MAX_JOINTS, false).unwrap(),
+        function: Function::named(&function.function, &function.arguments, &function.results)
+            .unwrap(),
+        program: function.program(&constants).unwrap(),
+        base: function.base(&constants, Robot::MAX_JOINTS, false).unwrap(),
     });
     shown.collect()
 }
@@ -81,17 +82,26 @@ fn another_order_of_coordinates_is_refused() {
             k => k,
         }
     };
-    for own in of_trees(&["two_legs"], "inverse_dynamics, gravity, forward_dynamics") {
-        assert_eq!(own.check(&own.program), Ok(()), "{}", own.function.name);
+    for findings in of_trees(&["two_legs"], "inverse_dynamics, gravity, forward_dynamics") {
+        assert_eq!(
+            findings.check(&findings.program),
+            Ok(()),
+            "{}",
+            findings.function.name
+        );
         for (from, to, count) in [(0, 3, 3), (6, 8, 2)] {
             let other = places(from, to, count);
-            let mut results = own.program.clone();
-            let outputs = own.program.outputs.len();
+            let mut results = findings.program.clone();
+            let outputs = findings.program.outputs.len();
             results.outputs = (0..outputs)
-                .map(|k| own.program.outputs[other(k)].clone())
+                .map(|k| findings.program.outputs[other(k)].clone())
                 .collect();
-            assert!(own.check(&results).is_err(), "{} {from}", own.function.name);
-            let mut read = own.program.clone();
+            assert!(
+                findings.check(&results).is_err(),
+                "{} {from}",
+                findings.function.name
+            );
+            let mut read = findings.program.clone();
             let mut is_read = false;
             for operand in read.steps.iter_mut().flat_map(|step| &mut step.1) {
                 if let Checked::Entry(1..=3, index) = operand {
@@ -99,9 +109,9 @@ fn another_order_of_coordinates_is_refused() {
                 }
             }
             assert!(
-                !is_read || own.check(&read).is_err(),
+                !is_read || findings.check(&read).is_err(),
                 "{} {from}",
-                own.function.name
+                findings.function.name
             );
         }
     }
@@ -110,30 +120,38 @@ fn another_order_of_coordinates_is_refused() {
 const TORQUES: &str = "inverse_dynamics, inertia";
 const DYNAMICS: &str = "inverse_dynamics, gravity, coriolis, inertia, forward_dynamics";
 
-fn every_changed_sign_of_a_tree_is_refused(shown: &[Findings], each: usize, least: usize) {
-    for own in shown {
-        assert_eq!(own.check(&own.program), Ok(()), "{}", own.function.name);
+fn every_changed_sign_of_a_tree_is_refused(shown: &[Findings], tries: usize, least: usize) {
+    for findings in shown {
+        assert_eq!(
+            findings.check(&findings.program),
+            Ok(()),
+            "{}",
+            findings.function.name
+        );
     }
-    let count = refused_mutants(shown, each, 0..1, |_| true);
+    let count = refused_mutants(shown, tries, 0..1, |_| true);
     assert!(count >= least, "{count}");
 }
 
 fn refused_mutants(
     shown: &[Findings],
-    each: usize,
+    tries: usize,
     kinds: Range<usize>,
     is_tried: fn(usize) -> bool,
 ) -> usize {
     let mut count = 0;
-    for own in shown {
-        let steps = own.program.steps.len();
-        let places = (0..steps).step_by(steps / each + 1).enumerate();
+    for findings in shown {
+        let steps = findings.program.steps.len();
+        let places = (0..steps).step_by(steps / tries + 1).enumerate();
         for (_, index) in places.filter(|(number, _)| is_tried(*number)) {
             for kind in kinds.clone() {
-                if let Some(mutant) = mutant(&own.program, index, kind) {
+                if let Some(mutant) = mutant(&findings.program, index, kind) {
                     count += 1;
-                    let name = &own.function.name;
-                    assert!(own.check(&mutant).is_err(), "{name}: step {index} {kind}");
+                    let name = &findings.function.name;
+                    assert!(
+                        findings.check(&mutant).is_err(),
+                        "{name}: step {index} {kind}"
+                    );
                 }
             }
         }
@@ -149,17 +167,17 @@ fn mutant(program: &Straight<Exact>, index: usize, kind: usize) -> Option<Straig
         (0, _) => *operation = '-',
         (1, '-' | '/') if operands[0] != operands[1] => operands.swap(0, 1),
         (2, _) => {
-            let is_later = |own: &&mut Checked<Exact>| matches!(own, Checked::Step(1..));
+            let is_later = |operand: &&mut Checked<Exact>| matches!(operand, Checked::Step(1..));
             if let Checked::Step(step) = operands.iter_mut().find(is_later)? {
                 *step -= 1;
             }
         }
         (3, _) => {
-            let own = operands.iter_mut().find_map(|own| match own {
-                Checked::Constant(own) => Some(own),
+            let constant = operands.iter_mut().find_map(|operand| match operand {
+                Checked::Constant(constant) => Some(constant),
                 _ => None,
             })?;
-            *own = Exact::read(&format!("{}+1/100000000000000000", own.fraction()?))?;
+            *constant = Exact::read(&format!("{}+1/100000000000000000", constant.fraction()?))?;
         }
         _ => return None,
     }

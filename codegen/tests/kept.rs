@@ -14,14 +14,14 @@ fn kept(case: &Case) -> String {
     assert_eq!(read.write(), text);
     let again = case.by(&read);
     let mut functions = again.functions.iter();
-    assert!(functions.all(|own| own.planned || own.function.name() == "load"));
+    assert!(functions.all(|function| function.planned || function.function.name() == "load"));
     assert_eq!(again.text(), first.text());
     text
 }
 
 fn planned(case: &Case, plan: &Plan) -> Vec<bool> {
     let functions = case.by(plan).functions;
-    functions.iter().map(|own| own.planned).collect()
+    functions.iter().map(|function| function.planned).collect()
 }
 
 #[track_caller]
@@ -56,19 +56,19 @@ fn arguments_are_told_apart() {
     let plain = case("gravity, jacobian");
     let plan = keep(plain.robot(), &plain.request, &plain.generated(), None).plan;
     let both = case("gravity, jacobian; parameters: payload, gravity");
-    let found = planned(&both, &plan);
-    assert_eq!(found, [false, false, true], "load, gravity, jacobian");
+    let flags = planned(&both, &plan);
+    assert_eq!(flags, [false, false, true], "load, gravity, jacobian");
     let generated = both.by(&plan);
-    let all = keep(both.robot(), &both.request, &generated, Some(plan.clone())).plan;
-    let more = all.entries.len() - plan.entries.len();
+    let full_plan = keep(both.robot(), &both.request, &generated, Some(plan.clone())).plan;
+    let more = full_plan.entries.len() - plan.entries.len();
     assert_eq!(more, 2, "gravity, a scalar each");
     let last = |asked: &str, plan: &Plan| planned(&case(asked), plan).pop().unwrap();
     let arguments = "gravity; parameters: payload, gravity";
-    assert!(last(arguments, &all) && last("gravity", &all));
-    assert!(!last("gravity; parameters: payload", &all));
-    assert!(!last("gravity; parameters: gravity", &all));
+    assert!(last(arguments, &full_plan) && last("gravity", &full_plan));
+    assert!(!last("gravity; parameters: payload", &full_plan));
+    assert!(!last("gravity; parameters: gravity", &full_plan));
     // Numbers of another load: searched for anew, not refused.
-    let text = all.write();
+    let text = full_plan.write();
     let (before, rest) = text.split_once("\"load\":[").unwrap();
     let (load, behind) = rest.split_once(']').unwrap();
     let (count, hash) = load.split_once(',').unwrap();
@@ -131,7 +131,7 @@ fn beside(name: &str) -> Plan {
 #[test]
 fn bundles_are_found_by_their_parts() {
     let plan = beside("puma560");
-    let is_tool = |own: &&Entry| own.program.function.name() == "tool";
+    let is_tool = |entry: &&Entry| entry.program.function.name() == "tool";
     let mut wrong = plan.entries.iter().find(is_tool).unwrap().clone();
     wrong.program.dag.outputs.reverse();
     let mut both = plan.clone();
@@ -202,13 +202,15 @@ fn an_early_end_takes_nothing_better_away() {
     let dag = &mut dear.functions[0].program.dag;
     let (_, operation, operands) = dag.operations().next().unwrap();
     dag.nodes.push(Node::Apply(operation, operands));
-    let prices = |kept, found: &_| {
-        let kept = keep(case.robot(), &case.request, found, kept);
+    let prices = |kept, code: &_| {
+        let kept = keep(case.robot(), &case.request, code, kept);
         let entries = kept.plan.entries.iter();
-        let prices: Vec<u64> = entries.map(|own| price(&own.program.counts())).collect();
+        let prices: Vec<u64> = entries
+            .map(|entry| price(&entry.program.counts()))
+            .collect();
         assert_eq!(prices.len(), 2, "one a scalar");
         assert_eq!(prices[0], prices[1]);
-        (kept.plan, prices[0], kept.own.len())
+        (kept.plan, prices[0], kept.functions.len())
     };
     let (of_good, low, _) = prices(None, &good);
     let (of_dear, high, _) = prices(None, &dear);
@@ -216,8 +218,8 @@ fn an_early_end_takes_nothing_better_away() {
     assert_eq!(prices(Some(of_good.clone()), &dear).1, high);
     for generated in [&mut dear, &mut good.clone()] {
         generated.ended = true;
-        let (_, price, own) = prices(Some(of_good.clone()), generated);
-        assert_eq!((price, own), (low, 2));
+        let (_, price, count) = prices(Some(of_good.clone()), generated);
+        assert_eq!((price, count), (low, 2));
     }
     let mut ended = good;
     ended.ended = true;

@@ -21,8 +21,8 @@ fn ulp(x: f64) -> f64 {
     x.abs().next_up() - x.abs()
 }
 
-fn ulps(found: f64, exact: &Wide) -> f64 {
-    let error = Wide::from_f64(found).unwrap().sub(exact);
+fn ulps(approx: f64, exact: &Wide) -> f64 {
+    let error = Wide::from_f64(approx).unwrap().sub(exact);
     error.magnitude() / ulp(exact.to_f64())
 }
 
@@ -37,10 +37,10 @@ fn worst(x: f64) -> f64 {
 fn is_within_an_ulp(what: &str, points: impl Iterator<Item = f64>) {
     let mut most = (0.0, 0.0);
     for x in points {
-        let found = worst(x);
-        assert!(found <= 1.0, "{what}: {found} ulps at {x:e}");
-        if found > most.0 {
-            most = (found, x);
+        let error = worst(x);
+        assert!(error <= 1.0, "{what}: {error} ulps at {x:e}");
+        if error > most.0 {
+            most = (error, x);
         }
     }
     println!("{what}: {:.4} ulps at {:e}", most.0, most.1);
@@ -77,12 +77,12 @@ fn singles_everywhere() {
     for bits in (0..f32::INFINITY.to_bits()).step_by(1009) {
         let x = f32::from_bits(bits);
         let (exact, both) = (libm::sincos(f64::from(x)), libm::sincosf(x));
-        let sines = [libm::sinf(x), both.0].map(|found| (found, exact.0));
-        let cosines = [libm::cosf(x), both.1].map(|found| (found, exact.1));
-        for (found, exact) in sines.into_iter().chain(cosines) {
+        let sines = [libm::sinf(x), both.0].map(|sine| (sine, exact.0));
+        let cosines = [libm::cosf(x), both.1].map(|cosine| (cosine, exact.1));
+        for (approx, exact) in sines.into_iter().chain(cosines) {
             let near = (exact as f32).abs();
             let ulp = f64::from(near.next_up()) - f64::from(near);
-            let error = (f64::from(found) - exact).abs() / ulp;
+            let error = (f64::from(approx) - exact).abs() / ulp;
             assert!(error <= 1.0, "{error} ulps at {x:e}");
             most = most.max(error);
         }

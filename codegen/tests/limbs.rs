@@ -78,7 +78,14 @@ const OUTPUTS: [&str; 6] = [
 
 fn loops(generated: &GeneratedCode) -> Vec<Vec<usize>> {
     let functions = generated.functions.iter();
-    let lanes = functions.map(|own| own.program.loops.iter().map(|own| own.lanes).collect());
+    let lanes = functions.map(|function| {
+        function
+            .program
+            .loops
+            .iter()
+            .map(|lane_loop| lane_loop.lanes)
+            .collect()
+    });
     lanes.collect()
 }
 
@@ -306,18 +313,21 @@ fn a_plan_keeps_lanes() {
     again.limbs = LimbLayout::Apart;
     let apart = generate(case.robot(), &again).unwrap();
     assert_eq!(loops(&apart), [Vec::<usize>::new()]);
-    let [own] = generated.functions[0].program.loops[..] else {
+    let [lane_loop] = generated.functions[0].program.loops[..] else {
         panic!("one loop");
     };
     for other in [
-        [own.first + 1, own.rows, own.lanes],
-        [own.first, own.rows, own.lanes + 1],
-        [own.first, own.rows / 2, 2 * own.lanes],
-        [own.first, 0, own.lanes],
+        [lane_loop.first + 1, lane_loop.rows, lane_loop.lanes],
+        [lane_loop.first, lane_loop.rows, lane_loop.lanes + 1],
+        [lane_loop.first, lane_loop.rows / 2, 2 * lane_loop.lanes],
+        [lane_loop.first, 0, lane_loop.lanes],
     ] {
         let mut document: Value = serde_json::from_str(&text).unwrap();
         let loops = &mut document["functions"][0]["planned"]["loops"];
-        assert_eq!(*loops, json!([[own.first, own.rows, own.lanes]]));
+        assert_eq!(
+            *loops,
+            json!([[lane_loop.first, lane_loop.rows, lane_loop.lanes]])
+        );
         *loops = json!([other]);
         let error = Plan::parse(&document.to_string()).unwrap_err().to_string();
         assert!(error.contains("lanes have different operations"), "{error}");

@@ -61,8 +61,8 @@ fn texts_say_what_was_asked() {
         let input = input_hash(case.robot());
         case.request.plan = plan.filter(|plan| plan.input == input && scene.is_empty());
         let generated = case.generated();
-        let own = case.request.plan.clone();
-        plan = Some(keep(case.robot(), &case.request, &generated, own).plan);
+        let previous_plan = case.request.plan.clone();
+        plan = Some(keep(case.robot(), &case.request, &generated, previous_plan).plan);
         let text = flat(&generated.text());
         for function in &generated.functions {
             let call = format!("{}(", function.function);
@@ -74,8 +74,9 @@ fn texts_say_what_was_asked() {
                 assert!(!rest.contains(word), "{asked}: {word}");
                 continue;
             }
-            let place = rest.find(word);
-            let place = place.unwrap_or_else(|| panic!("{asked}: {word} is not behind\n{rest}"));
+            let place = rest
+                .find(word)
+                .unwrap_or_else(|| panic!("{asked}: {word} is not behind\n{rest}"));
             rest = &rest[place + word.len()..];
         }
     }
@@ -107,8 +108,7 @@ const BRANCHES: [&str; 10] = [
 fn functions(text: &str) -> Vec<(&str, Vec<&str>)> {
     let lines: Vec<&str> = text.lines().collect();
     let is_head = |line: &str| line.starts_with("pub fn ") || line.starts_with("static ");
-    let heads = lines.iter().enumerate();
-    let heads = heads.filter(|(_, line)| is_head(line));
+    let heads = lines.iter().enumerate().filter(|(_, line)| is_head(line));
     let functions = heads.map(|(index, head)| {
         let body = lines[index + 1..].iter().copied();
         (*head, body.take_while(|line| *line != "}").collect())
@@ -136,10 +136,10 @@ fn functions_are_straight_lines() {
     ] {
         let asked = format!("{}; scalar: f64; {options}", every_output());
         let text = Case::planar2r(&asked).generated().text();
-        let (all, calls_nothing) = (functions(&text), options.contains("polynomial"));
+        let (functions, calls_nothing) = (functions(&text), options.contains("polynomial"));
         let is_output =
             |(head, _): &&(&str, _)| !head.contains("_sines_") && !head.contains("in_box");
-        let outputs: Vec<_> = all.iter().filter(is_output).collect();
+        let outputs: Vec<_> = functions.iter().filter(is_output).collect();
         assert!(
             outputs.len() >= every_output().split(',').count(),
             "{}",
@@ -153,7 +153,9 @@ fn functions_are_straight_lines() {
                 assert!(!calls(line) || !calls_nothing, "{head}: {line}");
             }
         }
-        let loops = all.iter().filter(|(head, _)| head.contains("_sines_"));
+        let loops = functions
+            .iter()
+            .filter(|(head, _)| head.contains("_sines_"));
         assert_eq!(loops.count() > 0, options.contains("together"));
     }
     assert!(calls("let t1 = f(x) + (y);") && !calls("let t1 = x + (y);"));
@@ -189,8 +191,9 @@ fn nobody_has_anything_to_say() {
         ("rustdoc", "-Dwarnings --document-private-items"),
         ("./main", ""),
     ] {
-        let flags = flags.split_whitespace();
-        let flags = flags.chain(["--edition", "2024", "main.rs"]);
+        let flags = flags
+            .split_whitespace()
+            .chain(["--edition", "2024", "main.rs"]);
         let said = run(program, flags, &folder);
         assert!(said.is_empty(), "{program}:\n{said}");
     }
@@ -201,13 +204,15 @@ fn names_are_short_and_distinct() {
     for options in ["sincos: together", "sincos: libm; name: stanford"] {
         let asked = format!("{}; batch: on; {options}; language: c", every_output());
         let text = Case::planar2r(&asked).generated().text();
-        let heads = text.lines();
-        let heads = heads.filter_map(|line| line.strip_prefix("static inline "));
-        let names = heads.map(|head| {
-            let (head, _) = head.split_once('(').unwrap();
-            head.rsplit(' ').next().unwrap()
-        });
-        let names: Vec<&str> = names.collect();
+        let heads = text
+            .lines()
+            .filter_map(|line| line.strip_prefix("static inline "));
+        let names: Vec<&str> = heads
+            .map(|head| {
+                let (head, _) = head.split_once('(').unwrap();
+                head.rsplit(' ').next().unwrap()
+            })
+            .collect();
         assert!(
             names.len() >= 4 * every_output().split(',').count(),
             "{names:?}"
@@ -221,8 +226,10 @@ fn names_are_short_and_distinct() {
 #[test]
 fn long_names_are_cut() {
     let mut heads = BTreeSet::new();
-    let few = Function::by_default();
-    let few: Vec<&str> = few.iter().map(|own| own.name()).collect();
+    let few: Vec<&str> = Function::by_default()
+        .iter()
+        .map(|function| function.name())
+        .collect();
     let (few, many) = (few.join(", "), every_output());
     for (name, asked) in [
         ("a_robot_of_nineteen", &few),

@@ -36,8 +36,8 @@ daily_and_campaign! {
 }
 
 fn proved_and_accurate(places: Range<usize>) {
-    let all = robots(places.end, 0x5eed);
-    for (seed, robot, mut draw) in all.skip(places.start) {
+    let robots = robots(places.end, 0x5eed);
+    for (seed, robot, mut draw) in robots.skip(places.start) {
         let function = function(robot.joints.len(), &mut draw);
         let what = format!("seed {seed}, {function}");
         let case = Case::read(&write(&robot), &format!("outputs: {function}"));
@@ -71,8 +71,8 @@ fn every_start_leads_to_the_same_function() {
         for (_, start) in Start::all() {
             let mut request = Request::new(&[function]);
             request.start = start;
-            let found = generate(&robot, &request);
-            assert!(found.is_ok(), "{seed}, {function}: {:?}", found.err());
+            let outcome = generate(&robot, &request);
+            assert!(outcome.is_ok(), "{seed}, {function}: {:?}", outcome.err());
         }
     }
 }
@@ -97,9 +97,9 @@ const ANGLES: &str = "0 \"pi/2\" \"-pi/2\" \"pi\" \"pi/3\" \"2*pi/5\" \"90deg\" 
 
 /// Returns one of these words: mostly of the usual ones, or nothing would be accepted.
 fn pick<'a>(random: &mut Random, words: &'a str, usual: usize) -> &'a str {
-    let all: Vec<&str> = words.split(' ').collect();
+    let choices: Vec<&str> = words.split(' ').collect();
     let is_usual = random.below(8) > 0;
-    all[random.below(if is_usual { usual } else { all.len() })]
+    choices[random.below(if is_usual { usual } else { choices.len() })]
 }
 
 fn file(random: &mut Random) -> String {
@@ -136,8 +136,10 @@ fn file(random: &mut Random) -> String {
 
 /// `FUZZ_TIMES` multiplies the files.
 fn accepted_files_give_proved_code(places: Range<usize>) {
-    let times = std::env::var("FUZZ_TIMES").ok();
-    let times: usize = times.and_then(|own| own.parse().ok()).unwrap_or(1);
+    let times: usize = std::env::var("FUZZ_TIMES")
+        .ok()
+        .and_then(|digits| digits.parse().ok())
+        .unwrap_or(1);
     let runs = places.start * times..places.end * times;
     let mut random = Random::new(31);
     let (mut accepted, mut proved) = (0, 0);

@@ -126,8 +126,9 @@ fn a_header_may_be_without_f32() {
 
 #[test]
 fn an_arm_without_mass_has_kinematics_alone() {
-    let source = support::source("planar2r", "").replace("mass = 1\n", "mass = 0\n");
-    let source = source.replace("0.08333333333333333", "0");
+    let source = support::source("planar2r", "")
+        .replace("mass = 1\n", "mass = 0\n")
+        .replace("0.08333333333333333", "0");
     for function in [
         "inverse_dynamics",
         "momentum",
@@ -148,8 +149,9 @@ fn overflow_is_flagged_for_the_scalar_that_it_threatens() {
     let source = support::source("puma560", "");
     let is_flagged = |velocity: &str, scalar: &str| {
         let to = format!("velocity = {velocity}");
-        let source = source.replace("velocity = 2", &to);
-        let source = source.replace("velocity = 5", &to);
+        let source = source
+            .replace("velocity = 2", &to)
+            .replace("velocity = 5", &to);
         let asked = format!("outputs: inverse_dynamics; scalar: {scalar}");
         let warnings = Case::read(&source, &asked).generated().warnings;
         warnings.iter().any(|said| said.contains("may overflow"))

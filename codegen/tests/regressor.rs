@@ -88,7 +88,7 @@ fn printed((.., constant): Linear, text: &str) -> Vec<Vec<f64>> {
         true => (declared.as_str(), "];"),
         false => ("pi[0] = ", "}"),
     };
-    let all = text.split(start).skip(1).map(|rest| {
+    let tables = text.split(start).skip(1).map(|rest| {
         let (lines, _) = rest.split_once(end).unwrap();
         let values = lines.lines().filter_map(|line| {
             let value = line.rsplit(' ').next()?;
@@ -96,7 +96,7 @@ fn printed((.., constant): Linear, text: &str) -> Vec<Vec<f64>> {
         });
         values.collect()
     });
-    all.collect()
+    tables.collect()
 }
 
 fn headers_have_the_same_parameters(name: &str) {
@@ -122,8 +122,12 @@ fn rank(runtime: &Runtime, setup: &Setup) -> usize {
     let values: Vec<f64> = states.iter().flat_map(run).collect();
     let length = |column: &[f64]| column.iter().map(|x| x * x).sum::<f64>().sqrt();
     let scaled = |column: usize| {
-        let entries = values.iter().skip(column).step_by(columns).copied();
-        let entries: Vec<f64> = entries.collect();
+        let entries: Vec<f64> = values
+            .iter()
+            .skip(column)
+            .step_by(columns)
+            .copied()
+            .collect();
         let length = length(&entries).max(1e-3);
         entries.iter().map(|x| x / length).collect()
     };
@@ -164,9 +168,9 @@ fn columns_times_parameters_are_the_torques(table: &str) {
             };
             let is_rank = base == rank || !scene.is_empty() || name == "driven";
             assert!(is_rank, "{what}: {rank}");
-            let found = generated.functions[0].counts().operations();
+            let operations = generated.functions[0].counts().operations();
             let most = most.next().unwrap_or(usize::MAX);
-            assert!(found <= most, "{what}: {found}");
+            assert!(operations <= most, "{what}: {operations}");
             let text = generated.text();
             assert!(words.split(" … ").all(|word| text.contains(word)), "{text}");
             let parameters = printed(linear, &text);

@@ -37,13 +37,13 @@ fn polynomials_are_printed_counted_read_back_and_near() {
             let called = function.program.code(emitted.scalar, Library::Libm, &[]);
             assert!(emitted.text.difference(&called).is_some());
             assert_eq!(emitted.with_libm().text.difference(&called), None);
-            let seen = emitted.sines(&states);
+            let errors = emitted.sines(&states);
             let proved = function.sines(emitted.scalar);
-            assert_eq!(seen.len(), proved.len());
-            for ((joint, seen), proved) in seen.into_iter().zip(proved) {
+            assert_eq!(errors.len(), proved.len());
+            for ((joint, error), proved) in errors.into_iter().zip(proved) {
                 let worst = proved.errors.worst();
                 assert!(joint == proved.joint && worst <= 1e-5);
-                assert!(seen > 0.0 && seen <= worst + f64::EPSILON, "{name}");
+                assert!(error > 0.0 && error <= worst + f64::EPSILON, "{name}");
             }
         }
     }
@@ -53,7 +53,7 @@ fn of(wanted: &[Input]) -> Program {
     let last = wanted.len() as u32 - 1;
     Program {
         dag: Dag {
-            nodes: wanted.iter().map(|own| Node::Input(*own)).collect(),
+            nodes: wanted.iter().map(|input| Node::Input(*input)).collect(),
             outputs: vec![Edge::from(0), Edge::from(last)],
         },
         ..Program::empty(Function::Gravity, Sizes::whole(2))
@@ -79,8 +79,8 @@ fn kernels_of_narrow_ranges_are_read_back(places: Range<usize>) {
             for wanted in [&PAIR[..], &PAIR[..1], &PAIR[1..]] {
                 let candidates = Candidates::new(of(wanted).trig()[0].need, scalar, range);
                 for (most, enough) in [(f64::INFINITY, 0.0), (1.0, 1e-2)] {
-                    let all = candidates.front(most, enough).into_iter();
-                    choices.extend(all.map(|choice| (scalar, range, wanted, choice)));
+                    let front = candidates.front(most, enough).into_iter();
+                    choices.extend(front.map(|choice| (scalar, range, wanted, choice)));
                 }
             }
         }
@@ -97,8 +97,13 @@ fn kernels_of_narrow_ranges_are_read_back(places: Range<usize>) {
         }];
         let code = program.code(scalar, Library::Libm, &sines);
         let text = write_function(&program, &code, Library::Libm, &[]);
-        let found = Code::parse(&text, &Signature::of(&program, scalar)).unwrap();
-        assert_eq!(found.difference(&code), None, "{}\n{text}", sines[0].form);
+        let readback = Code::parse(&text, &Signature::of(&program, scalar)).unwrap();
+        assert_eq!(
+            readback.difference(&code),
+            None,
+            "{}\n{text}",
+            sines[0].form
+        );
     }
 }
 
@@ -126,7 +131,9 @@ fn the_default_can_be_had() {
     let generated = case("").generated();
     let worst = |scalar| {
         let sines = generated.functions[0].sines(scalar).iter();
-        sines.map(|own| own.errors.worst()).fold(0.0, f64::max)
+        sines
+            .map(|kernel| kernel.errors.worst())
+            .fold(0.0, f64::max)
     };
     let (double, single) = (worst(ScalarType::F64), worst(ScalarType::F32));
     assert!(double <= 1e-6 && single > 1e-6 && single < 2e-6);
@@ -151,8 +158,8 @@ fn whole_turns_are_taken_off_where_limits_are_missing() {
     for q in far.iter_mut().flat_map(|state| &mut state.q) {
         *q *= 1e5;
     }
-    for (_, seen) in generated.emitted[0].sines(&far) {
-        assert!(seen > 0.0 && seen < 1e-9, "{seen:e}");
+    for (_, error) in generated.emitted[0].sines(&far) {
+        assert!(error > 0.0 && error < 1e-9, "{error:e}");
     }
 }
 
@@ -200,8 +207,8 @@ fn a_tolerance_says_how_exact_sines_are() {
     assert_eq!(variant.sines, function.sines(ScalarType::F64));
     Certified::variant(&source, variant).is_shown(1, "rough");
     let most = |of: fn(&Bound) -> f64| variant.bounds.iter().map(of).fold(0.0, f64::max);
-    let (all, real) = (most(|b| b.total()), most(|b| b.real));
-    assert!(all <= 1e-4 && real > 1e-7, "{all:e} {real:e}");
+    let (total, real) = (most(|b| b.total()), most(|b| b.real));
+    assert!(total <= 1e-4 && real > 1e-7, "{total:e} {real:e}");
     let text = &generated.text();
     assert!(!text.contains("libm"));
     assert!(text.contains("Shown: inside the box") && text.contains("about pi/2"));

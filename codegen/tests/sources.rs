@@ -23,9 +23,10 @@ const FUNCTIONS: [Function; 5] = [
 fn all() -> Vec<Robot> {
     let drawn = robots(20, 0x5eed).map(|(_, robot, _)| robot);
     let folders = ["../generated/robots", "../gallery/robots"].into_iter();
-    let files = folders.flat_map(|folder| fs::read_dir(path(folder)).unwrap());
-    let files = files.map(|file| file.unwrap().path());
-    let files = files.filter(|file| file.extension().is_some_and(|ending| ending == "toml"));
+    let files = folders
+        .flat_map(|folder| fs::read_dir(path(folder)).unwrap())
+        .map(|file| file.unwrap().path())
+        .filter(|file| file.extension().is_some_and(|ending| ending == "toml"));
     let read = files.map(|file| read_robot(&fs::read_to_string(file).unwrap()));
     drawn.chain(read).collect()
 }
@@ -47,19 +48,20 @@ fn operations(cases: &[Vec<Dag>], leave_out: LeaveOut) -> usize {
         leave_out(&mut limits);
         limits
     };
-    let found = cases.iter().map(|seeds| {
-        let found = search_graphs(seeds, &[], &limits, &|_| true, &|_, _| true);
-        found.unwrap().graph.counts().operations()
+    let counts = cases.iter().map(|seeds| {
+        let best = search_graphs(seeds, &[], &limits, &|_| true, &|_, _| true);
+        best.unwrap().graph.counts().operations()
     });
-    found.sum()
+    counts.sum()
 }
 
 #[test]
 #[ignore = "a quarter of an hour: by hand"]
 fn by_hand_every_source_earns() {
     let robots = all();
-    let cases = robots.iter();
-    let cases = cases.flat_map(|robot| FUNCTIONS.map(|function| (robot, function)));
+    let cases = robots
+        .iter()
+        .flat_map(|robot| FUNCTIONS.map(|function| (robot, function)));
     let seeds = |(robot, function): (&Robot, Function)| -> Vec<Dag> {
         let request = Request::new(&[function]);
         let setup = request.setup(robot).unwrap();
@@ -68,8 +70,8 @@ fn by_hand_every_source_earns() {
             setup: &setup,
             request: &request,
         };
-        let found = search(&job, function).unwrap();
-        found.seeds.into_iter().map(|seed| seed.graph).collect()
+        let result = search(&job, function).unwrap();
+        result.seeds.into_iter().map(|seed| seed.graph).collect()
     };
     let cases: Vec<Vec<Dag>> = cases.map(seeds).collect();
     let whole = operations(&cases, |_| {});
@@ -83,10 +85,12 @@ fn by_hand_every_source_earns() {
     for (name, leave_out) in SOURCES {
         earns(name, operations(&cases, leave_out));
     }
-    let alone = cases.iter().map(|seeds| {
-        let price = |dag: &&Dag| cost(&dag.rebuild(Folding::Semantic));
-        vec![seeds.iter().min_by_key(price).unwrap().clone()]
-    });
-    let alone: Vec<Vec<Dag>> = alone.collect();
+    let alone: Vec<Vec<Dag>> = cases
+        .iter()
+        .map(|seeds| {
+            let price = |dag: &&Dag| cost(&dag.rebuild(Folding::Semantic));
+            vec![seeds.iter().min_by_key(price).unwrap().clone()]
+        })
+        .collect();
     earns("other forms and axes", operations(&alone, |_| {}));
 }

@@ -29,8 +29,8 @@ fn signature(function: Function, arguments: &[Argument]) -> Signature<'_> {
 }
 
 fn read(text: &str) -> Result<Code, usize> {
-    let own = signature(Function::Gravity, &[Argument::Position]);
-    Code::parse(text, &own).map_err(|error| {
+    let signature = signature(Function::Gravity, &[Argument::Position]);
+    Code::parse(text, &signature).map_err(|error| {
         assert!(!error.reason.is_empty());
         error.line
     })
@@ -63,8 +63,8 @@ fn what_was_not_is_refused() {
             for [from, to] in changes(&table) {
                 let changed = text.replacen(&from, &to, 1);
                 assert_ne!(changed, text, "{from}");
-                let found = read(&changed).unwrap_err();
-                assert_eq!(found.to_string(), line, "{from} → {to}");
+                let error_line = read(&changed).unwrap_err();
+                assert_eq!(error_line.to_string(), line, "{from} → {to}");
             }
         }
     }
@@ -124,7 +124,7 @@ NAME {↵ → ∅ … [[1.0, -q[0]], [3.0, 4.0],] → [1.0, -q[0], 3.0, 4.0] …
 
 #[test]
 fn blocks_hand_on_what_they_say() {
-    let before = |own: &str, more: &str| TEXT.replace(own, &format!("    {more}\n{own}"));
+    let before = |anchor: &str, more: &str| TEXT.replace(anchor, &format!("    {more}\n{anchor}"));
     let block = |head: &str, tail: &str| {
         let open = before("    let t1", &format!("let {head} = {{"));
         open.replace("    let t3", &format!("    {tail}\n    }};\n    let t3"))
@@ -210,8 +210,10 @@ fn unfused(line: &str) -> Vec<String> {
         true => format!("(-{left})"),
         false => bare.to_owned(),
     };
-    let negated = addend.strip_prefix('-').map(str::to_owned);
-    let negated = negated.unwrap_or_else(|| format!("-{addend}"));
+    let negated = addend
+        .strip_prefix('-')
+        .map(str::to_owned)
+        .unwrap_or_else(|| format!("-{addend}"));
     vec![
         format!("{name} = {left}.mul_add({addend}, {right});"),
         format!("{name} = {bare} * {right};"),
@@ -236,7 +238,7 @@ fn passes(case: &Case, generated: &GeneratedCode, scalar: ScalarType, text: &str
 
 #[test]
 fn every_change_of_a_line_is_found() {
-    let [in_rust, in_c] = [IN_RUST, IN_C].map(|own| changes(&format!("{CHANGES}{own}")));
+    let [in_rust, in_c] = [IN_RUST, IN_C].map(|table| changes(&format!("{CHANGES}{table}")));
     let mut tried = [String::new(), String::new()];
     let tables = rows(PRINTED).into_iter();
     let cases = tables.flat_map(|[files, asked, every]| {
@@ -254,8 +256,8 @@ fn every_change_of_a_line_is_found() {
         let generated = case.generated();
         for (text, scalar) in generated.texts.iter().zip(&generated.scalars) {
             let start = text.lines().position(|line| line.contains(head)).unwrap();
-            let mut own = text.lines().skip(start);
-            let length = own.position(|line| line == "}").unwrap();
+            let mut lines = text.lines().skip(start);
+            let length = lines.position(|line| line == "}").unwrap();
             let end = match case.request.batch {
                 true => usize::MAX,
                 false => start + length,

@@ -59,9 +59,9 @@ impl Subject {
 
     #[track_caller]
     fn tried(&self, variant: &Variant, states: usize, climbs: usize) -> f64 {
-        let found = attempt(&self.setup, variant, states, climbs, 11).unwrap();
-        assert_eq!(found.violation, None, "{:?}", found.observed);
-        largest(&found.observed.unwrap())
+        let outcome = attempt(&self.setup, variant, states, climbs, 11).unwrap();
+        assert_eq!(outcome.violation, None, "{:?}", outcome.observed);
+        largest(&outcome.observed.unwrap())
     }
 }
 
@@ -96,20 +96,21 @@ fn an_energy_is_within_the_tolerance() {
 fn a_bound_is_close_and_a_lie_is_caught() {
     let subject = planar();
     let chosen = subject.chosen(0.1, &[ScalarType::F64], &SearchEffort::REPORT);
-    let [before, after] = [&chosen.exact, &chosen.program].map(|own| own.counts().operations());
+    let [before, after] =
+        [&chosen.exact, &chosen.program].map(|program| program.counts().operations());
     assert!(after < before, "{before} {after}");
     let honest = &chosen.variants[0];
-    let seen = subject.tried(honest, 2000, 3);
+    let error = subject.tried(honest, 2000, 3);
     assert!(
-        honest.worst() <= 0.1 && honest.worst() <= 1.3 * seen,
-        "{seen}"
+        honest.worst() <= 0.1 && honest.worst() <= 1.3 * error,
+        "{error}"
     );
     let mut lie = honest.clone();
     for bound in &mut lie.bounds {
         bound.real /= 4.0;
     }
-    let found = attempt(&subject.setup, &lie, 2000, 3, 1).unwrap();
-    assert!(found.violation.is_some(), "{:?}", found.observed);
+    let outcome = attempt(&subject.setup, &lie, 2000, 3, 1).unwrap();
+    assert!(outcome.violation.is_some(), "{:?}", outcome.observed);
 }
 
 #[test]
@@ -119,11 +120,11 @@ fn a_program_of_another_robot_is_bounded_against_the_exact_one() {
     lighter.joints[2].mass *= Rational::new(19.into(), 20.into());
     let other = support::one(&lighter, Function::InverseDynamics).program;
     let honest = subject.variant(&other, ScalarType::F64, 1.0);
-    let seen = subject.tried(&honest, 2000, 3);
-    assert!(seen > 1e-3 && honest.worst() <= 1.5 * seen, "{seen}");
+    let error = subject.tried(&honest, 2000, 3);
+    assert!(error > 1e-3 && honest.worst() <= 1.5 * error, "{error}");
     // Half of what it errs is not shown.
     let budget = subject.budget();
-    let half = budget.all_allowed(0.5 * seen);
+    let half = budget.all_allowed(0.5 * error);
     let refused = budget.shown(&other, ScalarType::F64, &[], &half);
     assert!(matches!(refused, Err(ToleranceError::Above(_))));
 }
@@ -135,17 +136,18 @@ fn polynomials_follow_from_the_tolerance() {
     let operations = |scalar, tolerance| {
         let exact = subject.variant(&subject.program, scalar, tolerance);
         let allowed = budget.all_allowed(tolerance);
-        let own = budget.with_polynomials(&subject.program, &exact, &allowed);
-        let own = own.unwrap();
-        let seen = subject.tried(&own, 4000, 3);
-        assert!(own.worst() <= tolerance && own.worst() <= 200.0 * seen);
-        assert!(own.text.contains("let x1 = ") && !own.text.contains("libm"));
-        let kernels = own.sines.iter().map(|own| own.kernel.operations());
+        let variant = budget
+            .with_polynomials(&subject.program, &exact, &allowed)
+            .unwrap();
+        let error = subject.tried(&variant, 4000, 3);
+        assert!(variant.worst() <= tolerance && variant.worst() <= 200.0 * error);
+        assert!(variant.text.contains("let x1 = ") && !variant.text.contains("libm"));
+        let kernels = variant.sines.iter().map(|sine| sine.kernel.operations());
         kernels.sum::<usize>()
     };
-    let all = [1e-2, 1e-4, 1e-6, 1e-9].map(|tolerance| operations(ScalarType::F64, tolerance));
-    assert!(all.is_sorted() && all[0] < all[3], "{all:?}");
-    assert!(operations(ScalarType::F32, 1e-3) <= all[2]);
+    let counts = [1e-2, 1e-4, 1e-6, 1e-9].map(|tolerance| operations(ScalarType::F64, tolerance));
+    assert!(counts.is_sorted() && counts[0] < counts[3], "{counts:?}");
+    assert!(operations(ScalarType::F32, 1e-3) <= counts[2]);
 }
 
 /// The sines are good far beyond the turn that the bounds are over.
@@ -163,8 +165,8 @@ fn a_joint_without_limits_turns_on() {
         assert!(held.high() >= stated(variant.scalar), "{held:?}");
         let mut turning = variant.clone();
         turning.limits.position[0] = held;
-        let found = attempt(&setup, &turning, 4000, 2, 7).unwrap();
-        assert_eq!(found.violation, None);
+        let outcome = attempt(&setup, &turning, 4000, 2, 7).unwrap();
+        assert_eq!(outcome.violation, None);
     }
 }
 
@@ -187,13 +189,13 @@ tolerance = { value = 0.1, relative_to = "range" }
     let admitted = generated.functions[1].admitted.clone().unwrap();
     assert!(admitted.is_other());
     for variant in &admitted.variants {
-        let found = attempt(&setup, variant, 2000, 4, 5).unwrap();
-        assert_eq!(found.violation, None);
-        assert!(variant.worst() < 0.1 && largest(&found.observed.unwrap()) > 0.02);
+        let outcome = attempt(&setup, variant, 2000, 4, 5).unwrap();
+        assert_eq!(outcome.violation, None);
+        assert!(variant.worst() < 0.1 && largest(&outcome.observed.unwrap()) > 0.02);
         let mut heavier = variant.clone();
         heavier.limits.payload.as_mut().unwrap().mass[1] = 60.0;
-        let found = attempt(&setup, &heavier, 2000, 4, 5).unwrap();
-        assert!(found.violation.is_some());
+        let heavier_outcome = attempt(&setup, &heavier, 2000, 4, 5).unwrap();
+        assert!(heavier_outcome.violation.is_some());
     }
 }
 
@@ -213,14 +215,14 @@ fn campaign(name: &str, tolerance: f64, states: usize, climbs: usize) {
     let allowed = budget.all_allowed(tolerance);
     for variant in &chosen.variants {
         let polynomials = budget.with_polynomials(&chosen.program, variant, &allowed);
-        for own in [Some(variant.clone()), polynomials.ok()].iter().flatten() {
-            let (most, seen) = (own.worst(), subject.tried(own, states, climbs));
+        for candidate in [Some(variant.clone()), polynomials.ok()].iter().flatten() {
+            let (most, error) = (candidate.worst(), subject.tried(candidate, states, climbs));
             println!(
                 "{name} {tolerance:e} {}: found/bound {:.3}",
-                own.scalar,
-                seen / most
+                candidate.scalar,
+                error / most
             );
-            assert!(most <= tolerance && (tolerance < 1e-6 || most <= 3.0 * seen));
+            assert!(most <= tolerance && (tolerance < 1e-6 || most <= 3.0 * error));
         }
     }
 }
@@ -333,7 +335,7 @@ fn a_singular_d_is_refused() {
     let subject = inertia(support::robot("planar3r"));
     let budget = subject.budget();
     let allowed = budget.all_allowed(100.0);
-    let [mut found, mut shown] = [0, 0];
+    let [mut singular_count, mut shown] = [0, 0];
     for (id, ..) in subject.program.dag.operations() {
         let mut other = subject.program.clone();
         other.dag.nodes[id as usize] = Node::Constant(Exact::zero());
@@ -343,10 +345,10 @@ fn a_singular_d_is_refused() {
         let is_singular = states.any(|state| !is_definite(&text.run_at(&state)));
         let result = budget.shown(&other, ScalarType::F64, &[], &allowed);
         assert!(!is_singular || result.is_err(), "node {id}");
-        found += usize::from(is_singular);
+        singular_count += usize::from(is_singular);
         shown += usize::from(result.is_ok());
     }
-    assert!(found > 0, "some term is indispensable");
+    assert!(singular_count > 0, "some term is indispensable");
     assert!(shown > 0, "and some is not");
 }
 
@@ -391,7 +393,10 @@ fn sines_that_are_off_leave_d_positive() {
     let generated = Case::read(source, "scene: d").generated();
     let admitted = generated.functions[0].admitted.as_ref().unwrap();
     let mut variants = admitted.variants.iter();
-    assert!(variants.any(|own| !own.sines.is_empty()), "D bears some");
+    assert!(
+        variants.any(|variant| !variant.sines.is_empty()),
+        "D bears some"
+    );
     for emitted in &generated.emitted {
         for at in 0..=1000 {
             let elbow = f64::from(at) / 100.0 - 5.0;

@@ -81,9 +81,9 @@ fn check(table: &str) {
             let generated = case.rounds_well(states.parse().unwrap(), &what);
             let count = generated.functions.len() * case.request.scalars.len();
             assert_eq!(generated.emitted.len(), count, "{what}");
-            for own in generated.emitted {
-                let is_torque = own.function == Function::InverseDynamics;
-                let is_fused = !is_torque || own.text.counts().fma > 0;
+            for emitted in generated.emitted {
+                let is_torque = emitted.function == Function::InverseDynamics;
+                let is_fused = !is_torque || emitted.text.counts().fma > 0;
                 assert!(is_fused || !asked.contains("fma: on"), "{what}");
             }
         }
@@ -105,7 +105,7 @@ pub fn is_whole_robots(case: &Case) {
     let generated = case.generated();
     let whole = Runtime::new(&scene.apply(robot));
     let n = robot.joints.len();
-    let own = scene.rows(n);
+    let rows = scene.rows(n);
     for mut state in seeded(robot, 20, 7) {
         let mut unread = state.clone();
         for (joint, at) in &scene.lock {
@@ -132,7 +132,7 @@ pub fn is_whole_robots(case: &Case) {
                 let mut wanted = vec![0];
                 for axis in quantity.shape().0 {
                     let (length, places) = match axis {
-                        Axis::Coordinates | Axis::Links => (n, own.clone()),
+                        Axis::Coordinates | Axis::Links => (n, rows.clone()),
                         axis => {
                             let length = axis.length(emitted.sizes);
                             (length, (0..length).collect())
@@ -181,11 +181,16 @@ fn friction() {
         forward_dynamics_second_derivatives";
     let others = "coriolis, manipulator_equation, dynamic_coefficients, kinetic_energy, \
         inertia_inverse, reaction_wrenches";
-    let all = Case::in_scene("coulomb", "", &format!("{rubbed}, {others}"));
-    for own in all.rounds_well(200, "friction").functions {
+    let case = Case::in_scene("coulomb", "", &format!("{rubbed}, {others}"));
+    for function in case.rounds_well(200, "friction").functions {
         let mut rubbed = rubbed.split(", ");
-        let is_rubbed = rubbed.any(|word| word == own.function.name());
-        assert_eq!(own.counts().sqrt > 0, is_rubbed, "{}", own.function);
+        let is_rubbed = rubbed.any(|word| word == function.function.name());
+        assert_eq!(
+            function.counts().sqrt > 0,
+            is_rubbed,
+            "{}",
+            function.function
+        );
     }
 }
 
@@ -196,14 +201,16 @@ const FRICTION: [(f64, f64); 3] = [(2.5, 0.01), (14.0, 1.0 / 300.0), (0.0, 1.0)]
 fn friction_is_that_of_the_textbook() {
     let asked = "outputs: inverse_dynamics, passivity, forward_dynamics; scalar: f64";
     let source = support::source("coulomb", "");
-    let smooth = source.lines().filter(|line| !line.starts_with("coulomb"));
-    let smooth: Vec<&str> = smooth.collect();
-    let [case, smooth] = [source.clone(), smooth.join("\n")].map(|own| Case::read(&own, asked));
+    let smooth: Vec<&str> = source
+        .lines()
+        .filter(|line| !line.starts_with("coulomb"))
+        .collect();
+    let [case, smooth] = [source.clone(), smooth.join("\n")].map(|file| Case::read(&file, asked));
     let [with, plain] = [&case, &smooth].map(|case| case.generated().emitted);
     for state in case.runtime(100, 0x636f_756c).1 {
         let rubbed = |x: &[f64], sign: f64, v: &[f64]| -> Vec<f64> {
-            let each = FRICTION.iter().zip(v).zip(&state.qd);
-            let friction = each.map(|(((force, width), v), qd)| force * v / qd.hypot(*width));
+            let joints = FRICTION.iter().zip(v).zip(&state.qd);
+            let friction = joints.map(|(((force, width), v), qd)| force * v / qd.hypot(*width));
             x.iter().zip(friction).map(|(x, f)| x + sign * f).collect()
         };
         let less = JointState {
@@ -215,10 +222,10 @@ fn friction_is_that_of_the_textbook() {
             rubbed(&plain[1].run(&state), 1.0, &state.v),
             plain[2].run(&less),
         ];
-        for (own, expected) in with.iter().zip(expected) {
+        for (emitted, expected) in with.iter().zip(expected) {
             let most = 1e-12 * largest(&expected).max(1.0);
-            let is_close = is_close(&own.run(&state), &expected, most);
-            assert!(is_close, "{} at {state:?}", own.function);
+            let is_close = is_close(&emitted.run(&state), &expected, most);
+            assert!(is_close, "{} at {state:?}", emitted.function);
         }
     }
     let asked = "inverse_dynamics_derivatives; scalar: f64";
@@ -239,7 +246,7 @@ fn what_has_no_friction_is_as_ever() {
     assert_eq!(torques.warnings, [""; 0]);
     let rough = Case::read(&source, "outputs: gravity; scene: test").generated();
     let admitted = rough.functions[0].admitted.as_ref();
-    assert!(admitted.is_some_and(|own| !own.variants.is_empty()));
+    assert!(admitted.is_some_and(|set| !set.variants.is_empty()));
 }
 
 /// Compared with 256 bits, since the runtime's recursion errs more here than the code does.
@@ -248,7 +255,7 @@ fn followers_beside_the_truth(is_tried: fn(usize) -> bool) {
     let (runtime, setup) = (Runtime::new(&robot), Setup::whole(&robot));
     let truth = Reference::new(&setup);
     // Of base parameters there are none: its axes are turned against each other anyhow.
-    let is_own = |own: &Function| own.columns() == Columns::None;
+    let is_own = |function: &Function| function.columns() == Columns::None;
     let functions = Function::of(&robot).into_iter().filter(is_own).enumerate();
     for (_, function) in functions.filter(|(place, _)| is_tried(*place)) {
         let generated = Case::in_scene("wafer", "", function.name()).generated();
@@ -256,8 +263,11 @@ fn followers_beside_the_truth(is_tried: fn(usize) -> bool) {
         for emitted in generated.emitted {
             let compared = setup.states(30, 3).into_iter().map(|state| {
                 let state = state.in_scalar(emitted.scalar);
-                let known = truth.run(function, &state);
-                let known: Vec<f64> = known.iter().map(TrueValue::to_f64).collect();
+                let known: Vec<f64> = truth
+                    .run(function, &state)
+                    .iter()
+                    .map(TrueValue::to_f64)
+                    .collect();
                 let granted = runtime.granted(function, &state);
                 (emitted.run(&state), known, granted)
             });
@@ -279,22 +289,27 @@ fn a_parallelogram_costs_less_than_free_joints(outputs: &str) {
         let asked = format!("outputs: {function}");
         let [free, tied] = [&free, &tied].map(|source| Case::read(source, &asked));
         assert_eq!(tied.robot().joints.len(), 5);
-        let all = match function.contains("regressor") {
+        let tied_code = match function.contains("regressor") {
             true => tied.generated(),
             false => tied.rounds_well(30, function),
         };
-        let [one, all] = [free.generated(), all].map(|own| own.functions[0].counts().operations());
-        assert!(3 * all < 2 * one, "{function}: {all} against {one}");
+        let [one, tied_count] =
+            [free.generated(), tied_code].map(|code| code.functions[0].counts().operations());
+        assert!(
+            3 * tied_count < 2 * one,
+            "{function}: {tied_count} against {one}"
+        );
     }
 }
 
 #[test]
 fn the_manipulator_equation_is_a_bundle() {
-    let [own, made] = ["manipulator_equation", "equation=inertia+coriolis+gravity"].map(|asked| {
-        let own = Case::in_scene("planar3r", "", asked).generated();
-        own.functions.into_iter().next().unwrap().program
-    });
-    assert_eq!(own.dag, made.dag);
+    let [equation, made] =
+        ["manipulator_equation", "equation=inertia+coriolis+gravity"].map(|asked| {
+            let generated = Case::in_scene("planar3r", "", asked).generated();
+            generated.functions.into_iter().next().unwrap().program
+        });
+    assert_eq!(equation.dag, made.dag);
     // Read, a bundle has no blanks; nor in the text of its scene, of which its hash is made.
     let lines = "outputs = [\"reach = gravity + jacobian\"]";
     let case = Case::in_scene("planar3r", lines, "servo = gravity + inertia");
@@ -317,7 +332,7 @@ fn placements() {
     let code = |more: &str| {
         let source = arm.replacen("[[joint]]", &format!("{more}\n[[joint]]"), 1);
         let generated = Case::read(&source, "outputs: inverse_dynamics").generated();
-        let texts = generated.emitted.into_iter().map(|own| own.text);
+        let texts = generated.emitted.into_iter().map(|emitted| emitted.text);
         texts.collect::<Vec<_>>()
     };
     let placed = code("base = { xyz = [0, 0, 2] }\ntool = { xyz = [0.1, 0, 0] }");
@@ -345,8 +360,8 @@ fn singular_poses_give_no_numbers_without_damping() {
     let (generated, mut state) = (case.generated(), case.runtime(1, 5).1.remove(0));
     let mut is_finite = |output: usize, q: [f64; 3], damping: f64| {
         (state.q, state.damping) = (q.to_vec(), vec![damping]);
-        let found = generated.emitted[output].run(&state);
-        found.iter().all(|x| x.is_finite())
+        let results = generated.emitted[output].run(&state);
+        results.iter().all(|x| x.is_finite())
     };
     let (bent, straight) = ([0.3, -0.8, 1.1], [0.3, 0.0, 0.0]);
     assert!(!is_finite(0, bent, 0.0) && is_finite(0, bent, 1e-9));
@@ -393,7 +408,9 @@ fn states_keep_to_the_limits() {
 
 #[test]
 fn keys_of_states_are_told_apart() {
-    let quantities = Quantity::ALL.iter().filter_map(|own| own.facts().given);
+    let quantities = Quantity::ALL
+        .iter()
+        .filter_map(|quantity| quantity.facts().given);
     let arguments = Argument::ALL.iter().filter_map(|argument| argument.given());
     let mut keys = BTreeSet::new();
     assert!(quantities.chain(arguments).all(|key| keys.insert(key)));

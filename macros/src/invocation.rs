@@ -67,8 +67,10 @@ impl Invocation {
             head = Some(self::head(input, &mut late)?);
             input.parse::<TokenStream>()
         };
-        let rest = parsed.parse2(input).map_err(|error| errors.0.push(error));
-        let rest = rest.ok()?;
+        let rest = parsed
+            .parse2(input)
+            .map_err(|error| errors.0.push(error))
+            .ok()?;
         errors.0.extend(late);
         let (attributes, visibility, name, robot) = head?;
         let mut invocation = Invocation {
@@ -107,8 +109,8 @@ impl Invocation {
         let place = self.place(option, item);
         let quoted = message.split('`').nth(1).unwrap_or_default();
         let words = place.clone().into_iter();
-        let found = words.filter(|tree| matches!(tree, TokenTree::Ident(word) if word == quoted));
-        found.last().map_or(place, |word| word.to_token_stream())
+        let idents = words.filter(|tree| matches!(tree, TokenTree::Ident(word) if word == quoted));
+        idents.last().map_or(place, |word| word.to_token_stream())
     }
 
     pub(crate) fn place(&self, option: &str, item: &str) -> TokenStream {
@@ -116,8 +118,8 @@ impl Invocation {
             return self.name.to_token_stream();
         };
         let mut items = clause.items.iter();
-        let found = items.rfind(|own| text(own) == item).cloned();
-        found.unwrap_or_else(|| clause.key.to_token_stream())
+        let tokens = items.rfind(|tokens| text(tokens) == item).cloned();
+        tokens.unwrap_or_else(|| clause.key.to_token_stream())
     }
 
     fn read_clauses(&mut self, trees: &[TokenTree], errors: &mut Errors) {
@@ -205,8 +207,8 @@ impl Invocation {
     fn read_facade(&mut self, key: &Ident, value: TokenStream, errors: &mut Errors) {
         let Ok(path) = Path::parse_mod_style.parse2(value.clone()) else {
             let help = "crate = ::my_library::dalembert;";
-            let own = key.to_token_stream();
-            let at = if value.is_empty() { own } else { value };
+            let key_tokens = key.to_token_stream();
+            let at = if value.is_empty() { key_tokens } else { value };
             errors.say(at, "expected the path of the crate `dalembert`", help);
             return;
         };

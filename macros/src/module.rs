@@ -41,7 +41,7 @@ fn modules(
         return (TokenStream::new(), modules);
     }
     let (robot, text) = match robot(invocation, folders) {
-        Ok(found) => found,
+        Ok(pair) => pair,
         Err((message, help)) => {
             errors.say(&invocation.robot, &message, &help);
             return Default::default();
@@ -51,12 +51,12 @@ fn modules(
     let (mut modules, mut refused) = (TokenStream::new(), Vec::new());
     for (name, asked) in &wanted {
         let file = robot.with_file_name(format!("{name}.rs"));
-        let found = fs::read_to_string(&file).ok();
-        watch.extend(found.as_ref().map(|_| watched(&file)));
-        match Stamp::check(found.as_deref(), env!("CARGO_PKG_VERSION"), &text, asked) {
+        let source = fs::read_to_string(&file).ok();
+        watch.extend(source.as_ref().map(|_| watched(&file)));
+        match Stamp::check(source.as_deref(), env!("CARGO_PKG_VERSION"), &text, asked) {
             Ok(()) => {
-                let found = found.unwrap_or_default();
-                modules.extend(module(invocation, name, &found, TokenStream::new(), errors));
+                let code = source.unwrap_or_default();
+                modules.extend(module(invocation, name, &code, TokenStream::new(), errors));
             }
             Err(stale) => refused.push((file, stale)),
         }
@@ -70,9 +70,11 @@ fn modules(
 
 fn wanted(invocation: &Invocation) -> Vec<Wanted> {
     let name = &invocation.name;
-    let own = |suffix: &str| named(&format!("{name}{suffix}"), name.span());
+    let module_name = |suffix: &str| named(&format!("{name}{suffix}"), name.span());
     let files = invocation.asked.by_scalar().into_iter();
-    files.map(|(suffix, asked)| (own(suffix), asked)).collect()
+    files
+        .map(|(suffix, asked)| (module_name(suffix), asked))
+        .collect()
 }
 
 fn robot(
@@ -90,7 +92,8 @@ fn robot(
     match fs::read(&path) {
         Ok(bytes) => Ok((path, String::from_utf8_lossy(&bytes).into_owned())),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            let meant = meant(&path).map(|own| format!("did you mean `{}`?", beside(&shown, &own)));
+            let meant =
+                meant(&path).map(|file| format!("did you mean `{}`?", beside(&shown, &file)));
             let help = meant.unwrap_or_else(|| RELATIVE.to_owned());
             Err((format!("`{shown}` does not exist"), help))
         }
@@ -99,11 +102,11 @@ fn robot(
 }
 
 fn meant(path: &Path) -> Option<String> {
-    let own = path.file_stem()?.to_str()?.to_owned();
+    let stem = path.file_stem()?.to_str()?.to_owned();
     let names = fs::read_dir(path.parent()?).ok()?.filter_map(|entry| {
         let name = entry.ok()?.file_name().into_string().ok()?;
-        let same = own.chars().zip(name.chars()).take_while(|(a, b)| a == b);
-        let is_alike = same.count() * 2 >= own.len();
+        let same = stem.chars().zip(name.chars()).take_while(|(a, b)| a == b);
+        let is_alike = same.count() * 2 >= stem.len();
         (is_alike && name.ends_with(".toml")).then_some(name)
     });
     // The order of a folder differs between machines.
@@ -247,8 +250,8 @@ fn generated(
         format!("dalembert generate {shown}{} -o {file}", asked.arguments())
     };
     for (file, stale) in refused {
-        let own = shown_file(&shown, file);
-        let renew = format!("dalembert renew {own}");
+        let name = shown_file(&shown, file);
+        let renew = format!("dalembert renew {name}");
         let robot = invocation.robot.to_token_stream();
         let (at, help) = match stale {
             Stale::Option(option, _) => (invocation.place(option, ""), generate()),
@@ -265,7 +268,7 @@ fn generated(
             Stale::Text => (robot, renew + " --force"),
             _ => (robot, renew),
         };
-        errors.say(at, &stale.message(&own, &shown), &help);
+        errors.say(at, &stale.message(&name, &shown), &help);
         match stale {
             // One command makes all files that are missing.
             Stale::Missing => break,

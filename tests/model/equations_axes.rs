@@ -33,15 +33,15 @@ fn arm(convention: Convention, twists: &[Twist], slides: u32, points: &mut Point
 }
 
 fn choices(chain: &Chain<Known>) -> Vec<Vec<i32>> {
-    let mut all: Vec<Vec<i32>> = vec![Vec::new()];
+    let mut choices: Vec<Vec<i32>> = vec![Vec::new()];
     for [less, more] in chain.freedoms() {
         let mut longer = Vec::new();
-        for choice in all {
+        for choice in choices {
             longer.extend((less..=more).map(|axes| [&choice[..], &[axes]].concat()));
         }
-        all = longer;
+        choices = longer;
     }
-    all
+    choices
 }
 
 fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
@@ -75,19 +75,24 @@ fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
         let (posed, at) = chain.posed(&position);
         let columns = (AccelerationForm::Column, MomentForm::SecondMoments);
         for (spin, couple) in [columns, (AccelerationForm::Rates, MomentForm::Euler)] {
-            let found = posed.inverse_dynamics(&at, &qd, &qdd, spin, couple);
-            assert_eq!(found, torque, "{choice:?}");
+            let tau = posed.inverse_dynamics(&at, &qd, &qdd, spin, couple);
+            assert_eq!(tau, torque, "{choice:?}");
         }
         assert_eq!(posed.passivity(&at, &qd, &v, &a), passivity, "{choice:?}");
         let composite = Composite::new(&posed, &at);
         for travel in [CompositeOrder::Outward, CompositeOrder::Inward] {
             assert_eq!(composite.inertia(travel), inertia, "{choice:?}");
             assert_eq!(composite.gravity(travel), gravity, "{choice:?}");
-            let own = composite.slopes(&qd, &qdd, travel);
-            assert_eq!([own.position, own.velocity], first, "{choice:?}");
-            let own = composite.second_derivatives(state, travel);
-            let own = [own.position, own.mixed, own.velocity, own.driven];
-            assert_eq!(own, second, "{choice:?}");
+            let slopes = composite.slopes(&qd, &qdd, travel);
+            assert_eq!([slopes.position, slopes.velocity], first, "{choice:?}");
+            let derivatives = composite.second_derivatives(state, travel);
+            let parts = [
+                derivatives.position,
+                derivatives.mixed,
+                derivatives.velocity,
+                derivatives.driven,
+            ];
+            assert_eq!(parts, second, "{choice:?}");
         }
         assert_eq!(composite.christoffel(), christoffel, "{choice:?}");
     }
@@ -98,7 +103,7 @@ fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
 fn axes_change_nothing() {
     use Twist::{Across, Against, Along};
     let mut points = Points::new(77);
-    let mut seen = 0;
+    let mut count = 0;
     for convention in CONVENTIONS {
         for (twists, slides) in [
             (&[Along, Along, Along][..], 0),
@@ -109,10 +114,10 @@ fn axes_change_nothing() {
             (&[Along, Against, Along, Along], 0b0010),
             (&[Across, Along, Across, Along, Along], 0b01001),
         ] {
-            seen += compare(&arm(convention, twists, slides, &mut points), &mut points);
+            count += compare(&arm(convention, twists, slides, &mut points), &mut points);
         }
     }
-    assert!(seen > 300, "{seen}");
+    assert!(count > 300, "{count}");
 }
 
 /// A turn about y after a twist makes axes askew that the twist alone leaves parallel.

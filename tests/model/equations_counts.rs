@@ -11,8 +11,9 @@ use dalembert_model::scalar::field::Points;
 
 fn generic(formulation: Formulation, n: usize) -> (u64, u64) {
     let counter = Counter::new();
-    let arm = random::case(Convention::Standard, n, 0, &mut Points::new(1)).arm;
-    let mut arm = arm.map(|_| counter.value());
+    let mut arm = random::case(Convention::Standard, n, 0, &mut Points::new(1))
+        .arm
+        .map(|_| counter.value());
     for link in &mut arm.links {
         (link.friction, link.armature) = (Friction::none(), Count::Zero);
         (link.theta.sin, link.theta.cos) = (Count::Zero, Count::One);
@@ -92,7 +93,7 @@ fn none_needs_more_than_the_paper_counts() {
         (NewtonEulerLink, linear),
     ] {
         for n in 1..=7 {
-            let next = |sum: f64, own: &f64| sum * f64::from(n) + own;
+            let next = |sum: f64, coefficient: &f64| sum * f64::from(n) + coefficient;
             let [most_mul, most_add] = printed.map(|row| row.iter().rev().fold(0.0, next));
             let (mul, add) = generic(formulation, n as usize);
             let is_less = mul as f64 <= most_mul && add as f64 <= most_add;

@@ -26,18 +26,18 @@ fn the_runtime_stays_within_100_u() {
     let mut worst = (0.0, Value::Null);
     for case in golden::extremes() {
         let (runtime, id) = (runtime(&case), case["id"].to_string());
-        let found = by_runtime(&runtime, &case);
-        let mut values = found[..2].iter().flat_map(|own| &own.1);
+        let results = by_runtime(&runtime, &case);
+        let mut values = results[..2].iter().flat_map(|result| &result.1);
         assert!(values.all(|x| x.is_finite()), "{id}");
         // Products of subnormal speeds underflow: the error is absolute there.
         if case["category"] == "subnormal_vel_nograv" {
-            let pairs = found[0].1.iter().zip(numbers(&case["tau"]));
+            let pairs = results[0].1.iter().zip(numbers(&case["tau"]));
             assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-300));
             continue;
         }
         let is_normal = case["category"] == "normal";
-        let found = &found[..if is_normal { 4 } else { 2 }];
-        let error = check(found, &case, 100.0 * U, &id);
+        let prefix = &results[..if is_normal { 4 } else { 2 }];
+        let error = check(prefix, &case, 100.0 * U, &id);
         if error > worst.0 {
             worst = (error, case["id"].clone());
         }
@@ -55,7 +55,8 @@ fn the_runtime_stays_within_100_u() {
 fn wrong_lengths_are_errors() {
     let runtime = runtime(&golden::extremes()[0]);
     for (short, argument) in STATE.into_iter().enumerate() {
-        let [q, qd, qdd] = [0, 1, 2].map(|own| DVector::zeros(if own == short { 5 } else { 6 }));
+        let [q, qd, qdd] =
+            [0, 1, 2].map(|place| DVector::zeros(if place == short { 5 } else { 6 }));
         let error = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap_err();
         let text = format!("`{argument}` has 5 values, the arm has 6 joints");
         assert_eq!(error.to_string(), text);
@@ -75,14 +76,14 @@ fn wide(values: &Value) -> Vec<Wide> {
     numbers(values).into_iter().map(number).collect()
 }
 
-fn relative(found: &[Wide], truth: &[Wide]) -> f64 {
-    assert_eq!(found.len(), truth.len());
+fn relative(numbers: &[Wide], truth: &[Wide]) -> f64 {
+    assert_eq!(numbers.len(), truth.len());
     let largest = |values: &mut dyn Iterator<Item = Wide>| {
         let sizes = values.map(|x| if x.is_negative() { x.neg() } else { x });
         let larger = |a: Wide, b: Wide| if a.sub(&b).is_negative() { b } else { a };
         sizes.fold(Wide::zero(), larger)
     };
-    let error = largest(&mut found.iter().zip(truth).map(|(a, b)| a.sub(b)));
+    let error = largest(&mut numbers.iter().zip(truth).map(|(a, b)| a.sub(b)));
     let size = largest(&mut truth.iter().copied());
     // The file writes entries below 1e-70 of the scale as zero.
     error.over(&size).unwrap_or(error).magnitude()
@@ -103,15 +104,16 @@ fn check_digits(case: &Value, arm: &Arm<Wide>, formulation: Formulation) {
     let [qd, qdd] = ["qd", "qdd"].map(|key| wide(&case[key]));
     let d = formulation.inertia(arm, &at);
     let rows = d.iter().zip(list(&case["D"]));
-    let d = rows.flat_map(|(row, truth)| row[..list(truth).len()].to_vec());
-    let d: Vec<Wide> = d.collect();
-    for (key, found) in [
+    let d: Vec<Wide> = rows
+        .flat_map(|(row, truth)| row[..list(truth).len()].to_vec())
+        .collect();
+    for (key, values) in [
         ("tau", formulation.inverse_dynamics(arm, &at, &qd, &qdd)),
         ("D", d),
         ("h", formulation.velocity_terms(arm, &at, &qd)),
         ("c", formulation.gravity(arm, &at)),
     ] {
-        let (error, id) = (relative(&found, &digits(&case[key])), &case["id"]);
+        let (error, id) = (relative(&values, &digits(&case[key])), &case["id"]);
         assert!(error <= 1e-28, "{id} {formulation:?} {key}: {error:e}");
     }
 }
@@ -143,7 +145,10 @@ fn the_runtime_in_f32_stays_within_100_u() {
     };
     let exact = |x: &f32| number(f64::from(*x));
     for case in golden::extremes() {
-        if out_of_range.split(' ').any(|own| case["category"] == own) {
+        if out_of_range
+            .split(' ')
+            .any(|category| case["category"] == category)
+        {
             continue;
         }
         let runtime = Reference::new(extreme(&case, |x| x as f32, near_pair));
@@ -169,13 +174,13 @@ fn formulations_give_the_golden_states() {
             let [q, qd, qdd] = ["q", "qd", "qdd"].map(|key| numbers(&state[key]));
             let at = placed(&arm, &q, |x| x, sincos);
             for formulation in Formulation::ALL {
-                let found = [
+                let results = [
                     ("tau", formulation.inverse_dynamics(&arm, &at, &qd, &qdd)),
                     ("D", formulation.inertia(&arm, &at).concat()),
                     ("h", formulation.velocity_terms(&arm, &at, &qd)),
                     ("c", formulation.gravity(&arm, &at)),
                 ];
-                check(&found, state, 1e-12, &format!("{name} {formulation:?}"));
+                check(&results, state, 1e-12, &format!("{name} {formulation:?}"));
             }
         }
     }
@@ -188,8 +193,8 @@ fn runtimes_give_the_golden_states() {
         let robot = reading(&generated(name)).robot;
         for runtime in [Reference::new(arm), Reference::from_robot(&robot)] {
             for state in &states {
-                let found = by_runtime(&runtime, state);
-                check(&found, state, 100.0 * f64::EPSILON / 2.0, name);
+                let results = by_runtime(&runtime, state);
+                check(&results, state, 100.0 * f64::EPSILON / 2.0, name);
             }
         }
     }

@@ -41,19 +41,19 @@ fn compare(arm: &Arm<Known>, moves: &[bool], by_tip: bool, points: &mut Points) 
     let (posed, at) = chain.posed(&position);
     let composite = Composite::new(&posed, &at);
     for form in Form::with_shoulder(&Form::all(true, true, false, HandChoice::None)) {
-        let given = [&qd[..], &tau];
-        let found = match by_tip {
-            false => composite.forward_dynamics_by_shoulder(given, moves, form),
+        let inputs = [&qd[..], &tau];
+        let solution = match by_tip {
+            false => composite.forward_dynamics_by_shoulder(inputs, moves, form),
             true => EliminatedTip::new(&composite, moves)
-                .map(|tip| tip.forward_dynamics(given, moves, form, Unknowns::Joints)),
+                .map(|tip| tip.forward_dynamics(inputs, moves, form, Unknowns::Joints)),
         };
-        let found = found.unwrap();
+        let qdd = solution.unwrap();
         let textbook = Formulation::LagrangeEuler;
-        let torques = textbook.inverse_dynamics(arm, &arm.at(&position), &qd, &found);
+        let torques = textbook.inverse_dynamics(arm, &arm.at(&position), &qd, &qdd);
         for (i, moves) in moves.iter().enumerate() {
             match moves {
                 true => assert_eq!(torques[i], tau[i], "{form:?} {i}"),
-                false => assert_eq!(found[i], Known::zero(), "{form:?} {i}"),
+                false => assert_eq!(qdd[i], Known::zero(), "{form:?} {i}"),
             }
         }
     }

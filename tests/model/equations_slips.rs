@@ -76,17 +76,19 @@ impl Divide for Known {
 #[test]
 fn every_single_slip_is_caught() {
     let mut points = Points::new(30);
-    let kinds = CONVENTIONS.map(|own| [0b000, 0b010, 0b101].map(|bits| (own, bits)));
+    let kinds = CONVENTIONS.map(|convention| [0b000, 0b010, 0b101].map(|bits| (convention, bits)));
     for (convention, bits) in kinds.concat() {
         let Case { arm, at, qd, qdd } = case(convention, 3, bits, &mut points);
         let exact = Formulation::LagrangeEuler;
         let truth = known(&exact.inverse_dynamics(&arm, &at, &qd, &qdd));
         let (arm, [qd, qdd]) = (arm.map(|x| Known(*x)), [qd, qdd].map(|x| known(&x)));
-        let at = at.iter().map(|at| DhVariables {
-            theta: at.theta.map(|x| Known(*x)),
-            d: Known(at.d),
-        });
-        let at: Vec<_> = at.collect();
+        let at: Vec<_> = at
+            .iter()
+            .map(|at| DhVariables {
+                theta: at.theta.map(|x| Known(*x)),
+                d: Known(at.d),
+            })
+            .collect();
         for formulation in Formulation::ALL {
             let with = |position: u64, slip: Slip| {
                 PLAN.set((position, slip));

@@ -78,11 +78,11 @@ const ROWS: &[(&str, &str, usize, &str, &str)] = &[
 fn mistakes_are_said_at_their_lines() {
     for (piece, by, line, message, help) in ROWS {
         let text = replaced(&two_legs(), piece, by);
-        let all = errors(&text);
-        let error = only(&all);
+        let errors = errors(&text);
+        let error = only(&errors);
         has(error, message, help);
-        let found = text[..error.span.start].matches('\n').count() + 1;
-        assert_eq!(found, *line, "{}", refused(&text));
+        let error_line = text[..error.span.start].matches('\n').count() + 1;
+        assert_eq!(error_line, *line, "{}", refused(&text));
     }
 }
 
@@ -105,27 +105,31 @@ fn values_are_those_of_another_library() {
         let [q, qd, qdd, effort, g] =
             ["q", "qd", "qdd", "effort", "g"].map(|key| list(&state[key]));
         let arm = arm.clone().with_gravity(&[g[0], g[1], g[2]]);
-        let seen = arm.seen(&view).unwrap();
-        let held = arm.seen(&View {
-            frame: "left_foot,right_foot",
-            ..view
-        });
-        let held = held.unwrap();
-        let joints = robot.joints.iter().zip(&q);
-        let joints = joints.map(|(joint, q)| match joint.kind {
-            JointKind::Revolute => JointPosition::Revolute(SinCosPair {
-                sin: q.sin(),
-                cos: q.cos(),
-            }),
-            JointKind::Prismatic => JointPosition::Prismatic(*q),
-        });
+        let frame_arm = arm.seen(&view).unwrap();
+        let held = arm
+            .seen(&View {
+                frame: "left_foot,right_foot",
+                ..view
+            })
+            .unwrap();
+        let joints = robot
+            .joints
+            .iter()
+            .zip(&q)
+            .map(|(joint, q)| match joint.kind {
+                JointKind::Revolute => JointPosition::Revolute(SinCosPair {
+                    sin: q.sin(),
+                    cos: q.cos(),
+                }),
+                JointKind::Prismatic => JointPosition::Prismatic(*q),
+            });
         let position = base_position().into_iter().chain(joints);
         let at = arm.at(&position.collect::<Vec<_>>());
         let moves = vec![true; qd.len()];
         for by in Formulation::ALL {
-            let given = [&qd[..], &effort, &[0.01]];
-            let space = by.contact_space(&held, &at, given, &moves);
-            let found = [
+            let inputs = [&qd[..], &effort, &[0.01]];
+            let space = by.contact_space(&held, &at, inputs, &moves);
+            let results = [
                 ("tau", by.inverse_dynamics(&arm, &at, &qd, &qdd)),
                 ("gravity", by.gravity(&arm, &at)),
                 ("bias", by.velocity_terms(&arm, &at, &qd)),
@@ -140,9 +144,9 @@ fn values_are_those_of_another_library() {
                 ),
                 ("dtau_dqd", by.torque_by_velocity(&arm, &at, &qd).concat()),
                 ("kinetic", vec![by.kinetic_energy(&arm, &at, &qd)]),
-                ("jacobian", by.jacobian(&seen, &at).concat()),
-                ("drift", by.jacobian_rate(&seen, &at, &qd).concat()),
-                ("frame", by.hand(&seen, &at).rows()),
+                ("jacobian", by.jacobian(&frame_arm, &at).concat()),
+                ("drift", by.jacobian_rate(&frame_arm, &at, &qd).concat()),
+                ("frame", by.hand(&frame_arm, &at).rows()),
                 ("com", by.centre_of_mass(&arm, &at).to_vec()),
                 (
                     "centroidal",
@@ -161,7 +165,7 @@ fn values_are_those_of_another_library() {
                 ("qdd_held", space.accelerations()),
                 ("forces", space.forces()),
             ];
-            for (key, found) in found {
+            for (key, found) in results {
                 let expected = list(&state[key]);
                 let size = expected.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
                 assert_eq!(found.len(), expected.len(), "{key}");
@@ -173,13 +177,14 @@ fn values_are_those_of_another_library() {
         }
         // C of Pinocchio has another skew part where links turn; both give h.
         let c = Formulation::LagrangeEuler.coriolis_matrix(&arm, &at, &qd);
-        let [own, other] = [c.concat(), list(&state["coriolis"])].map(|c| {
-            let rows = c.chunks(qd.len());
-            let rows = rows.map(|row| row.iter().zip(&qd).map(|(c, v)| c * v).sum::<f64>());
+        let [terms, other] = [c.concat(), list(&state["coriolis"])].map(|c| {
+            let rows = c
+                .chunks(qd.len())
+                .map(|row| row.iter().zip(&qd).map(|(c, v)| c * v).sum::<f64>());
             rows.collect::<Vec<f64>>()
         });
-        for (own, other) in own.iter().zip(&other) {
-            assert!((own - other).abs() < 1e-12, "{own} {other}");
+        for (term, other) in terms.iter().zip(&other) {
+            assert!((term - other).abs() < 1e-12, "{term} {other}");
         }
     }
 }
@@ -228,7 +233,11 @@ fn a_scene_locks_the_base() {
     let held = scene.apply(&reading.robot);
     assert!(held.floating.is_none() && held.is_tree());
     assert_eq!((held.coordinates(), held.depth()), (4, 2));
-    let frames: Vec<&str> = held.frames.iter().map(|own| own.name.as_str()).collect();
+    let frames: Vec<&str> = held
+        .frames
+        .iter()
+        .map(|frame| frame.name.as_str())
+        .collect();
     assert_eq!(frames, ["left_foot", "right_foot"]);
     let text = scene::write(scene);
     assert!(
@@ -326,8 +335,8 @@ const SCENES: &[(&str, &str, &str)] = &[
 #[test]
 fn scenes_of_a_base_are_refused_with_the_reason() {
     for (lines, message, help) in SCENES {
-        let all = errors(&in_scene(lines));
-        has(only(&all), message, help);
+        let errors = errors(&in_scene(lines));
+        has(only(&errors), message, help);
     }
     let level = "lock = { base = \"level\" }\nbox = { velocity = [1, 1, 1, 1] }";
     assert_eq!(reading(&in_scene(level)).scenes.len(), 1);

@@ -59,12 +59,13 @@ fn the_runtime_has_the_torque_of_the_textbook() {
     let [q, qdd, tau] = [Q, [2.0, -3.0, 5.0], [3.0, -40.0, 0.5]].map(|x| vector(&x));
     for velocities in VELOCITIES {
         let [qd, friction] = [velocities, by_hand(&velocities)].map(|x| vector(&x));
-        let [own, rest] = [&with, &plain].map(|arm| arm.inverse_dynamics(&q, &qd, &qdd).unwrap());
-        close(&own, &(&rest + &friction));
-        close(&passivity(&with, [&q, &qd, &qd, &qdd]), &own);
-        let found = with.forward_dynamics(&q, &qd, &tau).unwrap();
+        let [torque, rest] =
+            [&with, &plain].map(|arm| arm.inverse_dynamics(&q, &qd, &qdd).unwrap());
+        close(&torque, &(&rest + &friction));
+        close(&passivity(&with, [&q, &qd, &qd, &qdd]), &torque);
+        let acceleration = with.forward_dynamics(&q, &qd, &tau).unwrap();
         let less = plain.forward_dynamics(&q, &qd, &(&tau - &friction));
-        close(&found, &less.unwrap());
+        close(&acceleration, &less.unwrap());
         let parts = |arm: &Reference<f64>| {
             let d = arm.inertia(&q).unwrap();
             (d, arm.coriolis(&q, &qd).unwrap(), arm.gravity(&q).unwrap())

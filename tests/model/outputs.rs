@@ -77,8 +77,8 @@ fn golden_list() {
         let results: String = function.quantities().iter().map(result).collect();
         format!("{function}({}) ->{results}", arguments.join(", "))
     };
-    let found: Vec<String> = Function::ALL.iter().map(said).collect();
-    assert_eq!(found, GOLDEN);
+    let signatures: Vec<String> = Function::ALL.iter().map(said).collect();
+    assert_eq!(signatures, GOLDEN);
     for function in Function::ALL {
         let mut fields: Vec<_> = function.quantities().iter().map(|q| q.field()).collect();
         fields.dedup();
@@ -95,7 +95,7 @@ fn golden_list() {
 fn cases() -> Vec<Case> {
     let mut points = Points::new(0x6f75);
     let mut cases = random::every_kind(3, &mut points);
-    cases.extend(CONVENTIONS.map(|own| case(own, 6, 0b001010, &mut points)));
+    cases.extend(CONVENTIONS.map(|convention| case(convention, 6, 0b001010, &mut points)));
     for bits in [0b00, 0b01, 0b10] {
         let mut tilted = case(Convention::Standard, 3, bits, &mut points);
         for link in &mut tilted.arm.links {
@@ -141,7 +141,8 @@ fn formulations_agree_on_every_quantity() {
         motion.qdd = case.qdd.clone();
         let columns = columns(&case, &mut points);
         for &quantity in Quantity::ALL.iter().filter(on_fixed_base) {
-            let by = |own| quantity.written(&written(own, &case, &motion, &columns));
+            let by =
+                |formulation| quantity.written(&written(formulation, &case, &motion, &columns));
             let expected = by(Formulation::LagrangeEuler);
             let mut sizes = Sizes::whole(n);
             sizes.base = columns.len();
@@ -306,7 +307,7 @@ fn forward_dynamics_solves_the_equations_of_motion() {
             let motion = driven(&case, &moves, &mut points);
             let divided = Quantity::ALL.iter().filter(on_fixed_base);
             for &quantity in divided.filter(|q| q.facts().inverts_inertia) {
-                let by = |own| written(own, &case, &motion, &[]);
+                let by = |formulation| written(formulation, &case, &motion, &[]);
                 let recursion = by(Formulation::NewtonEulerLink);
                 let found = quantity.written(&recursion);
                 let expected = quantity.written(&by(Formulation::LagrangeEuler));

@@ -130,11 +130,13 @@ fn errors_say_where_and_what() {
     let placed = data("scara_placed.toml");
     let first = "placement = { xyz = [0, 0, 0.387], rpy = [0, 0, \"pi/2\"] }";
     for [from, to, line, message, help] in rows(MISTAKES) {
-        let found = said(&replaced(&placed, &from.replace("PLACED", first), &to));
-        let found = found.iter().find(|d| d.message.contains(&message));
-        let found = found.unwrap_or_else(|| panic!("{to}: nothing says {message}"));
-        assert_eq!(found.line.to_string(), line, "{to}");
-        has(found, &message, &help);
+        let diagnostics = said(&replaced(&placed, &from.replace("PLACED", first), &to));
+        let diagnostic = diagnostics
+            .iter()
+            .find(|d| d.message.contains(&message))
+            .unwrap_or_else(|| panic!("{to}: nothing says {message}"));
+        assert_eq!(diagnostic.line.to_string(), line, "{to}");
+        has(diagnostic, &message, &help);
     }
     let far = placed.replace("xyz = [0, 0, 0.387]", "xyz = [0, 0, 387]");
     only(&reading(&far).notes);

@@ -40,8 +40,8 @@ fn forms() {
 #[test]
 fn values() {
     let halves = [FRAC_PI_2, PI, 3.0 * FRAC_PI_2, TAU];
-    let found = [1, 2, 3, 4].map(|n| Angle::PiTimes(ratio(n, 2)).to_f64());
-    assert_eq!(found, halves);
+    let angles = [1, 2, 3, 4].map(|n| Angle::PiTimes(ratio(n, 2)).to_f64());
+    assert_eq!(angles, halves);
     for n in -9..9 {
         let angle = Angle::right_angles(n);
         for (angle, n) in [(angle.negate(), -n), (angle, n)] {
@@ -70,11 +70,11 @@ fn snapping_at_its_borders() {
         for sign in [1, -1] {
             let snapped = SnappedAngle::Taken(Angle::right_angles(sign * n));
             for steps in -down - 1..=up + 1 {
-                let found = apply(sign as f64 * ulps(double, steps));
+                let angle = apply(sign as f64 * ulps(double, steps));
                 match (-down..=up).contains(&steps) {
-                    true => assert_eq!(found, snapped, "{n}: {steps} ulp"),
+                    true => assert_eq!(angle, snapped, "{n}: {steps} ulp"),
                     false => assert!(
-                        matches!(found, SnappedAngle::Near { .. }),
+                        matches!(angle, SnappedAngle::Near { .. }),
                         "{n}: {steps} ulp"
                     ),
                 }
@@ -126,8 +126,8 @@ fn in_a_file() {
     ] {
         let reading = parse(&format!("{head}{alpha}")).expect("reads");
         assert_eq!(reading.robot.joints[0].alpha, angle, "{alpha}");
-        let said = reading.notes.iter().map(|own| (own.severity, own.line));
-        let expected = severity.map(|own| (own, 8));
+        let said = reading.notes.iter().map(|note| (note.severity, note.line));
+        let expected = severity.map(|severity| (severity, 8));
         assert!(said.eq(expected), "{alpha}: {:?}", reading.notes);
         for note in &reading.notes {
             assert_eq!(note.message, message);

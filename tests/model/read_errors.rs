@@ -152,12 +152,13 @@ const ROWS: &[Row] = &[
 fn one_row_a_case() {
     assert_eq!(errors(GOOD), []);
     for (what, by, message, help) in ROWS {
-        let found = errors(&replaced(GOOD, what, by));
-        let said = |own: &Diagnostic| {
-            own.message.contains(message) && own.help.as_deref().unwrap_or("").contains(help)
+        let errors = errors(&replaced(GOOD, what, by));
+        let said = |diagnostic: &Diagnostic| {
+            diagnostic.message.contains(message)
+                && diagnostic.help.as_deref().unwrap_or("").contains(help)
         };
         let what = format!("{by:?} for {what:?}: expected {message:?} ({help:?})");
-        assert!(found.iter().any(said), "{what}, found {found:#?}");
+        assert!(errors.iter().any(said), "{what}, found {errors:#?}");
     }
 }
 
@@ -174,8 +175,8 @@ fn other_formats() {
     ] {
         has(only(&errors(source)), format, "TOML");
     }
-    let found = errors("name = \"arm\"\ngravity: [0, 0, 1]\n");
-    assert!(!found[0].message.contains("YAML"), "{found:?}");
+    let errors = errors("name = \"arm\"\ngravity: [0, 0, 1]\n");
+    assert!(!errors[0].message.contains("YAML"), "{errors:?}");
 }
 
 #[test]
@@ -190,9 +191,9 @@ fn lines_and_columns() {
         ("viscous = 0.1", "coulomb = 0.1\ncoulomb_width = 0", 16, 17),
         ("viscous = 0.1", "coulomb = 0.1", 15, 11),
     ] {
-        let found = errors(&replaced(GOOD, what, by));
-        let place = (only(&found).line, found[0].column);
-        assert_eq!(place, (line, column), "{by}: {found:?}");
+        let errors = errors(&replaced(GOOD, what, by));
+        let place = (only(&errors).line, errors[0].column);
+        assert_eq!(place, (line, column), "{by}: {errors:?}");
     }
 }
 
@@ -230,8 +231,8 @@ fn joints() {
         (many(65), "a robot has 1 to 64 joints, not 65", 4 + 64 * 4),
         (twice, "joint 1 is called \"waist\" already", 10),
     ] {
-        let found = errors(&text);
-        assert_eq!((&*only(&found).message, found[0].line), (message, line));
+        let errors = errors(&text);
+        assert_eq!((&*only(&errors).message, errors[0].line), (message, line));
     }
     has(&errors(head)[0], "no `joint`", "");
     has(&errors(&format!("joint = []\n{head}"))[0], "not 0", "");
@@ -251,16 +252,16 @@ fn limits_on_the_input() {
         (format!("name = \"{long}\""), "a word of more than"),
         (long, "a word of more than"),
     ] {
-        let found = errors(&source);
-        has(only(&found), message, "");
-        assert!(found[0].render("f", &source).len() < 1000);
+        let diagnostics = errors(&source);
+        has(only(&diagnostics), message, "");
+        assert!(diagnostics[0].render("f", &source).len() < 1000);
     }
     let digits = "1".repeat(1000);
-    let found = errors(&GOOD.replace("mass = 2", &format!("mass = 0.{digits}")));
-    has(&found[0], "more than 800 digits", "");
-    let found = errors(&(0..8000).map(|i| format!("k{i} = 1\n")).collect::<String>());
-    assert!(found.len() <= 200);
-    has(&found[199], "more errors", "");
+    let digit_errors = errors(&GOOD.replace("mass = 2", &format!("mass = 0.{digits}")));
+    has(&digit_errors[0], "more than 800 digits", "");
+    let key_errors = errors(&(0..8000).map(|i| format!("k{i} = 1\n")).collect::<String>());
+    assert!(key_errors.len() <= 200);
+    has(&key_errors[199], "more errors", "");
 }
 
 #[test]

@@ -166,8 +166,8 @@ fn numbers_and_angles() {
         let value = parse_decimal(&text);
         if let (Ok(value), false) = (&value, text.contains('_')) {
             let double: f64 = text.parse().expect("std reads it too");
-            let own = f64::nearest_rational(value);
-            assert_eq!(own, double, "{text}");
+            let nearest = f64::nearest_rational(value);
+            assert_eq!(nearest, double, "{text}");
         }
         if let Ok(angle @ Angle::PiTimes(_)) = Angle::parse(&text) {
             let again = Angle::parse(&angle.to_string()).unwrap_or_default();

@@ -54,8 +54,8 @@ fn payloads_have_a_frame() {
         (reading, robot)
     };
     let frame = "payload_frame = { xyz = [1, 2, 3], rpy = [0, 0, \"pi/2\"] }";
-    let own = "com = [0.1, 0.2, 0.3], inertia = [0.02, 0.03, 0.04, 0.001, 0.002, 0.003]";
-    let (reading, carrying) = read(frame, own);
+    let payload = "com = [0.1, 0.2, 0.3], inertia = [0.02, 0.03, 0.04, 0.001, 0.002, 0.003]";
+    let (reading, carrying) = read(frame, payload);
     let moved = "com = [0.8, 2.1, 3.3], inertia = [0.03, 0.02, 0.04, -0.001, 0.003, -0.002]";
     let (plain, expected) = read("", moved);
     assert_eq!(carrying.joints, expected.joints);
@@ -99,8 +99,8 @@ fn frames_are_read_and_written_back() {
         (Some(1), Some(0))
     );
     assert_eq!(robot.frames[0].placement.rpy[1], Angle::right_angles(1));
-    let own = robot.joints[1].frame.as_ref().unwrap();
-    assert_eq!(own.xyz[2], ratio(1, 10));
+    let placement = robot.joints[1].frame.as_ref().unwrap();
+    assert_eq!(placement.xyz[2], ratio(1, 10));
     written(&robot);
     // A file without frames has the text, and the hash, that it always had.
     assert!(!written(&self::robot("")).contains("frame"));
@@ -153,5 +153,5 @@ fn frames_move_over_with_their_links() {
         close(two[4 * i + 3], origin + 0.5 * along);
     }
     let pairs = one.iter().zip(&links);
-    pairs.for_each(|(own, expected)| close(*own, *expected));
+    pairs.for_each(|(found, expected)| close(*found, *expected));
 }

@@ -30,8 +30,9 @@ fn notes() {
         let text = generated(name);
         assert_eq!(reading(&text).notes, [], "{name}");
         let lines = text.lines();
-        let loud = lines.map(|line| if line.starts_with("allow") { "" } else { line });
-        let loud: Vec<&str> = loud.collect();
+        let loud: Vec<&str> = lines
+            .map(|line| if line.starts_with("allow") { "" } else { line })
+            .collect();
         let reading = reading(&loud.join("\n"));
         for note in &reading.notes {
             assert_eq!(note.severity, Severity::Warning);
@@ -51,8 +52,15 @@ fn notes() {
 fn round_trip() {
     for name in ROBOTS {
         let robot = robot(name);
-        let angles = robot.joints.iter().flat_map(|own| [&own.alpha, &own.theta]);
-        assert!(angles.into_iter().all(|own| own.quarter_turns().is_some()));
+        let angles = robot
+            .joints
+            .iter()
+            .flat_map(|joint| [&joint.alpha, &joint.theta]);
+        assert!(
+            angles
+                .into_iter()
+                .all(|angle| angle.quarter_turns().is_some())
+        );
         let text = written(&robot);
         let again = reading(&text).robot;
         assert_eq!(again.input_hash(), robot.input_hash());
@@ -90,11 +98,11 @@ fn hash() {
         |r| r.joints[1].armature += ratio(1, 10),
         |r| r.joints[1].limits.velocity = None,
     ];
-    let mut seen = std::collections::BTreeSet::from([puma.input_hash()]);
+    let mut hashes = std::collections::BTreeSet::from([puma.input_hash()]);
     for (i, change) in changes.iter().enumerate() {
         let mut other = puma.clone();
         change(&mut other);
-        assert!(seen.insert(other.input_hash()), "change {i} is not seen");
+        assert!(hashes.insert(other.input_hash()), "change {i} is not seen");
     }
 }
 
@@ -117,7 +125,7 @@ fn doubles_and_fractions_round_trip() {
 #[test]
 fn known_robots_are_not_far_off() {
     let root = env!("CARGO_MANIFEST_DIR");
-    let mut seen = 0;
+    let mut count = 0;
     for folder in "generated/robots gallery/robots crates/model/tests/data".split(' ') {
         let entries = std::fs::read_dir(format!("{root}/{folder}")).unwrap();
         for path in entries.map(|entry| entry.unwrap().path()) {
@@ -128,14 +136,14 @@ fn known_robots_are_not_far_off() {
             let Ok(reading) = parse(&source) else {
                 continue;
             };
-            seen += 1;
+            count += 1;
             for far in [RobotWarning::LargeInertia, RobotWarning::LargeWidth] {
                 let is_far = reading.notes.iter().any(|note| note.warning == Some(far));
                 assert!(!is_far, "{}", path.display());
             }
         }
     }
-    assert!(seen > 25, "{seen}");
+    assert!(count > 25, "{count}");
 }
 
 const TIED: &str = "name = \"tied\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n\
@@ -158,7 +166,12 @@ fn followers_read_back() {
     assert_eq!(b.offset, Position::Angle(Angle::PiTimes(ratio(1, 1))));
     assert_eq!(robot.joints[0].limits.velocity, Some(ratio(1, 2)));
     written(&robot);
-    let is_wrong = |robot: &Robot| robot.validate().iter().any(|own| own.warning.is_none());
+    let is_wrong = |robot: &Robot| {
+        robot
+            .validate()
+            .iter()
+            .any(|finding| finding.warning.is_none())
+    };
     assert!(!is_wrong(&robot));
     let mut torn = robot;
     torn.followers.swap(0, 1);

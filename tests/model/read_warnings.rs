@@ -105,8 +105,9 @@ fn other_ways_to_say_it() {
     let six = GOOD.replace("[1, 1, 1, 0, 0, 0]", "[3, 4, 5, 0.1, 0.2, 0.3]");
     let rows = "[[3, 0.1, 0.3],\n [0.10, 4, 2e-1],\n [0.3, 0.2, 5]] # a comment";
     let nine = GOOD.replace("[1, 1, 1, 0, 0, 0]", rows);
-    let massless = GOOD.replace("mass = 2", "mass = 0.0");
-    let massless = massless.replace("com = [0, 0.1, 0]\n", "");
+    let massless = GOOD
+        .replace("mass = 2", "mass = 0.0")
+        .replace("com = [0, 0.1, 0]\n", "");
     assert_eq!(errors(&massless), []);
     let bare = massless.replace("inertia = [1, 1, 1, 0, 0, 0]\n", "");
     let zeros = massless.replace("[1, 1, 1, 0, 0, 0]", "[0, 0, 0, 0, 0, 0]");
@@ -128,8 +129,9 @@ fn other_ways_to_say_it() {
 
 #[test]
 fn warnings_are_silenced_one_by_one() {
-    let odd = GOOD.replace("[1, 1, 1,", "[1, 1, 3,");
-    let odd = odd.replace("mass = 2", "mass = 2000");
+    let odd = GOOD
+        .replace("[1, 1, 1,", "[1, 1, 3,")
+        .replace("mass = 2", "mass = 2000");
     let doubts = |source: &str| -> Vec<Option<RobotWarning>> {
         let notes = reading(source).notes;
         notes.iter().map(|note| note.warning).collect()
@@ -160,10 +162,10 @@ const ALLOW: &str = r#"
 #[test]
 fn names_of_warnings() {
     for [allow, message, help] in rows(ALLOW) {
-        let found = errors(&format!("allow = {allow}\n{GOOD}"));
-        assert_eq!((only(&found).line, &found[0].message), (1, &message));
-        let own = found[0].help.as_deref().unwrap_or_default();
-        assert!(own.starts_with(&help), "{own}");
+        let errors = errors(&format!("allow = {allow}\n{GOOD}"));
+        assert_eq!((only(&errors).line, &errors[0].message), (1, &message));
+        let hint = errors[0].help.as_deref().unwrap_or_default();
+        assert!(hint.starts_with(&help), "{hint}");
     }
     let words = RobotWarning::WORDS;
     let names = BTreeSet::from_iter(words.iter().map(|(name, _)| *name));

@@ -51,13 +51,13 @@ fn notes(text: &str, begin: &str) -> Vec<(usize, Diagnostic)> {
     assert_eq!(reading.scenes.len(), 1);
     let notes = reading.notes.into_iter();
     let lines = notes.map(|note| (note.line.wrapping_sub(ROBOT.lines().count() + 1), note));
-    let own = lines.filter(|(_, note)| note.message.starts_with(begin));
-    own.collect()
+    let matches = lines.filter(|(_, note)| note.message.starts_with(begin));
+    matches.collect()
 }
 
 #[test]
 fn every_key() {
-    let all = scenes(
+    let originals = scenes(
         r#"
 [scene.pick]
 outputs = ["inverse_dynamics", "gravity"]
@@ -79,8 +79,8 @@ tolerance = { value = 1e-3, relative_to = "range" }
 scalar = "f64"
 "#,
     );
-    let [pick, hold] = all.as_slice() else {
-        panic!("{all:?}")
+    let [pick, hold] = originals.as_slice() else {
+        panic!("{originals:?}")
     };
     assert_eq!(pick.name, "pick");
     assert_eq!(pick.outputs, [Function::InverseDynamics, Function::Gravity]);
@@ -104,7 +104,7 @@ scalar = "f64"
     assert_eq!(hold.rows(3), [1]);
     assert!(hold.acceleration_zero && hold.joints.is_none());
 
-    for scene in &all {
+    for scene in &originals {
         let again = scenes(&write(scene)).remove(0);
         assert_eq!(*scene, again);
         assert_eq!(scene.short_hash(), again.short_hash());
@@ -184,13 +184,18 @@ const RANGE: &str = "tolerance = { value = 1e-3, relative_to = \"range\" }";
 
 #[test]
 fn a_bound_needs_a_box() {
-    let bare = ROBOT.replace("velocity = 1, ", "");
-    let bare = bare.replace(", torque = 5 ", " ");
+    let bare = ROBOT
+        .replace("velocity = 1, ", "")
+        .replace(", torque = 5 ", " ");
     let with = |text: &str| bare.clone() + &scene(text);
-    let found = errors(&with(ACTUATOR));
-    assert_eq!(found.len(), 2, "{found:?}");
-    has(&found[0], "the range of the velocity of joint 2 (boom)", "");
-    has(&found[1], "the torque limit of joint 3 (wrist)", "");
+    let diagnostics = errors(&with(ACTUATOR));
+    assert_eq!(diagnostics.len(), 2, "{diagnostics:?}");
+    has(
+        &diagnostics[0],
+        "the range of the velocity of joint 2 (boom)",
+        "",
+    );
+    has(&diagnostics[1], "the torque limit of joint 3 (wrist)", "");
     for good in [
         format!("box = {{ velocity = [1, 1, 1] }}\n{RANGE}"),
         format!("velocity = \"zero\"\n{RANGE}"),
@@ -252,8 +257,9 @@ box = { velocity = [2, 1, 9] }\nlock = { 3 = 0 } |
 #[test]
 fn a_box_beyond_the_limits() {
     for [text, limit] in rows(BEYOND) {
-        let found = notes(&text, "the box of").into_iter();
-        let found = found.map(|(line, note)| (note.severity, line, note.message));
+        let found = notes(&text, "the box of")
+            .into_iter()
+            .map(|(line, note)| (note.severity, line, note.message));
         let said = format!("the box of scene `a` goes beyond the {limit}");
         let expected = &[(Severity::Warning, 1, said)][..usize::from(!limit.is_empty())];
         assert_eq!(found.collect::<Vec<_>>(), expected, "{text}");
@@ -265,19 +271,21 @@ fn a_tolerance_of_one_or_more() {
     for (value, said) in [("1", 1), ("5", 1), ("[0.1, 0.1, 2]", 1), ("0.999", 0)] {
         let tolerance = ACTUATOR.replace("1e-3", value);
         let text = format!("outputs = [\"gravity\"]\n{tolerance}");
-        let found = notes(&text, "a tolerance of 1 or more");
-        let found = found.iter().map(|(line, note)| (note.severity, *line));
+        let found = notes(&text, "a tolerance of 1 or more")
+            .iter()
+            .map(|(line, note)| (note.severity, *line))
+            .collect::<Vec<_>>();
         let expected = &[(Severity::Warning, 2)][..said];
-        assert_eq!(found.collect::<Vec<_>>(), expected, "{value}");
+        assert_eq!(found, expected, "{value}");
     }
 }
 
 #[test]
 fn a_payload_in_other_units() {
     let load = "payload = { mass = 2, com = [0, 0, 0.1], inertia = [4e4, 4e4, 4e4, 0, 0, 0] }";
-    let mut found = notes(load, "").into_iter();
-    let own = found.find(|(_, note)| note.warning == Some(RobotWarning::LargeInertia));
-    let (line, note) = own.expect("a warning");
+    let mut notes = notes(load, "").into_iter();
+    let warning = notes.find(|(_, note)| note.warning == Some(RobotWarning::LargeInertia));
+    let (line, note) = warning.expect("a warning");
     assert_eq!(line, 1);
     has(&note, "", "write 0.04 for 40000");
 }

@@ -53,8 +53,8 @@ pub fn written(robot: &Robot) -> String {
 #[track_caller]
 pub fn has(said: &Diagnostic, message: &str, help: &str) {
     assert!(said.message.contains(message), "{message}: {said:?}");
-    let own = said.help.as_deref().unwrap_or_default();
-    assert!(own.contains(help), "{help}: {said:?}");
+    let hint = said.help.as_deref().unwrap_or_default();
+    assert!(hint.contains(help), "{help}: {said:?}");
 }
 
 #[track_caller]
@@ -64,8 +64,8 @@ pub fn replaced(text: &str, what: &str, by: &str) -> String {
 }
 
 #[track_caller]
-pub fn only<T: Debug>(all: &[T]) -> &T {
-    let [one] = all else { panic!("{all:#?}") };
+pub fn only<T: Debug>(items: &[T]) -> &T {
+    let [one] = items else { panic!("{items:#?}") };
     one
 }
 

@@ -86,11 +86,11 @@ const ROWS: &[(&str, &str, usize, &str, &str)] = &[
 fn mistakes_are_said_at_their_lines() {
     for (piece, by, line, message, help) in ROWS {
         let text = replaced(&two_arms(), piece, by);
-        let all = errors(&text);
-        let error = only(&all);
+        let errors = errors(&text);
+        let error = only(&errors);
         has(error, message, help);
-        let found = text[..error.span.start].matches('\n').count() + 1;
-        assert_eq!(found, *line, "{}", refused(&text));
+        let error_line = text[..error.span.start].matches('\n').count() + 1;
+        assert_eq!(error_line, *line, "{}", refused(&text));
     }
 }
 
@@ -105,7 +105,7 @@ fn values_are_those_of_another_library() {
         axes: Axes::Mixed,
         rows: Rows::ALL,
     };
-    let seen = arm.seen(&view).unwrap();
+    let frame_arm = arm.seen(&view).unwrap();
     let list = |value: &Value| -> Vec<f64> {
         let numbers = value.as_array().unwrap().iter();
         numbers.map(|number| number.as_f64().unwrap()).collect()
@@ -126,7 +126,7 @@ fn values_are_those_of_another_library() {
         let at = arm.at(&position.collect::<Vec<_>>());
         for by in Formulation::ALL {
             let rows = |pose: Columns<f64>| pose.rows();
-            let found = [
+            let results = [
                 ("tau", by.inverse_dynamics(&arm, &at, &qd, &qdd)),
                 ("gravity", by.gravity(&arm, &at)),
                 ("inertia", by.inertia(&arm, &at).concat()),
@@ -135,9 +135,9 @@ fn values_are_those_of_another_library() {
                     by.torque_by_position(&arm, &at, &qd, &qdd).concat(),
                 ),
                 ("dtau_dqd", by.torque_by_velocity(&arm, &at, &qd).concat()),
-                ("frame", rows(by.hand(&seen, &at))),
+                ("frame", rows(by.hand(&frame_arm, &at))),
             ];
-            for (key, found) in found {
+            for (key, found) in results {
                 let expected = list(&state[key]);
                 let size = expected.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
                 for (found, expected) in found.iter().zip(&expected) {

@@ -42,8 +42,10 @@ impl Compiler {
     /// Compiles a file that should be accepted, and runs it.
     pub fn run(&self, case: &Path) -> io::Result<Output> {
         let name = case.file_stem().unwrap_or_default();
-        let program = self.folder.join(name);
-        let program = program.with_extension(env::consts::EXE_EXTENSION);
+        let program = self
+            .folder
+            .join(name)
+            .with_extension(env::consts::EXE_EXTENSION);
         let compiled = self.command(case).arg("-o").arg(&program).output()?;
         match compiled.status.success() {
             true => Command::new(program).output(),
@@ -77,17 +79,17 @@ fn prefixed(prefix: &str, path: &Path) -> OsString {
 /// Returns the library of this name that was compiled last, of several with other features:
 /// none that is older than a source is left where cargo ran a test.
 fn newest(folder: &Path, prefix: &str) -> io::Result<PathBuf> {
-    let mut found: Option<(SystemTime, PathBuf)> = None;
+    let mut latest: Option<(SystemTime, PathBuf)> = None;
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if name.starts_with(prefix) && name.ends_with(".rlib") {
             let age = fs::metadata(&path)?.modified()?;
-            if found.as_ref().is_none_or(|(newest, _)| age > *newest) {
-                found = Some((age, path));
+            if latest.as_ref().is_none_or(|(newest, _)| age > *newest) {
+                latest = Some((age, path));
             }
         }
     }
     let missing = || io::Error::other(format!("no {prefix}*.rlib in {}", folder.display()));
-    found.map(|(_, path)| path).ok_or_else(missing)
+    latest.map(|(_, path)| path).ok_or_else(missing)
 }

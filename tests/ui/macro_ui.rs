@@ -23,7 +23,7 @@ fn cases(folder: &str) -> Vec<PathBuf> {
 }
 
 fn complaints(cases: Vec<PathBuf>, complaint: impl Fn(&Path) -> Option<String> + Sync) -> String {
-    let (left, found) = (Mutex::new(cases), Mutex::new(Vec::new()));
+    let (left, complaints) = (Mutex::new(cases), Mutex::new(Vec::new()));
     thread::scope(|scope| {
         for _ in 0..thread::available_parallelism().map_or(1, |n| n.get()) {
             scope.spawn(|| {
@@ -31,13 +31,13 @@ fn complaints(cases: Vec<PathBuf>, complaint: impl Fn(&Path) -> Option<String> +
                 while let Some(case) = next() {
                     if let Some(complaint) = complaint(&case) {
                         let text = format!("{}:\n{complaint}", case.display());
-                        found.lock().unwrap().push(text);
+                        complaints.lock().unwrap().push(text);
                     }
                 }
             });
         }
     });
-    found.into_inner().unwrap().join("\n\n")
+    complaints.into_inner().unwrap().join("\n\n")
 }
 
 /// Without what says only how many errors there were, and where to read on.

@@ -39,9 +39,9 @@ impl Crate {
         // The versions that everything else here is tested with.
         fs::copy(format!("{ROOT}/Cargo.lock"), folder.join("Cargo.lock")).unwrap();
         let target = tests.join("without_search_target");
-        let own = Crate { folder, target };
-        own.restore();
-        own
+        let taker = Crate { folder, target };
+        taker.restore();
+        taker
     }
 
     fn restore(&self) {
@@ -127,14 +127,14 @@ const CASES: [Case<'static>; 9] = [
 
 #[test]
 fn stale_files_are_refused() {
-    let own = Crate::new("stale");
-    own.check().unwrap();
+    let taker = Crate::new("stale");
+    taker.check().unwrap();
     for (file, what, other, place, words) in CASES {
-        own.edit(file, |text| text.replacen(what, other, 1));
-        own.refuses(place, words);
+        taker.edit(file, |text| text.replacen(what, other, 1));
+        taker.refuses(place, words);
     }
-    fs::remove_file(own.folder.join(FILE)).unwrap();
-    own.refuses(
+    fs::remove_file(taker.folder.join(FILE)).unwrap();
+    taker.refuses(
         "2:24",
         &[
             "there is no generated file `robots/planar2r.rs`",
@@ -146,14 +146,14 @@ fn stale_files_are_refused() {
 
 #[test]
 fn checkouts_differ() {
-    let mut own = Crate::new("here");
+    let mut taker = Crate::new("here");
     for file in [ROBOT, FILE] {
-        own.edit(file, |text| text.replace('\n', "\r\n"));
+        taker.edit(file, |text| text.replace('\n', "\r\n"));
     }
-    own.check().unwrap();
-    let moved = own.folder.with_file_name("there");
+    taker.check().unwrap();
+    let moved = taker.folder.with_file_name("there");
     let _ = fs::remove_dir_all(&moved);
-    fs::rename(&own.folder, &moved).unwrap();
-    own.folder = moved;
-    own.check().unwrap();
+    fs::rename(&taker.folder, &moved).unwrap();
+    taker.folder = moved;
+    taker.check().unwrap();
 }

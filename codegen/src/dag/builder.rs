@@ -244,14 +244,14 @@ impl Builder {
                     Some(Some(Exact::one()))
                 }
                 Node::Input(_) => Some(Some(Exact::zero())),
-                Node::Apply(own, operands) => {
+                Node::Apply(op, operands) => {
                     let missing = operands.iter().filter(|id| !self.at_rest.contains_key(id));
                     let before = pending.len();
                     pending.extend(missing);
                     if pending.len() > before {
                         continue;
                     }
-                    Some(self.at_rest(*own, *operands))
+                    Some(self.at_rest(*op, *operands))
                 }
             };
             pending.pop();
@@ -268,14 +268,14 @@ impl Builder {
     }
 
     fn intern(&mut self, node: Node, print: Fingerprint) -> Edge {
-        let own = Edge::from(self.dag.nodes.len() as Id);
-        self.known.insert(node.clone(), own.node);
+        let edge = Edge::from(self.dag.nodes.len() as Id);
+        self.known.insert(node.clone(), edge.node);
         self.dag.nodes.push(node);
         self.prints.push(print);
         let (canonical, negative) = print.canonical();
         let canonical = self.by_print.entry(canonical);
-        canonical.or_insert(own.negated_if(negative));
-        own
+        canonical.or_insert(edge.negated_if(negative));
+        edge
     }
 
     pub(crate) fn copy(&mut self, dag: &Dag) -> Vec<Edge> {

@@ -146,15 +146,15 @@ impl Dag {
                 }
                 _ => None,
             };
-            let found = match operation {
+            let fusion = match operation {
                 Operation::Add | Operation::Sub => match (candidate(a, b), candidate(b, a)) {
                     (Some(left), Some(right)) if right.0 > left.0 => Some(right),
                     (left, right) => left.or(right),
                 },
                 Operation::Mul | Operation::Fused | Operation::Div => None,
             };
-            let before = found.map_or_else(|| longest(&[a, b]), |(_, before, _)| before);
-            taken[id as usize] = found.map(|(.., product)| product);
+            let before = fusion.map_or_else(|| longest(&[a, b]), |(_, before, _)| before);
+            taken[id as usize] = fusion.map(|(.., product)| product);
             chain[id as usize] = 1 + before;
         }
         taken

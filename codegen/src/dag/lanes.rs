@@ -56,11 +56,11 @@ impl<T: Divide + Copy, const N: usize> Scalar for Lanes<T, N> {
         self.0.iter().all(T::is_zero)
     }
     fn mul_add(&self, factor: &Self, addend: &Self) -> Self {
-        let mut all = *self;
-        for ((x, factor), addend) in all.0.iter_mut().zip(&factor.0).zip(&addend.0) {
+        let mut lanes = *self;
+        for ((x, factor), addend) in lanes.0.iter_mut().zip(&factor.0).zip(&addend.0) {
             *x = x.mul_add(factor, addend);
         }
-        all
+        lanes
     }
 }
 

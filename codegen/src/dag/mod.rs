@@ -238,7 +238,7 @@ impl<C, I> Dag<C, I> {
         let count = self.nodes.len();
         nodes.all(|(node, id)| {
             node.operands()
-                .is_none_or(|own| own.iter().all(|o| *o < id))
+                .is_none_or(|operands| operands.iter().all(|o| *o < id))
         }) && self.outputs.iter().all(|edge| edge.index() < count)
     }
 

@@ -28,8 +28,8 @@ impl Operation {
     ];
 
     pub fn from_symbol(symbol: char) -> Option<Operation> {
-        let mut all = Operation::ALL.into_iter();
-        all.find(|operation| operation.symbol() == symbol)
+        let mut operations = Operation::ALL.into_iter();
+        operations.find(|operation| operation.symbol() == symbol)
     }
 
     /// Returns its symbol, Rust's but for a fused product, which has none there.

@@ -48,15 +48,22 @@ pub(crate) fn evaluate(
     mut leaf: impl FnMut(Leaf, &mut Builder) -> Edge,
 ) -> Edge {
     let pattern: RecExpr<SymbolLang> = pattern.parse().expect("a pattern");
-    let names = pattern.iter().map(|node| node.op.as_str());
-    let names: BTreeSet<&str> = names.filter(|name| name.starts_with('?')).collect();
-    let variables = names.into_iter();
-    let variables = variables.map(|name| (name, leaf(Leaf::read(name), builder)));
-    let variables: BTreeMap<&str, Edge> = variables.collect();
+    let names: BTreeSet<&str> = pattern
+        .iter()
+        .map(|node| node.op.as_str())
+        .filter(|name| name.starts_with('?'))
+        .collect();
+    let variables: BTreeMap<&str, Edge> = names
+        .into_iter()
+        .map(|name| (name, leaf(Leaf::read(name), builder)))
+        .collect();
     let mut values: Vec<Edge> = Vec::new();
     for node in pattern.iter() {
-        let operands = node.children.iter().map(|id| values[usize::from(*id)]);
-        let operands: Vec<Edge> = operands.collect();
+        let operands: Vec<Edge> = node
+            .children
+            .iter()
+            .map(|id| values[usize::from(*id)])
+            .collect();
         let value = match (node.op.as_str(), operands.as_slice()) {
             (name, []) => match variables.get(name) {
                 Some(value) => *value,

@@ -56,7 +56,7 @@ mod tests {
     use Operation::{Add, Mul};
 
     fn operations(dag: &Dag) -> Vec<Operation> {
-        dag.operations().map(|own| own.1).collect()
+        dag.operations().map(|operation| operation.1).collect()
     }
 
     #[test]

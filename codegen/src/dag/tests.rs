@@ -92,7 +92,9 @@ fn the_backward_pass_agrees_with_duals() {
         let constant = |c: &u64| Field::new(*c);
         let values = dag.values(&(constant, |input: usize| inputs[input]));
         // Where a divisor is zero there is no derivative.
-        let mut divisors = dag.operations().filter(|own| own.1 == Operation::Div);
+        let mut divisors = dag
+            .operations()
+            .filter(|operation| operation.1 == Operation::Div);
         if divisors.any(|(_, _, [_, by])| values[by as usize] == Field::zero()) {
             continue;
         }

@@ -31,13 +31,14 @@ impl Dag {
             if !is_same(&next) {
                 // Two of them may matter together, though none does alone.
                 let one = Exact::one();
-                let alone = [&zero, &one].into_iter();
-                let mut alone = alone.flat_map(|value| vain.iter().map(move |step| (step, value)));
-                let mut found = None;
-                while let (None, Some((step, value))) = (&found, alone.next()) {
-                    found = Some(best.with(&[*step], value)).filter(is_same);
+                let mut alone = [&zero, &one]
+                    .into_iter()
+                    .flat_map(|value| vain.iter().map(move |step| (step, value)));
+                let mut candidate = None;
+                while let (None, Some((step, value))) = (&candidate, alone.next()) {
+                    candidate = Some(best.with(&[*step], value)).filter(is_same);
                 }
-                next = found.unwrap_or_else(|| best.with(&[], &zero));
+                next = candidate.unwrap_or_else(|| best.with(&[], &zero));
             }
             if next.counts().operations() >= best.counts().operations() || !is_same(&next) {
                 return best;
@@ -51,17 +52,17 @@ impl Dag {
     /// have the same value.
     pub(crate) fn has_needed_steps_alone(&self, row: impl Fn(usize) -> usize) -> bool {
         let prints = self.prints();
-        let mut seen = FxHashMap::default();
+        let mut rows = FxHashMap::default();
         let mut operations = 0;
         let is_new = |(index, node): (usize, &Node)| {
             let value = prints[index].canonical().0;
             if node.operands().is_none() {
-                seen.insert(value, usize::MAX);
+                rows.insert(value, usize::MAX);
                 return true;
             }
             let row = row(operations);
             operations += 1;
-            *seen.entry(value).or_insert(row) == row
+            *rows.entry(value).or_insert(row) == row
         };
         self.live().all(is_new) && self.vain_steps().is_empty()
     }

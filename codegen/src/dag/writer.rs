@@ -58,8 +58,8 @@ impl<C, I> Dag<C, I> {
         let mut writer = Writer::default();
         let mut places: Vec<Id> = vec![0; self.nodes.len()];
         let place = |id: Id, places: &[Id], writer: &mut Writer<D, J>| match self.node(id) {
-            Node::Constant(own) => writer.leaf(Node::Constant(constant(own))),
-            Node::Input(own) => writer.leaf(Node::Input(input(own))),
+            Node::Constant(leaf) => writer.leaf(Node::Constant(constant(leaf))),
+            Node::Input(leaf) => writer.leaf(Node::Input(input(leaf))),
             Node::Apply(..) => places[id as usize],
         };
         for (index, node) in self.live() {

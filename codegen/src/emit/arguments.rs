@@ -26,8 +26,11 @@ pub(super) fn gravity(robot: &Robot, setup: &Setup) -> String {
 }
 
 fn placed_names(robot: &Robot) -> Option<Places> {
-    let names = robot.joints.iter().map(|joint| joint.name.as_deref());
-    let names: Vec<Option<&str>> = names.collect();
+    let names: Vec<Option<&str>> = robot
+        .joints
+        .iter()
+        .map(|joint| joint.name.as_deref())
+        .collect();
     let floats = robot.floating.is_some();
     let limbs = floats.then(|| Sizes::of(robot).limb_starts().collect());
     (robot.is_tree()).then(|| Places::new(&names, limbs))
@@ -103,8 +106,8 @@ pub(super) fn layout(function: Function, setup: &Setup) -> Vec<String> {
         return lines;
     }
     let coordinates = setup.robot().coordinates();
-    let of = |own: &Argument| own.length(setup.sizes(function)) == coordinates;
-    let of_results = |own: &Quantity| own.shape().0.contains(&Axis::Coordinates);
+    let of = |argument: &Argument| argument.length(setup.sizes(function)) == coordinates;
+    let of_results = |quantity: &Quantity| quantity.shape().0.contains(&Axis::Coordinates);
     if function.arguments().iter().any(of) || function.quantities().iter().any(of_results) {
         let layout = [
             "",
@@ -115,11 +118,15 @@ pub(super) fn layout(function: Function, setup: &Setup) -> Vec<String> {
     }
     let of_limbs = |quantity: &Quantity| quantity.shape().0.contains(&Axis::Limbs);
     if function.quantities().iter().any(of_limbs) {
-        let limbs = setup.limbs().into_iter().map(|limb| {
-            let joints = limb.iter().map(|joint| (joint + 1).to_string());
-            joints.collect::<Vec<String>>().join(", ")
-        });
-        let limbs = limbs.collect::<Vec<String>>().join("; ");
+        let limbs = setup
+            .limbs()
+            .into_iter()
+            .map(|limb| {
+                let joints = limb.iter().map(|joint| (joint + 1).to_string());
+                joints.collect::<Vec<String>>().join(", ")
+            })
+            .collect::<Vec<String>>()
+            .join("; ");
         say(
             &mut lines,
             ["", &format!("The joints of each limb: {limbs}.")],
@@ -166,7 +173,7 @@ pub(super) fn types(setup: &Setup, scalar: ScalarType) -> String {
     for (parameter, doc) in DRIVES {
         if setup.has(parameter) {
             let values = setup.defaults(parameter, scalar);
-            let values = list(values.iter().map(|own| own.text(scalar)));
+            let values = list(values.iter().map(|literal| literal.text(scalar)));
             let (name, rows) = (parameter.name().to_uppercase(), setup.robot().rows().len());
             text += &format!(
                 "/// {doc} of this robot.\npub const {name}: [{scalar}; {rows}] = [{values}];\n"
@@ -193,7 +200,7 @@ const DRIVES: [(RuntimeParameter, &str); 2] = [
 ];
 
 fn load_doc(setup: &Setup) -> &'static str {
-    match RuntimeParameter::LOADING.map(|own| setup.has(own)) {
+    match RuntimeParameter::LOADING.map(|parameter| setup.has(parameter)) {
         [false, false, false, true] => {
             "/// The regrouped parameters that a payload changes: what [`load`] returns, and what the other\n\
              /// functions take. Compute it once for each tool; its numbers are this module's own.\n"
@@ -206,8 +213,11 @@ fn load_doc(setup: &Setup) -> &'static str {
 }
 
 fn methods(kind: &str, none: &str, doc: &[String], scalar: ScalarType) -> String {
-    let methods = checked::rust(scalar == ScalarType::F32, kind);
-    let methods = methods.replacen("pub", &format!("/// {none}\npub"), 1);
+    let methods = checked::rust(scalar == ScalarType::F32, kind).replacen(
+        "pub",
+        &format!("/// {none}\npub"),
+        1,
+    );
     let (new, doc) = ("pub const fn", comment("///", doc));
     let documented = format!(
         "/// A body of these numbers; `None` if no body has them.\n///\n{doc}#[must_use]\n{new}"
@@ -241,18 +251,21 @@ fn bodies(text: &mut String, setup: &Setup, scalar: ScalarType) {
     *text += &indented(&methods.replacen("pub const fn", &with, 1));
     *text += "/// The bodies of this robot.\npub const BODIES: Bodies = Bodies([\n";
     for numbers in setup.defaults(RuntimeParameter::Bodies, scalar).chunks(10) {
-        let numbers = list(numbers.iter().map(|own| own.text(scalar)));
+        let numbers = list(numbers.iter().map(|number| number.text(scalar)));
         *text += &format!("    {numbers},\n");
     }
     *text += "]);\n";
 }
 
 fn of_links(setup: &Setup) -> String {
-    let links = setup.body_links().into_iter().map(|link| match link {
-        0 => "the base".to_owned(),
-        link => link.to_string(),
-    });
-    let links: Vec<String> = links.collect();
+    let links: Vec<String> = setup
+        .body_links()
+        .into_iter()
+        .map(|link| match link {
+            0 => "the base".to_owned(),
+            link => link.to_string(),
+        })
+        .collect();
     format!("The bodies of links: {}, in this order.", links.join(", "))
 }
 
@@ -267,19 +280,19 @@ pub(super) fn payload_c(setup: &Setup, names: &Names) -> (Vec<String>, String) {
     ];
     say(&mut doc, head);
     doc.extend(payload(setup, dialect.scalar));
-    let own = names.symbols(Function::Load);
+    let symbols = names.symbols(Function::Load);
     let is_single = dialect.scalar == ScalarType::F32;
-    let names = [own.prefix.as_str(), &own.macros];
+    let names = [symbols.prefix.as_str(), &symbols.macros];
     let text = checked::c(is_single, dialect.function, names, "payload");
     (doc, indented(&text))
 }
 
 /// Returns, for a header, each type of bodies and drives with its comment.
 pub(super) fn bodies_c(setup: &Setup, names: &Names) -> Vec<(Vec<String>, String)> {
-    let (dialect, own) = (names.dialect(), names.symbols(Function::Load));
+    let (dialect, symbols) = (names.dialect(), names.symbols(Function::Load));
     let (scalar, is_single) = (dialect.scalar, dialect.scalar == ScalarType::F32);
     let mut items = Vec::new();
-    let both = [own.prefix.as_str(), &own.macros];
+    let both = [symbols.prefix.as_str(), &symbols.macros];
     let real = scalar.of("double", "float");
     if setup.has(RuntimeParameter::Bodies) {
         let mut doc = Vec::new();
@@ -304,7 +317,10 @@ pub(super) fn bodies_c(setup: &Setup, names: &Names) -> Vec<(Vec<String>, String
         let count = setup.body_links().len();
         let text = checked::c_bodies(is_single, dialect.function, both, (count, setup.zeros()));
         items.push((doc, indented(&text)));
-        let kind = format!("{}_bodies_t into[{}_RESTRICT 1]", own.prefix, own.macros);
+        let kind = format!(
+            "{}_bodies_t into[{}_RESTRICT 1]",
+            symbols.prefix, symbols.macros
+        );
         items.push((
             vec!["Fills in the bodies of this robot.".to_owned()],
             filling(
@@ -318,7 +334,7 @@ pub(super) fn bodies_c(setup: &Setup, names: &Names) -> Vec<(Vec<String>, String
     for (parameter, doc) in DRIVES {
         if setup.has(parameter) {
             let rows = setup.robot().rows().len();
-            let kind = format!("{real} into[{}_RESTRICT {rows}]", own.macros);
+            let kind = format!("{real} into[{}_RESTRICT {rows}]", symbols.macros);
             let doc = doc.replacen("The", "Fills in the", 1);
             items.push((
                 vec![format!("{doc} of this robot.")],
@@ -336,8 +352,8 @@ fn filling(
     names: &Names,
     [kind, array]: [&str; 2],
 ) -> String {
-    let (dialect, own) = (names.dialect(), names.symbols(Function::Load));
-    let name = format!("{}_{}", own.prefix, parameter.name());
+    let (dialect, symbols) = (names.dialect(), names.symbols(Function::Load));
+    let name = format!("{}_{}", symbols.prefix, parameter.name());
     let mut text = format!("{} void {name}({kind})\n{{\n", dialect.function);
     for (place, value) in setup.defaults(parameter, dialect.scalar).iter().enumerate() {
         text += &format!("    {array}[{place}] = {};\n", dialect.literal(*value));
@@ -379,8 +395,8 @@ fn indented(text: &str) -> String {
 fn payload(setup: &Setup, scalar: ScalarType) -> Vec<String> {
     let n = setup.joints();
     let mut frame = format!("that of joint {n} in the table");
-    if let Some(own) = &setup.robot().payload_frame {
-        frame = format!("which is in {frame}\nat {}", placed(own));
+    if let Some(placement) = &setup.robot().payload_frame {
+        frame = format!("which is in {frame}\nat {}", placed(placement));
     }
     let digits = scalar.of("six", "three");
     let text = format!(

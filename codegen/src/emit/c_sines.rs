@@ -37,8 +37,9 @@ fn operations(dialect: Dialect, margin: &str) -> (String, [String; 2]) {
     let kernel: Kernel = routine(dialect.scalar);
     let lines = Lines::of_kernel(dialect, &kernel, "x0", "x");
     let steps = lines.statements().map(|line| format!("{margin}{line}\n"));
-    let results = kernel.results();
-    let results = results.map(|own| own.map_or_else(String::new, |edge| lines.result(edge)));
+    let results = kernel
+        .results()
+        .map(|result| result.map_or_else(String::new, |edge| lines.result(edge)));
     (steps.collect(), results)
 }
 

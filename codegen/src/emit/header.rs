@@ -66,15 +66,15 @@ pub(crate) fn misnamed(base: &str, functions: &[Function], request: &Request) ->
     let scalars = request.scalars.iter();
     let names = scalars.map(|&scalar| Names::new(base, Language::C, scalar));
     let names = names.flat_map(|names| words.iter().map(move |word| names.with_limit(word)));
-    let macros = ["RESTRICT", "UNFUSED", "SIMD", "FORGET", "FOUR"];
-    let macros = macros.map(|word| {
+    let macros = ["RESTRICT", "UNFUSED", "SIMD", "FORGET", "FOUR"].map(|word| {
         let name = Names::new(base, Language::C, ScalarType::F64).constant(word);
         (name, LONGEST)
     });
-    let mut seen = BTreeSet::new();
+    let mut unique_names = BTreeSet::new();
     let mut names = names.chain(macros);
-    let found = names.find(|(name, limit)| name.len() > *limit || !seen.insert(name.clone()));
-    found.map(|(name, _)| name)
+    let bad_name =
+        names.find(|(name, limit)| name.len() > *limit || !unique_names.insert(name.clone()));
+    bad_name.map(|(name, _)| name)
 }
 
 /// The macros of functions with lanes, `ARM` being the header's name.
@@ -114,12 +114,12 @@ pub(crate) fn write(
     let is_fused = |code: &&Code| code.counts().fma > 0;
     let needs_math =
         codes_of().any(|code| calls(&code) || is_fused(&code) || !code.speeds.is_empty());
-    let includes = [("math", needs_math), ("stddef", request.batch)];
-    let includes = includes.map(|(name, is_needed)| match is_needed {
-        true => format!("#include <{name}.h>\n"),
-        false => String::new(),
-    });
-    let includes = includes.concat();
+    let includes = [("math", needs_math), ("stddef", request.batch)]
+        .map(|(name, is_needed)| match is_needed {
+            true => format!("#include <{name}.h>\n"),
+            false => String::new(),
+        })
+        .concat();
     let has_loops = request.batch && request.language == Language::C;
     let options = if has_loops { ", \"no-tree-pre\"" } else { "" };
     text += &format!(
@@ -175,17 +175,21 @@ pub(crate) fn write(
         }
         comment(&mut text, &lines);
         let is_batch = request.batch;
-        let joints = functions.iter().map(|own| own.program.joints);
+        let joints = functions.iter().map(|function| function.program.joints);
         c_sines::write(&mut text, joints.zip(codes), &names, is_batch);
         if let Some(state_box) = StateBox::of(functions, setup, scalar) {
             state_box.write_c(&mut text, scalar, &names);
         }
-        if functions.iter().any(|own| own.function == Function::Load) {
-            let payload = setup.has(RuntimeParameter::Payload);
-            let payload = payload.then(|| payload_c(setup, &names));
-            for (doc, own) in payload.into_iter().chain(bodies_c(setup, &names)) {
+        if functions
+            .iter()
+            .any(|function| function.function == Function::Load)
+        {
+            let payload = setup
+                .has(RuntimeParameter::Payload)
+                .then(|| payload_c(setup, &names));
+            for (doc, definition) in payload.into_iter().chain(bodies_c(setup, &names)) {
                 comment(&mut text, &doc);
-                text += &own;
+                text += &definition;
             }
         }
         for (index, (generated, code)) in functions.iter().zip(codes).enumerate() {
@@ -207,9 +211,9 @@ pub(crate) fn write(
                 doc.push(of_c.to_owned());
             }
             if let Some(constant) = parameters::name(function) {
-                let own = names.of(&constant.to_lowercase());
+                let symbol = names.of(&constant.to_lowercase());
                 for line in &mut doc {
-                    *line = line.replace(constant, &own);
+                    *line = line.replace(constant, &symbol);
                 }
             }
             doc.push(String::new());
@@ -250,8 +254,8 @@ pub(crate) fn write(
 fn units_in_order<'u>(units: impl Iterator<Item = &'u str>, is_matrix: bool) -> String {
     let mut units: Vec<&str> = units.collect();
     if is_matrix {
-        let mut seen = BTreeSet::new();
-        units.retain(|unit| seen.insert(*unit));
+        let mut unique_units = BTreeSet::new();
+        units.retain(|unit| unique_units.insert(*unit));
     } else {
         units.dedup();
         units.truncate(4);
@@ -269,7 +273,11 @@ fn comment(text: &mut String, lines: &[String]) {
 
 /// Returns a line that ends no comment and begins none; without the marks of Rust's documentation.
 fn plain(line: &str) -> String {
-    let line = line.replace("[`", "`").replace("`]", "`").replace('\\', "");
-    let line = line.replace("*/", "* /").replace("/*", "/ *");
+    let line = line
+        .replace("[`", "`")
+        .replace("`]", "`")
+        .replace('\\', "")
+        .replace("*/", "* /")
+        .replace("/*", "/ *");
     line.replace("??", "? ?")
 }

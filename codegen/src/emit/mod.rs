@@ -50,13 +50,13 @@ pub struct GeneratedFunction {
 impl GeneratedFunction {
     /// Returns the polynomials of its sines in a scalar; none if they are libm's.
     pub fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
-        let found = self.sines.iter().find(|(known, _)| *known == scalar);
-        found.map_or(&[], |(_, sines)| sines)
+        let entry = self.sines.iter().find(|(known, _)| *known == scalar);
+        entry.map_or(&[], |(_, sines)| sines)
     }
 
     pub(crate) fn variant(&self, scalar: ScalarType) -> Option<&Variant> {
-        let mut all = self.admitted.as_ref()?.variants.iter();
-        all.find(|own| own.scalar == scalar)
+        let mut variants = self.admitted.as_ref()?.variants.iter();
+        variants.find(|variant| variant.scalar == scalar)
     }
 
     /// Rounds the constants to a scalar; sines without polynomials are the library's.
@@ -71,11 +71,11 @@ impl GeneratedFunction {
 
     /// Returns its counts with the polynomials of its sines in a scalar.
     pub fn counts_in(&self, scalar: ScalarType) -> Counts {
-        let kernels = self.sines(scalar).iter().map(|own| &own.kernel);
+        let kernels = self.sines(scalar).iter().map(|sine| &sine.kernel);
         self.counts().with_kernels(kernels)
     }
 }
 
-fn say<const N: usize>(lines: &mut Vec<String>, own: [&str; N]) {
-    lines.extend(own.map(String::from));
+fn say<const N: usize>(lines: &mut Vec<String>, paragraph: [&str; N]) {
+    lines.extend(paragraph.map(String::from));
 }

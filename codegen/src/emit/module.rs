@@ -71,9 +71,9 @@ pub(crate) fn write(
     text
 }
 
-fn followed(own: &Follower, number: usize) -> String {
-    let by = decimal(&own.multiplier);
-    let offset = match &own.offset {
+fn followed(follower: &Follower, number: usize) -> String {
+    let by = decimal(&follower.multiplier);
+    let offset = match &follower.offset {
         Position::Angle(angle) => angle.to_string(),
         Position::Length(length) => decimal(length),
     };
@@ -140,15 +140,18 @@ pub(super) fn header(
     }
     for (row, joint) in robot.rows().into_iter().enumerate() {
         let mut followers = robot.followers.iter();
-        let own = followers.find(|own| own.row == row);
+        let follower = followers.find(|follower| follower.row == row);
         let number = robot.mover_of(row) + 1;
-        let label = match (own, &joint.name) {
+        let label = match (follower, &joint.name) {
             (Some(_), Some(name)) => format!("follows {number}: {}", escaped(name)),
             (Some(_), None) => format!("follows {number}"),
             (None, Some(name)) => format!("{number} {}", escaped(name)),
             (None, None) => number.to_string(),
         };
-        let q = own.map_or_else(|| format!("q{number}"), |own| followed(own, number));
+        let q = follower.map_or_else(
+            || format!("q{number}"),
+            |follower| followed(follower, number),
+        );
         let plus = |constant: String| match constant.as_str() {
             "0" => q.clone(),
             negative if negative.starts_with('-') => format!("{q} - {}", &negative[1..]),
@@ -193,9 +196,10 @@ pub(super) fn header(
         say(&mut lines, ["", why]);
     }
     let rows = (1..).zip(robot.rows());
-    let tilted = rows.filter(|(_, joint)| !joint.beta.is_zero());
-    let tilted = tilted.map(|(number, joint)| format!("{number} by {}", joint.beta));
-    let tilted: Vec<String> = tilted.collect();
+    let tilted: Vec<String> = rows
+        .filter(|(_, joint)| !joint.beta.is_zero())
+        .map(|(number, joint)| format!("{number} by {}", joint.beta))
+        .collect();
     if !tilted.is_empty() {
         let tilted = tilted.join(", joint ");
         let why = format!("After its twist each of these turns about y: joint {tilted}.");
@@ -239,19 +243,22 @@ fn table(functions: &[GeneratedFunction]) -> Vec<String> {
         ("sqrt", false, |counts| counts.sqrt),
         ("sincos", true, |counts| counts.sincos),
     ];
-    let has = |of: fn(&Counts) -> usize| functions.iter().any(|own| of(&own.counts()) > 0);
-    let shown = columns.iter().filter(|(_, always, of)| *always || has(*of));
-    let shown: Vec<&Column> = shown.collect();
+    let has =
+        |of: fn(&Counts) -> usize| functions.iter().any(|function| of(&function.counts()) > 0);
+    let shown: Vec<&Column> = columns
+        .iter()
+        .filter(|(_, always, of)| *always || has(*of))
+        .collect();
     let titles = shown.iter().map(|(title, ..)| format!(" {title} |"));
     let mut lines = vec![
         format!("| function |{} from |", titles.collect::<String>()),
         format!("|{}", "---|".repeat(shown.len() + 2)),
     ];
-    for own in functions {
-        let counts = own.counts();
+    for function in functions {
+        let counts = function.counts();
         let cells = shown.iter().map(|(.., of)| format!(" {} |", of(&counts)));
-        let (cells, source) = (cells.collect::<String>(), own.source.name());
-        lines.push(format!("| `{}` |{cells} {source} |", own.function));
+        let (cells, source) = (cells.collect::<String>(), function.source.name());
+        lines.push(format!("| `{}` |{cells} {source} |", function.function));
     }
     lines
 }
@@ -291,9 +298,9 @@ pub(super) fn function_doc(
     lines.extend(parameters::doc(generated.function, setup));
     lines.extend(said::sines(generated.sines(scalar), scalar));
     if let Some(admitted) = &generated.admitted
-        && let Some(own) = generated.variant(scalar)
+        && let Some(variant) = generated.variant(scalar)
     {
-        lines.extend(variant::describe(admitted, own, setup));
+        lines.extend(variant::describe(admitted, variant, setup));
     }
     lines
 }

@@ -15,7 +15,11 @@ pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
         Columns::None => return Vec::new(),
         Columns::Links | Columns::Base(_) => vec![String::new()],
     };
-    let is_placed = setup.robot().rows().iter().any(|own| own.frame.is_some());
+    let is_placed = setup
+        .robot()
+        .rows()
+        .iter()
+        .any(|joint| joint.frame.is_some());
     let whose = match is_placed {
         false => "its DH frame.",
         true => {
@@ -27,9 +31,9 @@ pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
         "m2 is the mass of link 2, mx2, my2 and mz2 its first moments, m x, m y and m z, Ixx2 to\n\
          Ixz2 the entries of its tensor, all about the origin and in the axes of {whose}"
     );
-    let named = named.lines().map(str::to_owned);
-    let is_drive =
-        |(own, _): &(Parameter, Exact)| !matches!(own, Parameter::Base(_) | Parameter::Link(..));
+    let is_drive = |(parameter, _): &(Parameter, Exact)| {
+        !matches!(parameter, Parameter::Base(_) | Parameter::Link(..))
+    };
     match over_base(function, setup) {
         Some(((sum, constant), base)) => {
             lines.push(format!(
@@ -46,7 +50,7 @@ pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
                 lines.push(format!("| {} | {name} |", index + 1));
             }
             lines.push(String::new());
-            lines.extend(named);
+            lines.extend(named.lines().map(str::to_owned));
             if base.combinations.iter().flatten().any(is_drive) {
                 let drives = [
                     "armature2 is the rotor's inertia that joint 2 feels, viscous2 its friction; they have",
@@ -74,7 +78,7 @@ pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
                 2
             };
             lines.push(format!("link {next}. Armature and {friction} have none."));
-            lines.extend(named);
+            lines.extend(named.lines().map(str::to_owned));
         }
     }
     lines

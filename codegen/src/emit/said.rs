@@ -12,7 +12,7 @@ pub(super) fn sines(sines: &[AngleKernel], scalar: ScalarType) -> Vec<String> {
     if sines.is_empty() {
         return Vec::new();
     }
-    let counts = Counts::default().with_kernels(sines.iter().map(|own| &own.kernel));
+    let counts = Counts::default().with_kernels(sines.iter().map(|sine| &sine.kernel));
     let (mul, add) = (counts.trig_mul, counts.trig_add);
     let what =
         format!("Sines and cosines are polynomials, {mul} mul, {add} add, with proved errors:");
@@ -71,16 +71,17 @@ pub(super) fn friction(generated: &GeneratedFunction, setup: &Setup) -> Vec<Stri
 /// Says what the loops of the text are.
 pub(super) fn lanes(program: &Program) -> Vec<String> {
     let loops = program.loops.iter();
-    let each = loops.map(|own| format!("{} lanes of {} operations", own.lanes, own.rows));
-    let each: Vec<String> = each.collect();
-    if each.is_empty() {
+    let shapes: Vec<String> = loops
+        .map(|block| format!("{} lanes of {} operations", block.lanes, block.rows))
+        .collect();
+    if shapes.is_empty() {
         return Vec::new();
     }
     let lines = [
         String::new(),
         format!(
             "Limbs of one structure are lanes of loops: {}. A compiler",
-            each.join(", ")
+            shapes.join(", ")
         ),
         "makes vectors of them, with the bits of their operations one after the other.".to_owned(),
     ];

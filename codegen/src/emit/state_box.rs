@@ -34,7 +34,7 @@ impl StateBox {
             (argument, column)
         });
         let is_bounded =
-            |own: &(Argument, Vec<Option<Interval>>)| own.1.iter().any(Option::is_some);
+            |column: &(Argument, Vec<Option<Interval>>)| column.1.iter().any(Option::is_some);
         let columns: Vec<_> = columns.filter(is_bounded).collect();
         (!columns.is_empty()).then_some(StateBox { columns })
     }
@@ -126,7 +126,7 @@ fn bound(
     scalar: ScalarType,
 ) {
     if generated.admitted.is_some() {
-        let reads = |own: &&Variant| own.emitted.arguments.contains(&argument);
+        let reads = |variant: &&Variant| variant.emitted.arguments.contains(&argument);
         let Some(variant) = generated.variant(scalar).filter(reads) else {
             return;
         };

@@ -29,9 +29,11 @@ pub(super) fn describe(admitted: &VariantSet, variant: &Variant, setup: &Setup) 
     lines.push(String::new());
     lines.push(match admitted.is_other() {
         true => {
-            let [own, exact] =
-                [&variant.emitted, &admitted.exact].map(|own| own.counts().operations());
-            format!("It has {own} operations, without its sines; the full model has {exact}.")
+            let [operations, exact] =
+                [&variant.emitted, &admitted.exact].map(|program| program.counts().operations());
+            format!(
+                "It has {operations} operations, without its sines; the full model has {exact}."
+            )
         }
         false => "Nothing was left out.".into(),
     });
@@ -46,8 +48,9 @@ fn bounds(variant: &Variant, setup: &Setup) -> Vec<String> {
     ];
     let bounds = variant.bounds.iter().zip(&variant.scales);
     for (index, ((bound, scale), unit)) in bounds.zip(units).enumerate() {
-        let errors = [bound.total(), bound.real, bound.rounding].map(up);
-        let errors = errors.join(" | ");
+        let errors = [bound.total(), bound.real, bound.rounding]
+            .map(up)
+            .join(" | ");
         let (entry, scale) = (variant.emitted.entry(index), at_least(*scale));
         lines.push(format!("| {entry} | {scale} {unit} | {errors} |"));
     }
@@ -70,7 +73,7 @@ fn states(variant: &Variant, setup: &Setup) -> Vec<String> {
     let limits = &variant.limits;
     let arguments = variant.emitted.arguments.iter();
     let columns: Vec<Argument> = arguments
-        .filter(|own| Argument::STATE.contains(own))
+        .filter(|argument| Argument::STATE.contains(argument))
         .copied()
         .collect();
     let columns = &columns;
@@ -139,8 +142,11 @@ fn sentences(relative_to: Scale, quantities: &[Quantity]) -> Vec<String> {
 fn actuators(quantities: &[Quantity]) -> Vec<String> {
     let has = |scale| quantities.iter().any(|q| q.facts().scale == scale);
     let is_load = |q: &&Quantity| q.facts().scale == ErrorScale::Load;
-    let loads = quantities.iter().filter(is_load);
-    let loads: Vec<&str> = loads.map(|quantity| quantity.symbol()).collect();
+    let loads: Vec<&str> = quantities
+        .iter()
+        .filter(is_load)
+        .map(|quantity| quantity.symbol())
+        .collect();
     let mut lines = Vec::new();
     if !loads.is_empty() {
         let what = "is T_i, the torque limit of the joint's actuator.";
@@ -194,8 +200,8 @@ mod tests {
         let equation = of(Function::ManipulatorEquation);
         assert_eq!(equation, "kg·m² kg·m kg·m kg N·m N N·m N");
         let symbols = "kg·m² kg·m kg·m kg kg·m kg kg kg/m";
-        let all = of(Function::DynamicCoefficients);
-        assert_eq!(all, format!("kg·m² kg·m kg·m kg {symbols} N·m N"));
+        let coefficients = of(Function::DynamicCoefficients);
+        assert_eq!(coefficients, format!("kg·m² kg·m kg·m kg {symbols} N·m N"));
     }
 
     #[test]

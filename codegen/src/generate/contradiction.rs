@@ -79,9 +79,14 @@ fn tolerated(
         let drawn = claim.draw(loading.as_ref(), &mut random);
         let state = held(&drawn, scalar, &claim.limits);
         let truth = reference.run(generated.function, &state);
-        let results = emitted.run(&state).into_iter();
-        let results = results.chain(std::iter::repeat(f64::NAN));
-        let errors = truth.iter().zip(results).map(|(own, x)| own.error(x));
+        let results = emitted
+            .run(&state)
+            .into_iter()
+            .chain(std::iter::repeat(f64::NAN));
+        let errors = truth
+            .iter()
+            .zip(results)
+            .map(|(true_value, x)| true_value.error(x));
         let mut both = errors.zip(claim.errors()).enumerate();
         if let Some((index, (error, bound))) = both.find(|(_, (error, bound))| error > bound) {
             let why = format!("its bound is {bound:.3e}");

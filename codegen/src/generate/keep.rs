@@ -21,7 +21,7 @@ pub struct PlanUpdate {
     pub plan: Plan,
     /// Functions for which the plan keeps its program: a search that was ended early had
     /// found none that is cheaper.
-    pub own: Vec<(Function, ScalarType)>,
+    pub functions: Vec<(Function, ScalarType)>,
 }
 
 /// Returns the plan with the programs of a run in it. Those of other requests for the same robot
@@ -38,13 +38,13 @@ pub fn keep(
         input,
         entries: Vec::new(),
     });
-    let mut own = Vec::new();
+    let mut plan_functions = Vec::new();
     let functions = generated.functions.iter();
     // A load is its definition: nobody searches for that.
     for function in functions.filter(|generated| generated.function != Function::Load) {
         let admitted = function.admitted.as_ref();
         // The proved program: what a tolerance was applied to.
-        let found = function.found.as_ref().unwrap_or(&function.program);
+        let program = function.found.as_ref().unwrap_or(&function.program);
         for &scalar in &generated.scalars {
             let entry = Entry {
                 start: request.start,
@@ -53,7 +53,7 @@ pub fn keep(
                 passes: function.passes.clone(),
                 scene: request.scene.as_ref().map(SceneKey::new),
                 parameters: function.parameters.clone(),
-                program: admitted.map_or(found, |admitted| &admitted.exact).clone(),
+                program: admitted.map_or(program, |admitted| &admitted.exact).clone(),
                 edited: admitted.map(|admitted| admitted.program.clone()),
             };
             let (name, scene) = (function.function, request.scene.as_ref());
@@ -65,14 +65,17 @@ pub fn keep(
                     && price(&emitted(other).counts()) <= price(&emitted(&entry).counts())
             };
             if generated.ended && other.as_ref().is_some_and(as_good) {
-                own.push((name, scalar));
+                plan_functions.push((name, scalar));
             } else if other.as_ref() != Some(&entry) {
                 // A bundle may be there by another name.
                 plan.insert(entry);
             }
         }
     }
-    PlanUpdate { plan, own }
+    PlanUpdate {
+        plan,
+        functions: plan_functions,
+    }
 }
 
 fn emitted(entry: &Entry) -> &Program {
@@ -94,14 +97,14 @@ pub fn claim(
     let setup = &request.setup(robot)?;
     let name = request.module_name(robot);
     let mut constants = ConstantTable::default();
-    let functions = generated.functions.iter().map(|own| {
+    let functions = generated.functions.iter().map(|function| {
         // A header of the same functions has the same claim.
-        let symbol = |&scalar| Names::new(&name, Language::C, scalar).of(own.function.name());
+        let symbol = |&scalar| Names::new(&name, Language::C, scalar).of(function.function.name());
         FunctionClaim {
             symbols: ScalarType::ALL.iter().map(symbol).collect(),
-            tolerated: (own.admitted.as_ref())
-                .and_then(|own| tolerated(own.variants.first()?, &mut constants)),
-            ..of_setup(&own.program, setup, &mut constants)
+            tolerated: (function.admitted.as_ref())
+                .and_then(|variant_set| tolerated(variant_set.variants.first()?, &mut constants)),
+            ..of_setup(&function.program, setup, &mut constants)
         }
     });
     let functions = functions.collect();

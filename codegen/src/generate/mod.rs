@@ -163,16 +163,16 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<GeneratedCode, Gener
         }
     }
     let in_scalar = |&scalar: &ScalarType| {
-        let code = |own: &GeneratedFunction| own.code(scalar, request.library());
+        let code = |function: &GeneratedFunction| function.code(scalar, request.library());
         (scalar, functions.iter().map(code).collect::<Vec<Code>>())
     };
     let codes: Vec<(ScalarType, Vec<Code>)> = scalars.iter().map(in_scalar).collect();
     let texts = match request.language {
         Language::Rust => {
-            let own = |(scalar, codes): &(ScalarType, Vec<Code>)| {
+            let module_text = |(scalar, codes): &(ScalarType, Vec<Code>)| {
                 module::write(job, &functions, codes, *scalar)
             };
-            codes.iter().map(own).collect()
+            codes.iter().map(module_text).collect()
         }
         Language::C | Language::Cuda => {
             let note = without_single.as_deref();
@@ -263,8 +263,12 @@ fn check(robot: &Robot, setup: &Setup, request: &Request) -> Outcome<()> {
 
 fn check_frames(robot: &Robot, setup: &Setup, function: Function) -> Outcome<()> {
     let scene = setup.scene().filter(|scene| scene.lock_base);
-    let of_base = robot.frames.iter().filter(|frame| frame.row.is_none());
-    let of_base: Vec<&str> = of_base.map(|frame| frame.name.as_str()).collect();
+    let of_base: Vec<&str> = robot
+        .frames
+        .iter()
+        .filter(|frame| frame.row.is_none())
+        .map(|frame| frame.name.as_str())
+        .collect();
     let frames = function.frames();
     if let Some(scene) = scene
         && let Some(frame) = frames.iter().find(|frame| of_base.contains(frame))
@@ -343,7 +347,7 @@ fn functions(job: &Job<'_>) -> Outcome<SearchResult> {
     cheapest.prefer = Prefer::Operations;
     match attempt(&job.with(&cheapest)) {
         Err(GenerateError::Tolerance(_, ToleranceError::Above(_))) => attempt(job),
-        found => found,
+        outcome => outcome,
     }
 }
 
@@ -353,13 +357,15 @@ fn attempt(job: &Job<'_>) -> Outcome<SearchResult> {
         functions.insert(0, Function::Load);
     }
     let proved = |function: &Function| proved(job, *function);
-    let found: Result<Vec<_>, _> = match job.request.effort {
+    let outcome: Result<Vec<_>, _> = match job.request.effort {
         Effort::Quick => parallel::each(&functions, proved).into_iter().collect(),
         // One function at a time, so that progress can be shown for each.
         Effort::Thorough => functions.iter().map(proved).collect(),
     };
-    let mut functions = found?;
-    let has_lanes = functions.iter().any(|own| !own.program.loops.is_empty());
+    let mut functions = outcome?;
+    let has_lanes = functions
+        .iter()
+        .any(|function| !function.program.loops.is_empty());
     if job.request.limbs == LimbLayout::Lanes && !has_lanes {
         let message = "`limbs: lanes`: no function has lanes: torques, D, accelerations and slopes have, of limbs \
                        with the same joints whose numbers are zero in the same places";
@@ -372,8 +378,9 @@ fn attempt(job: &Job<'_>) -> Outcome<SearchResult> {
 
 fn proved(job: &Job<'_>, function: Function) -> Outcome<GeneratedFunction> {
     let setup = job.setup;
-    let base = setup.base_of(function);
-    let base = base.map_err(|why| GenerateError::Base(function, why.clone()))?;
+    let base = setup
+        .base_of(function)
+        .map_err(|why| GenerateError::Base(function, why.clone()))?;
     let outputs = function.outputs(setup.sizes(function));
     if outputs > MAX_OUTPUTS {
         let message = format!("`{function}` would return {outputs} numbers");
@@ -420,7 +427,7 @@ fn proved(job: &Job<'_>, function: Function) -> Outcome<GeneratedFunction> {
         Some(_) => program.clone(),
         None => job.finished(&program),
     };
-    let (program, found) = match finished == program {
+    let (program, original) = match finished == program {
         true => (program, None),
         false => (finished, Some(program)),
     };
@@ -441,7 +448,7 @@ fn proved(job: &Job<'_>, function: Function) -> Outcome<GeneratedFunction> {
         planned,
         sines: Vec::new(),
         program,
-        found,
+        found: original,
         passes,
         proof,
         refused,
@@ -473,8 +480,8 @@ fn read_back(
     let signature = Signature::of(&generated.program, scalar);
     let names = Names::new(&request.module_name(job.robot), request.language, scalar);
     let has_many = request.batch && columns::are_there(signature.function, request.language);
-    let read = Code::read(text, &signature, &names, has_many);
-    let read = read.map_err(|error| fail(error.to_string()))?;
+    let read =
+        Code::read(text, &signature, &names, has_many).map_err(|error| fail(error.to_string()))?;
     if let Some(difference) = read.difference(code) {
         return Err(fail(difference.to_string()));
     }

@@ -21,8 +21,9 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
     let floats = job.setup.robot().floating.is_some();
     if job.tolerance().is_some() {
         let mut others = request.parameters.iter();
-        let is_other =
-            |own: &&RuntimeParameter| own.given().is_some() && **own != RuntimeParameter::Payload;
+        let is_other = |parameter: &&RuntimeParameter| {
+            parameter.given().is_some() && **parameter != RuntimeParameter::Payload
+        };
         if let Some(other) = others.find(is_other) {
             let message = format!(
                 "a tolerance bounds functions over a box, and `{}` has none",
@@ -33,10 +34,13 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
         }
         let mut functions = request.functions.iter();
         let taking = functions.find_map(|&function| {
-            let taken = request.parameters.iter();
-            let mut taken = taken.filter(|parameter| function.depends_on(**parameter));
-            let argument =
-                taken.find_map(|own| Some(own.argument()).filter(|own| !is_bounded(*own, floats)));
+            let mut taken = request
+                .parameters
+                .iter()
+                .filter(|parameter| function.depends_on(**parameter));
+            let argument = taken.find_map(|parameter| {
+                Some(parameter.argument()).filter(|argument| !is_bounded(*argument, floats))
+            });
             Some((function, argument?))
         });
         if let Some((function, argument)) = taking {
@@ -65,8 +69,9 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
         let help = "leave `formulation` out";
         return Err(refused(None, message, help));
     }
-    let of_bodies = [RuntimeParameter::Payload, RuntimeParameter::Bodies];
-    let mut of_bodies = of_bodies.into_iter().filter(|own| setup.has(*own));
+    let mut of_bodies = [RuntimeParameter::Payload, RuntimeParameter::Bodies]
+        .into_iter()
+        .filter(|parameter| setup.has(*parameter));
     let mut functions = request.functions.iter();
     if let (Some(&function), Some(parameter)) = (
         functions.find(|function| function.payload_dependence() == PayloadDependence::Full),

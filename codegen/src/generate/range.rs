@@ -36,7 +36,8 @@ pub(super) fn leave_out_single(
         return None;
     }
     let mut functions = functions.iter();
-    let why = functions.find_map(|own| check_constants(&own.program, ScalarType::F32).err())?;
+    let why =
+        functions.find_map(|function| check_constants(&function.program, ScalarType::F32).err())?;
     scalars.retain(|scalar| *scalar == ScalarType::F64);
     Some(format!(
         "{}: only f64 is generated; choose other units for both",

@@ -28,25 +28,25 @@ pub fn replay(job: &Job<'_>, plan: Option<&Plan>, function: Function) -> Outcome
     let scene = setup.scene();
     let parameters = ParametersKey::find(setup.task(function));
     let find = |scene| {
-        let found = |&scalar: &ScalarType| {
+        let in_scalar = |&scalar: &ScalarType| {
             plan.find(function, request.start, scalar, scene, parameters.as_ref())
         };
         // Of other numbers of the load it is the program of another function.
         let same = |entry: &Entry| entry.parameters == parameters;
-        request.scalars.iter().find_map(found).filter(same)
+        request.scalars.iter().find_map(in_scalar).filter(same)
     };
-    let found = find(scene);
+    let plan_entry = find(scene);
     // A box or a tolerance by itself leaves the equations as they are.
-    if found.is_none() && setup.has_whole_model() {
+    if plan_entry.is_none() && setup.has_whole_model() {
         return Ok(find(None));
     }
     // A program of the scene as it was is a program of another scene.
-    if let (Some(entry), Some(scene)) = (&found, scene)
+    if let (Some(entry), Some(scene)) = (&plan_entry, scene)
         && entry.scene != Some(SceneKey::new(scene))
     {
         return Err(GenerateError::stale_scene(&scene.name));
     }
-    Ok(found)
+    Ok(plan_entry)
 }
 
 /// A program with where it comes from, its counts on the way, and what would be cheaper.
@@ -103,17 +103,17 @@ impl<'a> Search<'a> {
 
     /// Goes on from the program that is renewed, which stays unless there is a cheaper one.
     fn apart(&self) -> Result<Origin, GenerateError> {
-        let mut found = self.cheapest()?;
+        let mut result = self.cheapest()?;
         if let Some((entry, program)) = self.renewed() {
-            let again = self.on_from(&entry, &program, &found);
-            if let Some(again) = again.filter(|own| own.cost() < found.cost()) {
-                found = again;
+            let again = self.on_from(&entry, &program, &result);
+            if let Some(again) = again.filter(|rerun| rerun.cost() < result.cost()) {
+                result = again;
             }
-            if search::cost(&program.dag) <= found.cost() {
+            if search::cost(&program.dag) <= result.cost() {
                 return Ok((entry.source, entry.passes, program, None));
             }
         }
-        let (seed, searched) = (found.seed(), &found.searched);
+        let (seed, searched) = (result.seed(), &result.searched);
         let program = self.task.program(&searched.graph);
         let counts = [
             seed.traced,
@@ -121,9 +121,11 @@ impl<'a> Search<'a> {
             searched.start.counts(),
             program.counts(),
         ];
-        let passes = Pass::NAMES.into_iter().zip(counts);
-        let passes = passes.map(|(name, counts)| Pass { name, counts });
-        Ok((seed.source, passes.collect(), program, found.refused))
+        let passes = Pass::NAMES
+            .into_iter()
+            .zip(counts)
+            .map(|(name, counts)| Pass { name, counts });
+        Ok((seed.source, passes.collect(), program, result.refused))
     }
 
     fn cheapest(&self) -> Result<SearchResult, GenerateError> {
@@ -144,23 +146,24 @@ impl<'a> Search<'a> {
             return Ok(quick);
         }
         tell(Part::Formulations, Some(quick.searched.graph.counts()));
-        let mut found = self.run(Effort::Thorough, true, &[], watch)?;
-        if self.order(&found) > self.order(&quick) {
-            found = quick;
+        let mut result = self.run(Effort::Thorough, true, &[], watch)?;
+        if self.order(&result) > self.order(&quick) {
+            result = quick;
         } else {
-            let again = |own: RefusedProgram| self.refused(own.counts, own.error, &found);
-            found.refused = quick.refused.and_then(again);
+            let again =
+                |refusal: RefusedProgram| self.refused(refusal.counts, refusal.error, &result);
+            result.refused = quick.refused.and_then(again);
         }
-        tell(Part::Proof, Some(found.searched.graph.counts()));
-        Ok(found)
+        tell(Part::Proof, Some(result.searched.graph.counts()));
+        Ok(result)
     }
 
-    fn accepts(&self, found: &SearchResult) -> bool {
-        self.judge.accepts(&found.searched.graph)
+    fn accepts(&self, result: &SearchResult) -> bool {
+        self.judge.accepts(&result.searched.graph)
     }
 
-    fn order(&self, found: &SearchResult) -> (bool, u64) {
-        (!self.accepts(found), found.cost())
+    fn order(&self, result: &SearchResult) -> (bool, u64) {
+        (!self.accepts(result), result.cost())
     }
 
     fn renewed(&self) -> Option<(Entry, Program)> {
@@ -180,16 +183,16 @@ impl<'a> Search<'a> {
         &self,
         entry: &Entry,
         program: &Program,
-        found: &SearchResult,
+        result: &SearchResult,
     ) -> Option<SearchResult> {
         let again = Approach {
-            tuned: found.tuned.clone(),
+            tuned: result.tuned.clone(),
             seeds: vec![Seed {
                 source: entry.source,
                 traced: entry.passes.first()?.counts,
                 graph: program.dag.clone(),
             }],
-            helpers: vec![found.searched.graph.clone()],
+            helpers: vec![result.searched.graph.clone()],
         };
         let watch = self.job.request.watch.over(self.task.function);
         self.search_from(again, self.job.request.effort, true, watch)
@@ -213,31 +216,33 @@ impl<'a> Search<'a> {
             helpers: Vec::new(),
         };
         let again = |from| self.search_from(from, Effort::Quick, true, watch);
-        let mut found = again(same);
-        let is_near = |found: &SearchResult| {
+        let mut candidate = again(same);
+        let is_near = |result: &SearchResult| {
             let most = free.cost() + free.cost() / NEAR;
-            found.cost() <= most && self.accepts(found)
+            result.cost() <= most && self.accepts(result)
         };
-        if !found.as_ref().is_some_and(is_near) {
+        if !candidate.as_ref().is_some_and(is_near) {
             let tuned = free.tuned.iter();
             let from: Vec<Regrouping<Exact>> = tuned.map(|t| t.regrouping.clone()).collect();
             let other = self.run(Effort::Quick, true, &from, watch)?;
-            let both = found.into_iter().chain([other]);
-            found = both.min_by_key(|found| self.order(found));
+            let both = candidate.into_iter().chain([other]);
+            candidate = both.min_by_key(|result| self.order(result));
         }
-        let mut found = found.ok_or_else(GenerateError::empty)?;
-        if !self.accepts(&found) {
+        let mut result = candidate.ok_or_else(GenerateError::empty)?;
+        if !self.accepts(&result) {
             // All that share parameters lose digits, as beside a heavy rotor: the textbook's does not.
             let textbook = Start::textbook(self.task).and_then(again);
-            found = textbook.filter(|own| self.accepts(own)).unwrap_or(found);
+            result = textbook
+                .filter(|textbook| self.accepts(textbook))
+                .unwrap_or(result);
         }
         // The limit holds for every result: what breaks it for one may be cheaper and have no
         // larger largest error than what keeps it for all.
-        if free.cost() <= found.cost() && error <= self.judge.error(&found.searched.graph) {
+        if free.cost() <= result.cost() && error <= self.judge.error(&result.searched.graph) {
             return Ok(free);
         }
-        found.refused = self.refused(graph.counts(), error, &found);
-        Ok(found)
+        result.refused = self.refused(graph.counts(), error, &result);
+        Ok(result)
     }
 
     fn refused(&self, counts: Counts, error: f64, taken: &SearchResult) -> Option<RefusedProgram> {
@@ -268,9 +273,9 @@ impl<'a> Search<'a> {
         };
         let search = |approach| self.search_from(approach, effort, limited, watch);
         let approaches = self.job.request.start.approaches(&problem).into_iter();
-        let order = |found: &SearchResult| (limited && !self.accepts(found), found.cost());
-        let found = approaches.filter_map(search).min_by_key(order);
-        found.ok_or_else(GenerateError::empty)
+        let order = |result: &SearchResult| (limited && !self.accepts(result), result.cost());
+        let result = approaches.filter_map(search).min_by_key(order);
+        result.ok_or_else(GenerateError::empty)
     }
 
     fn search_from(

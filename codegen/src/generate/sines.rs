@@ -59,9 +59,9 @@ fn polynomials(
     error: f64,
 ) -> Result<Vec<Sines>, (Function, OutOfReach)> {
     let positions = sincos::positions(setup.robot(), scalar);
-    let sines = |own: &GeneratedFunction| {
-        let sines = sincos::polynomials(&own.program, scalar, &positions, error);
-        sines.map_err(|miss| (own.function, miss))
+    let sines = |function: &GeneratedFunction| {
+        let sines = sincos::polynomials(&function.program, scalar, &positions, error);
+        sines.map_err(|miss| (function.function, miss))
     };
     functions.iter().map(sines).collect()
 }
@@ -79,7 +79,7 @@ fn check_inertia(
     if !spoil_inertia(setup, &generated.program, sines) {
         return Ok(());
     }
-    let errors = sines.iter().map(|own| own.errors.worst());
+    let errors = sines.iter().map(|sine| sine.errors.worst());
     let worst = bound_of(errors.fold(0.0, f64::max), 2);
     let message = format!(
         "with {scalar} sines that err by up to {worst}, D cannot be shown to be positive definite \

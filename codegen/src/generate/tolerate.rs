@@ -23,21 +23,29 @@ pub(super) fn tolerate(
 ) -> Result<Vec<ScalarType>, GenerateError> {
     let (loads, functions): (Vec<_>, Vec<_>) = functions
         .iter_mut()
-        .partition(|own| own.function == Function::Load);
+        .partition(|function| function.function == Function::Load);
     let programs: Vec<&Program> = functions.iter().map(|f| &f.program).collect();
-    let load = loads.first().map(|own| &own.program);
-    let Some(all) = admitted(job, &programs, load)? else {
+    let load = loads.first().map(|load| &load.program);
+    let Some(variant_sets) = admitted(job, &programs, load)? else {
         return Ok(job.request.scalars.clone());
     };
     for load in loads {
         load.program = job.finished(&load.program);
     }
-    let variants = all.first().map_or(&[][..], |own| &own.variants).iter();
+    let variants = variant_sets
+        .first()
+        .map_or(&[][..], |variant_set| &variant_set.variants)
+        .iter();
     let scalars = variants.map(|variant| variant.scalar).collect();
-    for (function, admitted) in functions.into_iter().zip(all) {
+    for (function, admitted) in functions.into_iter().zip(variant_sets) {
         function.program = job.finished(&admitted.program);
-        let sines = admitted.variants.iter().filter(|own| !own.sines.is_empty());
-        function.sines = sines.map(|own| (own.scalar, own.sines.clone())).collect();
+        let sines = admitted
+            .variants
+            .iter()
+            .filter(|variant| !variant.sines.is_empty());
+        function.sines = sines
+            .map(|variant| (variant.scalar, variant.sines.clone()))
+            .collect();
         function.admitted = Some(admitted);
     }
     Ok(scalars)
@@ -68,8 +76,8 @@ pub fn admitted(
     }
     let mut budgets = Vec::new();
     for program in programs {
-        let budget = Budget::new(job.setup, program, load, tolerance.relative_to);
-        let budget = budget.map_err(|why| GenerateError::Tolerance(program.function, why))?;
+        let budget = Budget::new(job.setup, program, load, tolerance.relative_to)
+            .map_err(|why| GenerateError::Tolerance(program.function, why))?;
         budgets.push(budget.emitting(request.library(), request.fma));
     }
     let meter = Meter::new(request.work);
@@ -152,9 +160,10 @@ fn usable(
     if rest.iter().any(|other| other != first) {
         return Ok(None);
     }
-    let found = budget.planned(first, scalars, allowed);
-    let found = found.map_err(|refuted| GenerateError::Variant(function, refuted))?;
-    Ok(found.ok())
+    let outcome = budget
+        .planned(first, scalars, allowed)
+        .map_err(|refuted| GenerateError::Variant(function, refuted))?;
+    Ok(outcome.ok())
 }
 
 fn chosen(
@@ -181,12 +190,12 @@ fn chosen(
     let mut admitted = match start {
         Start::Planned(planned) => planned,
         Start::Exact(exact) => {
-            let found = budget.choose(&[], exact, allowed, &effort, watch);
-            found.map_err(fail)?
+            let choice = budget.choose(&[], exact, allowed, &effort, watch);
+            choice.map_err(fail)?
         }
     };
     let with = |admitted: &VariantSet| -> Result<Vec<Variant>, Complaint> {
-        let with = |own| budget.with_polynomials(&admitted.program, own, allowed);
+        let with = |variant| budget.with_polynomials(&admitted.program, variant, allowed);
         admitted.variants.iter().map(with).collect()
     };
     match request.sincos {
@@ -197,14 +206,14 @@ fn chosen(
             }
         }
         SinCos::Polynomial => {
-            let mut found = with(&admitted);
+            let mut variants = with(&admitted);
             // What was left out may have used up what polynomials need.
-            if found.is_err() {
+            if variants.is_err() {
                 let exact = budget.unedited(scalars, allowed);
                 admitted = exact.map_err(fail)?;
-                found = with(&admitted);
+                variants = with(&admitted);
             }
-            admitted.variants = found.map_err(|why| {
+            admitted.variants = variants.map_err(|why| {
                 let message = format!("no polynomials for its sines within the tolerance: {why}");
                 let wider = match scalars.contains(&ScalarType::F32) {
                     true => ", `scalar: f64`",

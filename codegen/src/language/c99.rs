@@ -59,8 +59,11 @@ pub(crate) fn structure_name(function: Function, names: &Names) -> String {
 }
 
 pub(crate) fn shaped(quantity: Quantity, sizes: Sizes) -> String {
-    let lengths = quantity.shape().lengths(sizes);
-    let lengths: Vec<String> = lengths.map(|length| format!("[{length}]")).collect();
+    let lengths: Vec<String> = quantity
+        .shape()
+        .lengths(sizes)
+        .map(|length| format!("[{length}]"))
+        .collect();
     let is_matrix = lengths.len() > 1;
     let rows = if is_matrix { ", row by row" } else { "" };
     let (field, summary) = (quantity.field(), quantity.facts().summary);
@@ -148,7 +151,7 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
         }
         let kernel = pair.kernel.as_ref();
         let prefix = format!("x{}_", joint + 1);
-        let lines = kernel.map(|own| Lines::of_kernel(dialect, own, &argument, &prefix));
+        let lines = kernel.map(|kernel| Lines::of_kernel(dialect, kernel, &argument, &prefix));
         if let Some(lines) = &lines {
             lines.statements().for_each(|statement| line(&statement));
         }
@@ -164,7 +167,10 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
         }
     }
     if let Some(called) = &called {
-        called.lines(names).iter().for_each(|own| line(own));
+        called
+            .lines(names)
+            .iter()
+            .for_each(|statement| line(statement));
         for pair in by_call {
             for (name, is_sine) in taken(pair) {
                 let value = called.value(pair.joint, is_sine).unwrap_or_default();
@@ -181,20 +187,24 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
                 let statements = ids.iter().filter_map(|id| lines.statement(*id));
                 statements.for_each(|statement| line(&statement));
             }
-            Piece::Lanes(own) => {
+            Piece::Lanes(block) => {
                 // clang would carry values from lane to lane in registers, and make no vectors.
                 let is_forgotten = has_vectors(code, names);
                 let forget = |array: &Option<String>| {
                     let array = array.as_ref().filter(|_| is_forgotten);
                     array.map(|array| format!("{}({array});", names.constant("FORGET")))
                 };
-                own.before.iter().for_each(|own| line(own));
-                forget(&own.read).iter().for_each(|own| line(own));
-                line(&own.head);
-                let rows = own.rows.iter().flat_map(|(_, lines)| lines);
-                rows.for_each(|own| line(&format!("    {own}")));
+                block.before.iter().for_each(|statement| line(statement));
+                forget(&block.read)
+                    .iter()
+                    .for_each(|statement| line(statement));
+                line(&block.head);
+                let rows = block.rows.iter().flat_map(|(_, lines)| lines);
+                rows.for_each(|statement| line(&format!("    {statement}")));
                 line("}");
-                forget(&own.written).iter().for_each(|own| line(own));
+                forget(&block.written)
+                    .iter()
+                    .for_each(|statement| line(statement));
             }
         }
     }

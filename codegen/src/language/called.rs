@@ -34,17 +34,17 @@ impl SineCall {
     }
 
     /// An even number, if that takes one joint more at the most, since vectors hold two or four.
-    fn neighbours(own: &[usize], joints: usize) -> Option<SineCall> {
-        let (mut first, mut last) = (*own.iter().min()?, *own.iter().max()?);
+    fn neighbours(angles: &[usize], joints: usize) -> Option<SineCall> {
+        let (mut first, mut last) = (*angles.iter().min()?, *angles.iter().max()?);
         let is_odd = |count: usize| count > 1 && count % 2 == 1;
-        if own.len() == last + 1 - first && is_odd(own.len()) {
+        if angles.len() == last + 1 - first && is_odd(angles.len()) {
             match first {
                 0 => last = (last + 1).min(joints - 1),
                 _ => first -= 1,
             }
         }
         let count = last + 1 - first;
-        let is_near = count == own.len() || count == own.len() + 1 && is_odd(own.len());
+        let is_near = count == angles.len() || count == angles.len() + 1 && is_odd(angles.len());
         is_near.then(|| SineCall {
             first: Some(first),
             angles: (first..=last).collect(),
@@ -58,22 +58,22 @@ impl SineCall {
     pub(super) fn lines(&self, names: &Names) -> Vec<String> {
         let (float, count) = (float(names.dialect().scalar), self.angles.len());
         let mut lines = Vec::new();
-        let given = match self.first {
+        let argument = match self.first {
             Some(joint) => format!("&q[{joint}]"),
             None => {
-                let angles = list(self.angles.iter().map(|&own| trig::operand(own)));
+                let angles = list(self.angles.iter().map(|&angle| trig::operand(angle)));
                 lines.push(format!("const {float} angles[{count}] = {{{angles}}};"));
                 "angles".to_owned()
             }
         };
         lines.extend(["sines", "cosines"].map(|array| format!("{float} {array}[{count}];")));
         let name = SineCall::name(count, names);
-        lines.push(format!("{name}({given}, sines, cosines);"));
+        lines.push(format!("{name}({argument}, sines, cosines);"));
         lines
     }
 
     pub(super) fn value(&self, joint: usize, is_sine: bool) -> Option<String> {
-        let place = self.angles.iter().position(|own| *own == joint)?;
+        let place = self.angles.iter().position(|angle| *angle == joint)?;
         let array = if is_sine { "sines" } else { "cosines" };
         Some(format!("{array}[{place}]"))
     }

@@ -40,9 +40,9 @@ pub(crate) fn columns(program: &Program, code: &Code) -> String {
     let name = program.function.name();
     let kind = format!("{}Batch", program.function.camel());
     let scalar = code.scalar;
-    let (given, results) = (entries(program), code.dag.outputs.len());
+    let (inputs, results) = (entries(program), code.dag.outputs.len());
     let taken = trig::taken(code).count();
-    let sizes = format!("{given}, {results}, {taken}");
+    let sizes = format!("{inputs}, {results}, {taken}");
     let bits = match fuses_sines(code) {
         false => {
             "/// the processor has; bit for bit the results that each has alone, or a NaN for a NaN.".to_owned()
@@ -81,8 +81,12 @@ pub(crate) fn columns(program: &Program, code: &Code) -> String {
             true => format!("dalembert_batch::Argument::Rows(&{})", argument.name()),
             false => format!("dalembert_batch::Argument::Columns({})", argument.name()),
         });
-    let rows = program.arguments.iter().filter(|own| in_rows(own));
-    let rows: usize = rows.map(|own| own.length(program.sizes())).sum();
+    let rows: usize = program
+        .arguments
+        .iter()
+        .filter(|argument| in_rows(argument))
+        .map(|argument| argument.length(program.sizes()))
+        .sum();
     let of_rows = if rows > 0 {
         "\n/// Slices of `Load` or `Gravity` have one element a state, or one for all states."
     } else {
@@ -105,7 +109,9 @@ pub(crate) fn columns(program: &Program, code: &Code) -> String {
 /// Returns the number of entries of all arguments.
 fn entries(program: &Program) -> usize {
     let arguments = program.arguments.iter();
-    arguments.map(|own| own.length(program.sizes())).sum()
+    arguments
+        .map(|argument| argument.length(program.sizes()))
+        .sum()
 }
 
 fn fuses_sines(code: &Code) -> bool {
@@ -191,10 +197,10 @@ impl Columns {
             if argument == Argument::Load {
                 let kind = argument_structure(argument, names).unwrap_or_default();
                 let one = list((0..length).map(|index| format!("load[{index}]")));
-                let each = (0..length).map(|index| format!("load[{}]", entry(index, of_load)));
+                let per_state = (0..length).map(|index| format!("load[{}]", entry(index, of_load)));
                 let declared =
                     |entries| format!("        const {kind} load_s[1] = {{{{{{{entries}}}}}}};\n");
-                load = Some([one, list(each)].map(declared));
+                load = Some([one, list(per_state)].map(declared));
                 parameters.push("const size_t loads".to_owned());
                 parameters.push(format!("const {float} *{restrict} load"));
                 passed.push("load_s".to_owned());
@@ -271,22 +277,26 @@ pub(crate) fn batch(program: &Program, code: &Code, names: &Names) -> String {
         let (scalar, joints) = (code.scalar, program.joints);
         let far = largest(scalar) / joints.next_power_of_two() as f64;
         let (far, f) = (names.dialect().literal(Literal(far)), scalar.math_suffix());
-        let near = (0..joints).map(|joint| format!("(fabs{f}(q_s[{joint}]) <= {far})"));
-        let near = near.collect::<Vec<String>>().join(" && ");
+        let near = (0..joints)
+            .map(|joint| format!("(fabs{f}(q_s[{joint}]) <= {far})"))
+            .collect::<Vec<String>>()
+            .join(" && ");
         let when = format!("        if ({near}) {{\n            continue;\n        }}\n");
         near_enough = Some(when);
     }
     let loops = |load: &str| {
-        let again = near_enough.iter().map(|when| body(load, false, when));
-        let again: String = again.collect();
+        let again: String = near_enough
+            .iter()
+            .map(|when| body(load, false, when))
+            .collect();
         format!("    {simd}\n{}{again}", body(load, is_told, ""))
     };
     let (loops, of_load) = match &columns.load {
         None => (loops(""), ""),
-        Some([one, each]) => {
-            let (shared, own) = (loops(""), loops(each));
+        Some([one, per_state]) => {
+            let (shared, separate) = (loops(""), loops(per_state));
             let text =
-                format!("    if (loads == 1U) {{\n{one}{shared}    }} else {{\n{own}    }}\n");
+                format!("    if (loads == 1U) {{\n{one}{shared}    }} else {{\n{separate}    }}\n");
             (text, LOADS)
         }
     };
@@ -318,9 +328,9 @@ fn kernel(program: &Program, names: &Names) -> String {
     let columns = Columns::of(program, names, "__restrict__");
     let (load, of_load) = match &columns.load {
         None => (String::new(), ""),
-        Some([_, each]) => {
+        Some([_, per_state]) => {
             let place = "        const size_t l = (loads == 1U) ? 0U : s;\n";
-            (format!("{place}{each}"), LOADS)
+            (format!("{place}{per_state}"), LOADS)
         }
     };
     format!(

@@ -181,7 +181,7 @@ impl<I> Lines<'_, I> {
     }
 
     pub(crate) fn result(&self, output: Edge) -> String {
-        let is_stored = self.names.get(&output.node).is_some_and(|own| own.1);
+        let is_stored = self.names.get(&output.node).is_some_and(|name| name.1);
         let sign = if output.negative != is_stored {
             "-"
         } else {

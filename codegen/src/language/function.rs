@@ -150,10 +150,11 @@ impl Blocks<'_> {
             let end = after.first().copied().unwrap_or(end);
             rest = after;
             // A block hands on what is read after it: that much is live.
-            let live = block
+            let live: String = block
                 .iter()
-                .filter(|&&id| self.last_use[id as usize] >= end);
-            let live: String = live.map(|&id| format!("{}, ", (self.name)(id))).collect();
+                .filter(|&&id| self.last_use[id as usize] >= end)
+                .map(|&id| format!("{}, ", (self.name)(id)))
+                .collect();
             if live.is_empty() {
                 // The last one of a loop, whose values are all stored.
                 *text += &self.flat(block, indent);

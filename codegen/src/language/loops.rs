@@ -251,11 +251,13 @@ impl LoopWriter<'_> {
         let is_number = |id: &Id| matches!(self.code.dag.node(*id), Node::Constant(_));
         let kind = usize::from(!lanes.iter().all(is_number));
         let array = &mut self.arrays[kind];
-        let place = array.iter().position(|known| *known == lanes);
-        let place = place.unwrap_or_else(|| {
-            array.push(lanes);
-            array.len() - 1
-        });
+        let place = array
+            .iter()
+            .position(|known| *known == lanes)
+            .unwrap_or_else(|| {
+                array.push(lanes);
+                array.len() - 1
+            });
         let letter = ["k", "u"][kind];
         format!("{letter}{}[{place}][l]", self.number)
     }

@@ -48,10 +48,10 @@ impl Language {
     pub fn of(path: &Path) -> Result<Language, String> {
         let ending = path.extension().unwrap_or_default();
         let mut known = ENDINGS.iter();
-        let found = known.find(|(known, _)| ending.eq_ignore_ascii_case(known));
+        let entry = known.find(|(known, _)| ending.eq_ignore_ascii_case(known));
         let shown =
             |(ending, language): (&str, Language)| format!(".{ending} ({})", language.name());
-        let language = found.map(|(_, language)| *language);
+        let language = entry.map(|(_, language)| *language);
         language.ok_or_else(|| ENDINGS.map(shown).join(", "))
     }
 

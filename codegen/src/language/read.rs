@@ -80,7 +80,7 @@ impl Code {
 }
 
 fn code(read: read::Function, scalar: ScalarType) -> Result<Code, TextError> {
-    let mut libraries = read.sines.iter().filter_map(|own| match own.source {
+    let mut libraries = read.sines.iter().filter_map(|sine| match sine.source {
         Source::Libm => Some(Library::Libm),
         Source::Together => Some(Library::Together),
         Source::Polynomial(_) => None,
@@ -90,10 +90,10 @@ fn code(read: read::Function, scalar: ScalarType) -> Result<Code, TextError> {
         let reason = "sines of two libraries".to_owned();
         return Err(TextError { line: 1, reason });
     }
-    let pairs = read.sines.into_iter().map(|own| {
-        let [sin, cos] = own.needs;
+    let pairs = read.sines.into_iter().map(|sine| {
+        let [sin, cos] = sine.needs;
         let need = SinCosUse { sin, cos };
-        let kernel = match own.source {
+        let kernel = match sine.source {
             Source::Polynomial(program) => Some(Kernel {
                 need,
                 dag: graph(&program, |value| Literal(*value), |_| Angle),
@@ -101,7 +101,7 @@ fn code(read: read::Function, scalar: ScalarType) -> Result<Code, TextError> {
             _ => None,
         };
         Pair {
-            joint: own.joint,
+            joint: sine.joint,
             need,
             kernel,
         }
@@ -135,7 +135,7 @@ pub(crate) fn graph<V, C: Clone + Eq + Hash, I: Clone + Eq + Hash>(
     constant: impl Fn(&V) -> C,
     input: impl Fn(&Read<V>) -> I,
 ) -> Dag<C, I> {
-    let operand = |own: &Read<V>| match own {
+    let operand = |operand: &Read<V>| match operand {
         Read::Step(step) => Operand::Step(*step),
         Read::Constant(value) => Operand::Constant(constant(value)),
         other => Operand::Input(input(other)),
@@ -145,9 +145,9 @@ pub(crate) fn graph<V, C: Clone + Eq + Hash, I: Clone + Eq + Hash>(
         left: operand(left),
         right: operand(right),
     });
-    let outputs = program.outputs.iter().map(|(negative, own)| Output {
+    let outputs = program.outputs.iter().map(|(negative, result)| Output {
         negative: *negative,
-        value: operand(own),
+        value: operand(result),
     });
     let (steps, outputs): (Vec<_>, Vec<_>) = (steps.collect(), outputs.collect());
     Steps { steps, outputs }.dag()

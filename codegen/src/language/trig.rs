@@ -89,10 +89,10 @@ pub(super) fn taken_names(code: &Code) -> [String; 2] {
 /// `let r2 = 1.0 / libm::sqrt(qd[1] * qd[1] + 0.0001);` Every library rounds roots correctly.
 pub(super) fn write_speeds(text: &mut String, dialect: Dialect, code: &Code, path: &str) {
     let one = dialect.literal(Literal(1.0));
-    for own in &code.speeds {
-        let name = Input::PerSpeed(own.coordinate).name();
-        let square = dialect.literal(own.square);
-        let speed = format!("qd[{}]", own.coordinate);
+    for joint_speed in &code.speeds {
+        let name = Input::PerSpeed(joint_speed.coordinate).name();
+        let square = dialect.literal(joint_speed.square);
+        let speed = format!("qd[{}]", joint_speed.coordinate);
         let product = dialect.operation(Operation::Mul, &speed, &speed);
         let sum = format!("{product} + {square}");
         let value = format!("{one} / {}", dialect.call(path, "sqrt", &sum));

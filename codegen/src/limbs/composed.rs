@@ -57,12 +57,17 @@ impl<'a, 'd> Composer<'a, 'd> {
                 Some(class) => self.lanes(part, class),
             }
         }
-        let outputs = self.rolled.dag.outputs.clone();
-        let outputs = outputs.iter().map(|edge| {
-            let result = self.result(edge.node);
-            result.negated_if(edge.negative)
-        });
-        let outputs = outputs.collect();
+        let outputs = self
+            .rolled
+            .dag
+            .outputs
+            .clone()
+            .iter()
+            .map(|edge| {
+                let result = self.result(edge.node);
+                result.negated_if(edge.negative)
+            })
+            .collect();
         (self.writer.finish(outputs), self.loops)
     }
 
@@ -137,16 +142,16 @@ impl<'a, 'd> Composer<'a, 'd> {
 
     /// Tells of each node if it is a number in every lane: what one lane folds all do.
     fn constants(&self, graph: &Dag) -> Vec<bool> {
-        let mut all: Vec<bool> = Vec::with_capacity(graph.nodes.len());
+        let mut constants: Vec<bool> = Vec::with_capacity(graph.nodes.len());
         for node in &graph.nodes {
-            all.push(match node {
+            constants.push(match node {
                 Node::Constant(_) => true,
                 Node::Input(input) => self.limbs.tuple_of(*input).is_some(),
                 Node::Apply(Operation::Div, _) => false,
-                Node::Apply(_, operands) => operands.iter().all(|id| all[*id as usize]),
+                Node::Apply(_, operands) => operands.iter().all(|id| constants[*id as usize]),
             });
         }
-        all
+        constants
     }
 
     fn input(

@@ -136,8 +136,8 @@ fn merged_cost(graph: &Dag) -> u64 {
 fn searched(graph: &Dag, effort: Effort) -> Dag {
     let limits = |operations| effort.limits(operations);
     let seeds = [graph.clone()];
-    let found = search::search(&seeds, &[], &limits, &|_| true, &|_, _| true);
-    found.map_or_else(|| graph.clone(), |found| found.graph)
+    let result = search::search(&seeds, &[], &limits, &|_| true, &|_, _| true);
+    result.map_or_else(|| graph.clone(), |result| result.graph)
 }
 
 /// No loop may hold what the checker would refuse: steps that no result depends on, as where a number

@@ -87,10 +87,10 @@ impl Parts {
             for &value in &values {
                 writer.write(value);
             }
-            let exports = values
+            let exports: Vec<Value> = values
                 .into_iter()
-                .filter(|value| exported.contains_key(value));
-            let exports: Vec<Value> = exports.collect();
+                .filter(|value| exported.contains_key(value))
+                .collect();
             let outputs = exports.iter().map(|value| writer.known[value]).collect();
             let graph = writer.builder.finish(outputs);
             parts.parts.push(Part {

@@ -69,14 +69,14 @@ impl<'d> LimbRows<'d> {
         let mut places: FxHashMap<(usize, Content), usize> = FxHashMap::default();
         let mut rows: Vec<(Row, Fellows)> = Vec::new();
         for &id in nodes {
-            let found = match self.dag.node(id) {
+            let slot = match self.dag.node(id) {
                 Node::Constant(_) => None,
                 Node::Input(input) => limbs
                     .lane_of(*input, base)
                     .map(|(place, input)| (place.class, place.lane, Content::Input(input), false)),
                 Node::Apply(operation, operands) => self.content(*operation, *operands),
             };
-            let Some((class, lane, content, negative)) = found else {
+            let Some((class, lane, content, negative)) = slot else {
                 continue;
             };
             let place = *places.entry((class, content)).or_insert_with(|| {

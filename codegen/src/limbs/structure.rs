@@ -187,11 +187,11 @@ impl Limbs {
         let moved = |joint: usize| {
             let place = self.joints.get(&joint).filter(|place| place.class == class);
             let fellow = place.map(|place| Place { lane, ..*place });
-            let found = self
+            let counterpart = self
                 .joints
                 .iter()
                 .find(|(_, place)| Some(**place) == fellow);
-            found.map_or(joint, |(joint, _)| *joint)
+            counterpart.map_or(joint, |(joint, _)| *joint)
         };
         let coordinate = |coordinate: usize| match coordinate.checked_sub(base) {
             Some(joint) => base + moved(joint),

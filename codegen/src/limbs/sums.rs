@@ -75,20 +75,22 @@ fn sum(builder: &mut Builder, rolled: &LimbRows<'_>, edges: &[Edge], terms: &[(I
             None => shared.push(edge),
         }
     }
-    let of_limbs = limbs.into_values().map(|mut terms| {
-        terms.sort_by_key(|(row, _)| *row);
-        let edges: Vec<Edge> = terms.into_iter().map(|(_, edge)| edge).collect();
-        edges
-    });
-    let of_limbs: Vec<Vec<Edge>> = of_limbs.collect();
+    let of_limbs: Vec<Vec<Edge>> = limbs
+        .into_values()
+        .map(|mut terms| {
+            terms.sort_by_key(|(row, _)| *row);
+            let edges: Vec<Edge> = terms.into_iter().map(|(_, edge)| edge).collect();
+            edges
+        })
+        .collect();
     let total = |builder: &mut Builder, edges: Vec<Edge>| {
         let mut edges = edges.into_iter();
         let first = edges.next();
         first.map(|first| edges.fold(first, |sum, edge| builder.add(sum, edge)))
     };
-    let mut all = shared;
+    let mut summands = shared;
     for terms in of_limbs {
-        all.extend(total(builder, terms));
+        summands.extend(total(builder, terms));
     }
-    total(builder, all).unwrap_or_else(|| builder.zero())
+    total(builder, summands).unwrap_or_else(|| builder.zero())
 }

@@ -25,8 +25,11 @@ impl Plan {
     /// Returns the text; [`Plan::parse`] reads it back.
     pub fn write(&self) -> String {
         let mut constants = ConstantTable::default();
-        let functions = self.entries.iter().map(|own| own.claimed(&mut constants));
-        let functions = functions.collect();
+        let functions = self
+            .entries
+            .iter()
+            .map(|entry| entry.claimed(&mut constants))
+            .collect();
         let mut document = constants.document(functions);
         document.robot.clone_from(&self.robot);
         document.input.clone_from(&self.input);
@@ -51,11 +54,14 @@ impl Plan {
             let wrong = |error| complaint(format!("`{text:.40}`: {error}"));
             text.parse::<Exact>().map_err(wrong)
         };
-        let constants = document.constants.iter().map(constant);
-        let constants = constants.collect::<Result<Vec<Exact>, Complaint>>()?;
-        let entries = document.functions.iter().map(|own| {
-            let wrong = |why: Complaint| complaint(format!("`{}`: {why}", own.function));
-            entry(own, &constants).map_err(wrong)
+        let constants = document
+            .constants
+            .iter()
+            .map(constant)
+            .collect::<Result<Vec<Exact>, Complaint>>()?;
+        let entries = document.functions.iter().map(|claim| {
+            let wrong = |why: Complaint| complaint(format!("`{}`: {why}", claim.function));
+            entry(claim, &constants).map_err(wrong)
         });
         Ok(Plan {
             entries: entries.collect::<Result<_, _>>()?,
@@ -81,9 +87,9 @@ impl Entry {
             None => (None, String::new()),
         };
         let passes = self.passes.iter().map(|pass| {
-            let own = pass.counts;
+            let counts = pass.counts;
             let name = pass.name.to_owned();
-            (name, [own.mul, own.add, own.div, own.sincos])
+            (name, [counts.mul, counts.add, counts.div, counts.sincos])
         });
         let planned = SearchRecord {
             asked: exact.function.text(),
@@ -97,7 +103,7 @@ impl Entry {
             rows: exact.rows.iter().map(|row| row + 1).collect(),
             loops: loops(emitted),
             scene: hash,
-            load: (self.parameters.as_ref()).map(|own| (own.load, own.hash.clone())),
+            load: (self.parameters.as_ref()).map(|key| (key.load, key.hash.clone())),
         };
         FunctionClaim {
             planned: Some(planned),
@@ -126,12 +132,14 @@ fn limbs(program: &Program) -> Vec<usize> {
 
 fn loops(program: &Program) -> Vec<[usize; 3]> {
     let loops = program.loops.iter();
-    loops.map(|own| [own.first, own.rows, own.lanes]).collect()
+    loops
+        .map(|block| [block.first, block.rows, block.lanes])
+        .collect()
 }
 
-fn entry(own: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Complaint> {
+fn entry(claim: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Complaint> {
     let unknown = |what: &str, word: &str| complaint(format!("`{word:.40}` is no {what}"));
-    let planned = (own.planned.as_ref())
+    let planned = (claim.planned.as_ref())
         .ok_or_else(|| complaint("there is no `planned`: what was searched for"))?;
     let asked = Function::parse(&planned.asked);
     let function = asked.map_err(|error| complaint(error.message))?;
@@ -160,7 +168,7 @@ fn entry(own: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Complaint> {
     if empty.rows.len() > most {
         return Err(complaint("more rows than joints"));
     }
-    let taken = taken(own, &mut empty)?;
+    let taken = taken(claim, &mut empty)?;
     let parameters = match (&planned.load, taken.is_empty()) {
         (None, true) => None,
         (Some((load, hash)), false) if *load <= MAX_LOAD => Some(ParametersKey {
@@ -173,18 +181,19 @@ fn entry(own: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Complaint> {
             return Err(complaint(why));
         }
     };
-    empty.load = parameters.as_ref().map_or(0, |own| own.load);
-    let emitted = own.program(constants).map_err(refused)?;
-    let exact = own.exact(constants).map_err(refused)?;
+    empty.load = parameters.as_ref().map_or(0, |key| key.load);
+    let emitted = claim.program(constants).map_err(refused)?;
+    let exact = claim.exact(constants).map_err(refused)?;
     let mut program = program(&empty, exact.as_ref().unwrap_or(&emitted))?;
-    let loops = planned.loops.iter();
-    let loops = loops.map(|&[first, rows, lanes]| Loop { first, rows, lanes });
+    let loops = planned
+        .loops
+        .iter()
+        .map(|&[first, rows, lanes]| Loop { first, rows, lanes });
     program.loops = loops.collect();
     if !program.has_lanes() {
         return Err(complaint("a loop whose lanes have different operations"));
     }
-    let edited = exact.map(|_| edited(&empty, &emitted));
-    let edited = edited.transpose()?;
+    let edited = exact.map(|_| edited(&empty, &emitted)).transpose()?;
     Ok(Entry {
         start: Start::from_name(&planned.formulation)
             .ok_or_else(|| unknown("formulation", &planned.formulation))?,
@@ -193,9 +202,9 @@ fn entry(own: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Complaint> {
         source: Source::from_name(&planned.source)
             .ok_or_else(|| unknown("source", &planned.source))?,
         passes: (planned.passes.iter())
-            .map(|own| pass(own).ok_or_else(|| unknown("pass of a search", &own.0)))
+            .map(|record| pass(record).ok_or_else(|| unknown("pass of a search", &record.0)))
             .collect::<Result<_, _>>()?,
-        scene: own.scene.as_ref().map(|name| SceneKey {
+        scene: claim.scene.as_ref().map(|name| SceneKey {
             name: name.clone(),
             hash: planned.scene.clone(),
         }),
@@ -205,13 +214,13 @@ fn entry(own: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Complaint> {
     })
 }
 
-fn taken(own: &FunctionClaim, empty: &mut Program) -> Result<Vec<Argument>, Complaint> {
+fn taken(claim: &FunctionClaim, empty: &mut Program) -> Result<Vec<Argument>, Complaint> {
     const TAKEN: [Argument; 2] = [Argument::Gravity, Argument::Load];
     empty.arguments.extend(TAKEN);
     empty.arguments.sort();
-    let is_taken = |argument: Argument| own.arguments.iter().any(|word| word == argument.name());
+    let is_taken = |argument: Argument| claim.arguments.iter().any(|word| word == argument.name());
     empty.arguments.retain(|argument| is_taken(*argument));
-    if empty.arguments.len() != own.arguments.len() {
+    if empty.arguments.len() != claim.arguments.len() {
         let why = "expected arguments of the function, each once, `load` or `g`";
         return Err(complaint(why));
     }

@@ -36,7 +36,7 @@ pub fn beside(robot_file: &Path) -> Result<Option<Plan>, Complaint> {
     let path = path(robot_file);
     let shown = path.display();
     // Opening a pipe would wait for somebody who writes into it.
-    if fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
+    if fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file()) {
         let why = format!("cannot read `{shown}`: a plan is a file");
         return Err(complaint(why));
     }
@@ -47,7 +47,6 @@ pub fn beside(robot_file: &Path) -> Result<Option<Plan>, Complaint> {
     };
     let text =
         String::from_utf8(bytes).map_err(|_| complaint(format!("`{shown}` is not UTF-8")))?;
-    let plan = Plan::parse(&text);
-    let plan = plan.map_err(|why| complaint(format!("{shown}: {why}")))?;
+    let plan = Plan::parse(&text).map_err(|why| complaint(format!("{shown}: {why}")))?;
     Ok(Some(plan))
 }

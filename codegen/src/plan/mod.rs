@@ -60,9 +60,9 @@ fn taken(parameters: Option<&ParametersKey>) -> &[Argument] {
 
 /// A bundle's name and the order of its parts do not matter.
 fn is_same(a: Key<'_>, b: Key<'_>) -> bool {
-    let [own, other] = [a.1, b.1].map(Function::quantities);
-    let has_same_results =
-        own.len() == other.len() && own.iter().all(|quantity| other.contains(quantity));
+    let [quantities, other] = [a.1, b.1].map(Function::quantities);
+    let has_same_results = quantities.len() == other.len()
+        && quantities.iter().all(|quantity| other.contains(quantity));
     has_same_results && (a.0, a.2, a.3, a.4) == (b.0, b.2, b.3, b.4)
 }
 

@@ -66,9 +66,9 @@ impl Code {
             kernel: kernel(pair.joint),
             ..pair
         });
-        let speeds = program.speeds.iter().map(|own| Speed {
-            coordinate: own.coordinate,
-            square: literal(&own.square),
+        let speeds = program.speeds.iter().map(|speed| Speed {
+            coordinate: speed.coordinate,
+            square: literal(&speed.square),
         });
         let code = Code {
             scalar,
@@ -107,12 +107,12 @@ impl Code {
 
     /// Counts the operations, with those of the polynomials for sines.
     pub fn counts(&self) -> Counts {
-        let own = Counts {
+        let counts = Counts {
             sincos: self.pairs.len(),
             ..self.dag.arithmetic()
         };
         let kernels = self.pairs.iter().filter_map(|pair| pair.kernel.as_ref());
-        own.with_speeds(self.speeds.len()).with_kernels(kernels)
+        counts.with_speeds(self.speeds.len()).with_kernels(kernels)
     }
 
     /// Runs the code bit for bit at a state; none if the state lacks an entry that is read.

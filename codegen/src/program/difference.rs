@@ -17,9 +17,11 @@ impl Code {
             (counts[0] == counts[1], "the number of operations differs"),
             (results[0] == results[1], "the number of results differs"),
         ];
-        let differs = parts.into_iter().find(|(is_equal, _)| !is_equal);
-        let differs = differs.map(|(_, what)| what.to_owned());
-        let differs = differs.or_else(|| self.first_difference(other));
+        let differs = parts
+            .into_iter()
+            .find(|(is_equal, _)| !is_equal)
+            .map(|(_, what)| what.to_owned())
+            .or_else(|| self.first_difference(other));
         differs.map(complaint)
     }
 
@@ -98,8 +100,10 @@ mod tests {
         for (change, words) in changes {
             let mut other = code();
             change(&mut other);
-            let found = code().difference(&other).map(|found| found.to_string());
-            assert_eq!(found.as_deref(), Some(words));
+            let message = code()
+                .difference(&other)
+                .map(|difference| difference.to_string());
+            assert_eq!(message.as_deref(), Some(words));
         }
         let mut other = code();
         other.dag.nodes.swap(0, 1);

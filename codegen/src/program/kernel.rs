@@ -81,8 +81,10 @@ impl KernelWriter {
     }
 
     pub(crate) fn kernel(self, need: SinCosUse, results: [Edge; 2]) -> Kernel {
-        let wanted = results.into_iter().zip([need.sin, need.cos]);
-        let wanted = wanted.filter_map(|(result, is_wanted)| is_wanted.then_some(result));
+        let wanted = results
+            .into_iter()
+            .zip([need.sin, need.cos])
+            .filter_map(|(result, is_wanted)| is_wanted.then_some(result));
         let dag = self.finish(wanted.collect());
         Kernel {
             need,

@@ -129,16 +129,16 @@ impl Program {
         let mut rest = self.dag.outputs.as_slice();
         let mut results = Vec::new();
         for quantity in self.function.quantities() {
-            let (own, others) = rest.split_at_checked(quantity.len(sizes))?;
-            results.push((quantity, own));
+            let (edges, others) = rest.split_at_checked(quantity.len(sizes))?;
+            results.push((quantity, edges));
             rest = others;
         }
         let mut program = self.clone();
         program.function = function;
         program.dag.outputs.clear();
         for wanted in function.quantities() {
-            let (_, own) = results.iter().find(|(quantity, _)| *quantity == wanted)?;
-            program.dag.outputs.extend_from_slice(own);
+            let (_, edges) = results.iter().find(|(quantity, _)| *quantity == wanted)?;
+            program.dag.outputs.extend_from_slice(edges);
         }
         Some(program)
     }
@@ -149,18 +149,19 @@ impl Program {
         let cells = self.cells();
         let fused = self.dag.fused_where(|taken| {
             let is_within = |sum: Id, product: Id| {
-                let [own, other] = [sum, product].map(|id| cells[id as usize]);
-                own.0 == other.0 && own.1 == other.1
+                let [cell, other] = [sum, product].map(|id| cells[id as usize]);
+                cell.0 == other.0 && cell.1 == other.1
             };
             for (sum, product) in (0..).zip(taken.iter_mut()) {
                 *product = product.filter(|product| is_within(sum, *product));
             }
             let ids: Vec<Id> = self.dag.operations().map(|(id, ..)| id).collect();
-            for own in &self.loops {
-                for row in 0..own.rows {
-                    let lanes = (0..own.lanes).map(|lane| ids[own.first + lane * own.rows + row]);
-                    let lanes: Vec<Id> = lanes.collect();
-                    let product = |id: &Id| taken[*id as usize].map(|own| cells[own as usize].2);
+            for block in &self.loops {
+                for row in 0..block.rows {
+                    let lanes: Vec<Id> = (0..block.lanes)
+                        .map(|lane| ids[block.first + lane * block.rows + row])
+                        .collect();
+                    let product = |id: &Id| taken[*id as usize].map(|node| cells[node as usize].2);
                     if lanes.iter().any(|id| product(id) != product(&lanes[0])) {
                         lanes.iter().for_each(|id| taken[*id as usize] = None);
                     }
@@ -179,8 +180,12 @@ impl Program {
     fn cells(&self) -> Vec<(usize, usize, usize)> {
         let mut cells = vec![(0, 0, 0); self.dag.nodes.len()];
         for (place, (id, ..)) in self.dag.operations().enumerate() {
-            let before = self.loops.iter().filter(|own| own.end() <= place).count();
-            let inside = self.loops.get(before).and_then(|own| own.place(place));
+            let before = self
+                .loops
+                .iter()
+                .filter(|block| block.end() <= place)
+                .count();
+            let inside = self.loops.get(before).and_then(|block| block.place(place));
             cells[id as usize] = match inside {
                 Some([lane, row]) => (2 * before + 1, lane, row),
                 None => (2 * before, 0, place),
@@ -196,8 +201,8 @@ impl Program {
     }
 
     pub(crate) fn read(&self, mut speeds: Vec<Speed>) -> Vec<Speed> {
-        let is_read = |own: &Speed| {
-            let speed = Input::PerSpeed(own.coordinate);
+        let is_read = |joint_speed: &Speed| {
+            let speed = Input::PerSpeed(joint_speed.coordinate);
             self.dag.inputs().any(|input| *input == speed)
         };
         speeds.retain(is_read);
@@ -224,28 +229,29 @@ impl Program {
 
     /// True if the lanes of each loop have the same operations, on values of their lane or of others.
     pub(crate) fn has_lanes(&self) -> bool {
-        let all: Vec<_> = self.dag.operations().collect();
-        let places: BTreeMap<Id, usize> =
-            (all.iter().zip(0..)).map(|(own, i)| (own.0, i)).collect();
+        let operations: Vec<_> = self.dag.operations().collect();
+        let places: BTreeMap<Id, usize> = (operations.iter().zip(0..))
+            .map(|(operation, i)| (operation.0, i))
+            .collect();
         let mut done = 0;
-        self.loops.iter().all(|own| {
-            let lanes = own.rows.checked_mul(own.lanes);
-            let end = lanes.and_then(|lanes| lanes.checked_add(own.first));
-            let is_there = end.is_some_and(|end| end <= all.len());
-            if !is_there || own.first < done || own.rows == 0 || own.lanes < 2 {
+        self.loops.iter().all(|block| {
+            let lanes = block.rows.checked_mul(block.lanes);
+            let end = lanes.and_then(|lanes| lanes.checked_add(block.first));
+            let is_there = end.is_some_and(|end| end <= operations.len());
+            if !is_there || block.first < done || block.rows == 0 || block.lanes < 2 {
                 return false;
             }
-            done = own.end();
+            done = block.end();
             // The row that an operand is in the lane; nothing of another lane.
             let within = |id: &Id, lane: usize| {
-                let place = places.get(id).and_then(|place| own.place(*place));
+                let place = places.get(id).and_then(|place| block.place(*place));
                 place.map(|[other, row]| (other == lane).then_some(row))
             };
-            (0..own.rows).all(|row| {
-                let (_, operation, operands) = &all[own.first + row];
+            (0..block.rows).all(|row| {
+                let (_, operation, operands) = &operations[block.first + row];
                 let own_rows = operands.each_ref().map(|id| within(id, 0));
-                (1..own.lanes).all(|lane| {
-                    let (_, other, others) = &all[own.first + lane * own.rows + row];
+                (1..block.lanes).all(|lane| {
+                    let (_, other, others) = &operations[block.first + lane * block.rows + row];
                     // None reads a value of another lane.
                     let rows = others.each_ref().map(|id| within(id, lane));
                     other == operation && rows == own_rows && !rows.contains(&Some(None))
@@ -256,11 +262,11 @@ impl Program {
 
     /// Counts the operations.
     pub fn counts(&self) -> Counts {
-        let own = Counts {
+        let counts = Counts {
             sincos: self.trig().len(),
             ..self.dag.arithmetic()
         };
-        own.with_speeds(self.speeds.len())
+        counts.with_speeds(self.speeds.len())
     }
 
     /// Returns the numbers that the lengths of results follow from; the number of base
@@ -293,7 +299,7 @@ impl Program {
     }
 
     fn has(&self, operation: Operation) -> bool {
-        self.dag.operations().any(|(_, own, _)| own == operation)
+        self.dag.operations().any(|(_, op, _)| op == operation)
     }
 }
 

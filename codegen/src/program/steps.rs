@@ -41,8 +41,8 @@ impl<C: Clone, I: Clone> Steps<C, I> {
     pub fn new<D, J>(dag: &Dag<D, J>, constant: impl Fn(&D) -> C, input: impl Fn(&J) -> I) -> Self {
         let numbers = dag.numbers();
         let operand = |id: Id| match dag.node(id) {
-            Node::Constant(own) => Operand::Constant(constant(own)),
-            Node::Input(own) => Operand::Input(input(own)),
+            Node::Constant(leaf) => Operand::Constant(constant(leaf)),
+            Node::Input(leaf) => Operand::Input(input(leaf)),
             // An operation has a number, from one.
             Node::Apply(..) => Operand::Step(numbers[id as usize].unwrap_or(1) - 1),
         };
@@ -77,14 +77,18 @@ impl<C: Clone, I: Clone> Steps<C, I> {
                 Operand::Input(input) => writer.leaf(Node::Input(input.clone())),
             };
         for step in &self.steps {
-            let operands = [&step.left, &step.right].map(|own| place(own, &places, &mut writer));
+            let operands =
+                [&step.left, &step.right].map(|operand| place(operand, &places, &mut writer));
             places.push(writer.apply(step.operation, operands));
         }
-        let outputs = self.outputs.iter().map(|output| Edge {
-            node: place(&output.value, &places, &mut writer),
-            negative: output.negative,
-        });
-        let outputs = outputs.collect();
+        let outputs = self
+            .outputs
+            .iter()
+            .map(|output| Edge {
+                node: place(&output.value, &places, &mut writer),
+                negative: output.negative,
+            })
+            .collect();
         writer.finish(outputs)
     }
 }

@@ -24,19 +24,19 @@ impl Degree {
     }
 
     fn powers(&self, other: &Degree) -> Vec<(Rc<f64>, f64, f64)> {
-        let own = self.under.iter().map(|(d, e)| (d.clone(), *e, 0.0));
+        let powers = self.under.iter().map(|(d, e)| (d.clone(), *e, 0.0));
         let others = other.under.iter().map(|(d, e)| (d.clone(), 0.0, *e));
-        let mut all: Vec<_> = own.chain(others).collect();
+        let mut divisors: Vec<_> = powers.chain(others).collect();
         // Stable: of two of a divisor the own one is first.
-        all.sort_by_key(|(divisor, ..)| Rc::as_ptr(divisor).addr());
-        all.dedup_by(|second, first| {
+        divisors.sort_by_key(|(divisor, ..)| Rc::as_ptr(divisor).addr());
+        divisors.dedup_by(|second, first| {
             let is_same = Rc::ptr_eq(&second.0, &first.0);
             if is_same {
                 first.2 = second.2;
             }
             is_same
         });
-        all
+        divisors
     }
 }
 
@@ -86,11 +86,11 @@ impl Divide for Degree {
     fn div(&self, other: &Self) -> Self {
         let mut top = self.top;
         let mut under = Vec::new();
-        for (divisor, own, others) in self.powers(other) {
-            if others > own {
-                top += (others - own) * *divisor;
-            } else if own > others {
-                under.push((divisor, own - others));
+        for (divisor, exponent, others) in self.powers(other) {
+            if others > exponent {
+                top += (others - exponent) * *divisor;
+            } else if exponent > others {
+                under.push((divisor, exponent - others));
             }
         }
         if other.top > 0.0 {

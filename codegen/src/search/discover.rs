@@ -64,11 +64,11 @@ pub(super) fn pairs(classes: &mut Classes, pool: &[Class]) {
     for &id in classes.ids() {
         known.note(key(classes.print(id).0[0]));
     }
-    let mut found = Vec::new();
+    let mut ways = Vec::new();
     pairs_of(&keyed(classes, pool), |key, way| {
-        found.extend(known.passes(key).then_some(way));
+        ways.extend(known.passes(key).then_some(way));
     });
-    found.into_iter().for_each(|way| classes.offer(way, None));
+    ways.into_iter().for_each(|way| classes.offer(way, None));
 }
 
 /// If y = (a ∘ b) ∘ c, then y ∓ c or y / c has the key of a pair. Only those of hundreds of
@@ -101,12 +101,12 @@ pub(super) fn resubstitute(classes: &mut Classes, pool: &[Class]) {
     for &(key, way) in &pairs {
         first.entry(key).or_insert(way);
     }
-    let mut found: Vec<(Class, Class, Kind, Way)> = Vec::new();
+    let mut nestings: Vec<(Class, Class, Kind, Way)> = Vec::new();
     let mut meet = |key: Field, y: Class, c: Class, outer: Kind| {
         if let Some(&inner) = first.get(&key)
             && !inner.1.contains(&y)
         {
-            found.push((y, c, outer, inner));
+            nestings.push((y, c, outer, inner));
         }
     };
     for &(key, (op, [y, c])) in &pairs {
@@ -120,8 +120,8 @@ pub(super) fn resubstitute(classes: &mut Classes, pool: &[Class]) {
             meet(key, y, c, PRODUCT);
         }
     });
-    found.sort_unstable();
-    for (y, c, outer, (op, ends)) in found {
+    nestings.sort_unstable();
+    for (y, c, outer, (op, ends)) in nestings {
         let inner = if op == Operation::Mul { PRODUCT } else { SUM };
         classes.nest(y, outer, c, inner, ends);
     }

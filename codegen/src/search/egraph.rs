@@ -70,14 +70,14 @@ impl Analysis<ENode> for Prints {
     type Data = ();
 
     fn make(egraph: &mut EGraph<ENode, Self>, node: &ENode, _: Class) {
-        let own = &mut egraph.analysis;
+        let analysis = &mut egraph.analysis;
         let (print, leaf) = match (node, node.way()) {
-            (_, Some(way)) => (own.way_print(way), None),
-            (ENode::Leaf(leaf), _) => (own.leaves[*leaf as usize].1, Some(*leaf)),
+            (_, Some(way)) => (analysis.way_print(way), None),
+            (ENode::Leaf(leaf), _) => (analysis.leaves[*leaf as usize].1, Some(*leaf)),
             _ => (Fingerprint::zero(), None),
         };
-        own.prints.push(print.canonical().0);
-        own.leaf.push(leaf);
+        analysis.prints.push(print.canonical().0);
+        analysis.leaf.push(leaf);
     }
 
     fn merge(&mut self, (): &mut (), (): ()) -> DidMerge {
@@ -85,19 +85,19 @@ impl Analysis<ENode> for Prints {
     }
 
     fn modify(egraph: &mut EGraph<ENode, Self>, id: Class) {
-        let own = &mut egraph.analysis;
-        let print = own.prints[usize::from(id)];
-        let root = *own.by_print.entry(print).or_insert(id);
+        let analysis = &mut egraph.analysis;
+        let print = analysis.prints[usize::from(id)];
+        let root = *analysis.by_print.entry(print).or_insert(id);
         match root == id {
-            true if own.roots.last() < Some(&id) => own.roots.push(id),
+            true if analysis.roots.last() < Some(&id) => analysis.roots.push(id),
             true => {
-                if let Some(leaf) = own.leaf[usize::from(id)] {
+                if let Some(leaf) = analysis.leaf[usize::from(id)] {
                     egraph[id].nodes = vec![ENode::Leaf(leaf)];
                 }
             }
             false => {
-                let leaf = own.leaf[usize::from(id)];
-                let known = &mut own.leaf[usize::from(root)];
+                let leaf = analysis.leaf[usize::from(id)];
+                let known = &mut analysis.leaf[usize::from(root)];
                 *known = known.or(leaf);
                 egraph.union(root, id);
             }
@@ -161,8 +161,8 @@ impl Classes {
 
     /// Returns the leaf that a class is: then it has no ways.
     pub(super) fn leaf(&self, class: Class) -> Option<&Node> {
-        let own = &self.egraph.analysis;
-        own.leaf[usize::from(class)].map(|leaf| &own.leaves[leaf as usize].0)
+        let analysis = &self.egraph.analysis;
+        analysis.leaf[usize::from(class)].map(|leaf| &analysis.leaves[leaf as usize].0)
     }
 
     pub(super) fn find(&self, print: &Fingerprint) -> Signed {
@@ -186,7 +186,9 @@ impl Classes {
         patterns: impl Iterator<Item = &'p Pattern<ENode>>,
     ) -> Vec<Vec<SearchMatches<'p, ENode>>> {
         self.egraph.rebuild();
-        patterns.map(|own| own.search(&self.egraph)).collect()
+        patterns
+            .map(|pattern| pattern.search(&self.egraph))
+            .collect()
     }
 
     fn add_leaf(&mut self, leaf: &Node, print: &Fingerprint) -> Signed {
@@ -235,7 +237,7 @@ impl Classes {
     pub(super) fn offer(&mut self, way: Way, class: Option<Class>) {
         let print = self.way_print(way);
         let known = self.find(&print);
-        if known.is_some_and(|(found, _)| class.is_none_or(|class| class == found)) {
+        if known.is_some_and(|(id, _)| class.is_none_or(|class| class == id)) {
             self.add_printed(way, &print, known);
         }
     }
@@ -283,10 +285,10 @@ impl Classes {
         let (values, choice) = self.absorb(&LeafPrints::new(dag));
         let output = |edge: &Edge| flip(values[edge.index()], edge.negative);
         self.outputs = dag.outputs.iter().map(output).collect();
-        let mut own: Vec<Class> = values.into_iter().flatten().map(|value| value.0).collect();
-        let mut seen = vec![false; self.bound()];
-        own.retain(|class| !std::mem::replace(&mut seen[usize::from(*class)], true));
-        (own, choice)
+        let mut classes: Vec<Class> = values.into_iter().flatten().map(|value| value.0).collect();
+        let mut marks = vec![false; self.bound()];
+        classes.retain(|class| !std::mem::replace(&mut marks[usize::from(*class)], true));
+        (classes, choice)
     }
 
     /// The ways must not go in circles.

@@ -109,8 +109,8 @@ impl<'a> Extraction<'a> {
             ways[places[usize::from(class)] as usize].push(step);
         }
         let mut starts = vec![0u32];
-        for own in &ways {
-            starts.push(starts[starts.len() - 1] + own.len() as u32);
+        for steps in &ways {
+            starts.push(starts[starts.len() - 1] + steps.len() as u32);
         }
         let outputs = classes.outputs.iter().flatten();
         let mut search = Extraction {
@@ -133,10 +133,10 @@ impl<'a> Extraction<'a> {
     }
 
     fn seed(&mut self, seed: &Choice, places: &[u32]) {
-        for (&own, way) in places.iter().zip(seed) {
-            if own != NONE && way.is_some() {
+        for (&place, way) in places.iter().zip(seed) {
+            if place != NONE && way.is_some() {
                 let is_it = |&at: &u32| self.steps[at as usize].way == *way;
-                self.chosen[own as usize] = self.ways(own).find(is_it).unwrap_or(NONE);
+                self.chosen[place as usize] = self.ways(place).find(is_it).unwrap_or(NONE);
             }
         }
         let mut changed = true;

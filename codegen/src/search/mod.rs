@@ -56,8 +56,11 @@ pub fn search(
     accept: &dyn Fn(&Dag) -> bool,
     goes_on: &dyn Fn([usize; 2], &Dag) -> bool,
 ) -> Option<Searched> {
-    let merged = seeds.iter().map(|seed| seed.rebuild(Folding::Semantic));
-    let mut merged: Vec<(usize, Dag)> = merged.enumerate().collect();
+    let mut merged: Vec<(usize, Dag)> = seeds
+        .iter()
+        .map(|seed| seed.rebuild(Folding::Semantic))
+        .enumerate()
+        .collect();
     merged.sort_by_key(|(_, dag)| cost(dag));
     let accepted = merged.iter().position(|(_, dag)| accept(dag));
     let is_strict = accepted.is_some();
@@ -67,13 +70,16 @@ pub fn search(
     };
     let limits = limits(start.counts().operations());
     // What no output needs would only be in the way.
-    let others = seeds.iter().chain(helpers);
-    let others: Vec<Dag> = others.map(|dag| dag.rebuild(Folding::Syntactic)).collect();
+    let others: Vec<Dag> = seeds
+        .iter()
+        .chain(helpers)
+        .map(|dag| dag.rebuild(Folding::Syntactic))
+        .collect();
     let offers: Vec<LeafPrints> = others.iter().map(LeafPrints::new).collect();
     let mut best = start.clone();
     let rounds = limits.walks * limits.rounds;
     'walks: for walk in 0..limits.walks {
-        let mut own = start.clone();
+        let mut current = start.clone();
         let (mut random, mut idle) = (Random::new(1 + walk as u64), 0);
         for number in 0..limits.rounds {
             if idle > limits.patience {
@@ -82,16 +88,16 @@ pub fn search(
             if !goes_on([walk * limits.rounds + number, rounds], &best) {
                 break 'walks;
             }
-            let found = round(number, &own, &offers, &limits, &mut random);
-            let (before, after) = (cost(&own), cost(&found));
-            let is_taken = after <= before && (!is_strict || accept(&found));
+            let candidate = round(number, &current, &offers, &limits, &mut random);
+            let (before, after) = (cost(&current), cost(&candidate));
+            let is_taken = after <= before && (!is_strict || accept(&candidate));
             let is_less = is_taken && after < before;
             idle = if is_less { 0 } else { idle + 1 };
             if is_taken {
-                own = found;
+                current = candidate;
                 // Between equal programs the first walk keeps the later one.
                 if walk == 0 || after < cost(&best) {
-                    best = own.clone();
+                    best = current.clone();
                 }
             }
         }
@@ -115,19 +121,19 @@ fn round(
     random: &mut Random,
 ) -> Dag {
     let mut classes = Classes::default();
-    let (own, choice) = classes.begin(program);
+    let (program_classes, choice) = classes.begin(program);
     rules::saturate(&mut classes, limits.rules);
     for graph in offers {
         classes.absorb(graph);
     }
     // The program's own classes come first, then those of the rules, then the other graphs'.
-    let most = limits.pairs.max(own.len().min(MAX_OWN));
+    let most = limits.pairs.max(program_classes.len().min(MAX_OWN));
     let pool: Vec<Class> = classes.ids().iter().take(most).copied().collect();
     if limits.pairs > 0 {
         discover::pairs(&mut classes, &pool);
     }
-    if own.len() <= limits.substitutes {
-        discover::resubstitute(&mut classes, &own);
+    if program_classes.len() <= limits.substitutes {
+        discover::resubstitute(&mut classes, &program_classes);
     }
     let mut extraction = Extraction::new(&classes, &choice);
     extraction.climb();

@@ -14,7 +14,7 @@ pub(super) struct Order {
     after: Vec<u32>,
     marks: Vec<u32>,
     stamp: u32,
-    found: Vec<u32>,
+    queue: Vec<u32>,
 }
 
 impl Order {
@@ -25,7 +25,7 @@ impl Order {
             after: vec![NONE; classes + 1],
             marks: vec![0; classes],
             stamp: 0,
-            found: Vec::new(),
+            queue: Vec::new(),
         }
     }
 
@@ -80,7 +80,7 @@ impl Order {
         reads: impl Fn(u32) -> [u32; 2],
     ) -> bool {
         self.stamp += 1;
-        self.found.clear();
+        self.queue.clear();
         // What comes before the class does not depend on it, nor does what that reads.
         let least = self.labels[class as usize];
         let (mut next, mut pending) = (0, new);
@@ -91,32 +91,32 @@ impl Order {
                 }
                 if self.labels[id as usize] > least && self.marks[id as usize] != self.stamp {
                     self.marks[id as usize] = self.stamp;
-                    self.found.push(id);
+                    self.queue.push(id);
                 }
             }
-            match self.found.get(next) {
+            match self.queue.get(next) {
                 Some(&id) => pending = reads(id),
                 None => break,
             }
             next += 1;
         }
         // Moves them, which is all that they read among what comes after the class, before it.
-        let mut found = std::mem::take(&mut self.found);
-        found.sort_unstable_by_key(|&id| self.labels[id as usize]);
-        let steps = found.len() as u64 + 1;
+        let mut queue = std::mem::take(&mut self.queue);
+        queue.sort_unstable_by_key(|&id| self.labels[id as usize]);
+        let steps = queue.len() as u64 + 1;
         if self.room(class) < steps {
             self.label();
         }
         let room = self.room(class);
         let mut label = self.labels[class as usize] - room;
-        for &id in &found {
+        for &id in &queue {
             self.link(self.before[id as usize], self.after[id as usize]);
             label += room / steps;
             self.labels[id as usize] = label;
             self.link(self.before[class as usize], id);
             self.link(id, class);
         }
-        self.found = found;
+        self.queue = queue;
         true
     }
 

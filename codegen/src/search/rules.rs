@@ -30,8 +30,9 @@ static READ: LazyLock<Vec<(Pattern<ENode>, Kind, Kind)>> = LazyLock::new(|| {
     let mut read = Vec::new();
     for &(name, left, outer, inner) in RULES {
         for text in signed(left) {
-            let pattern = text.parse::<PatternAst<ENode>>();
-            let pattern = pattern.unwrap_or_else(|why| unreachable!("{name}: {why}"));
+            let pattern = text
+                .parse::<PatternAst<ENode>>()
+                .unwrap_or_else(|why| unreachable!("{name}: {why}"));
             let mut orders = vec![pattern];
             for place in (0..orders[0].len()).map(egg::Id::from) {
                 if !orders[0][place].is_leaf() {
@@ -61,11 +62,17 @@ pub(super) fn saturate(classes: &mut Classes, iterations: usize) {
     for _ in 0..iterations {
         let size = classes.bound();
         let matches = classes.matches(READ.iter().map(|(left, ..)| left));
-        for (found, (_, outer, inner)) in matches.into_iter().zip(READ.iter()) {
-            for own in &found {
-                for bound in &own.substs {
+        for (rule_matches, (_, outer, inner)) in matches.into_iter().zip(READ.iter()) {
+            for class_match in &rule_matches {
+                for bound in &class_match.substs {
                     if classes.bound() < most {
-                        classes.nest(own.eclass, outer, bound[a], inner, [bound[b], bound[c]]);
+                        classes.nest(
+                            class_match.eclass,
+                            outer,
+                            bound[a],
+                            inner,
+                            [bound[b], bound[c]],
+                        );
                     }
                 }
             }

@@ -25,7 +25,7 @@ fn class_of(classes: &Classes, output: usize) -> (Class, bool) {
 }
 
 fn ways_of(classes: &Classes, class: Class) -> Vec<Way> {
-    let ways = classes.ways().filter(|(own, _)| *own == class);
+    let ways = classes.ways().filter(|(id, _)| *id == class);
     ways.map(|(_, way)| way).collect()
 }
 
@@ -72,14 +72,18 @@ fn every_choice_of_ways_gives_the_same_values() {
         results.map(|edge| builder.print(edge)).collect::<Vec<_>>()
     };
     let expected = prints(&dag);
-    let same = choices(&classes).map(|own| prints(&classes.graph(&own)) == expected);
-    let same: Vec<bool> = same.collect();
+    let same: Vec<bool> = choices(&classes)
+        .map(|choice| prints(&classes.graph(&choice)) == expected)
+        .collect();
     assert!(same.len() >= 4 && !same.contains(&false), "{same:?}");
 }
 
 fn choices(classes: &Classes) -> impl Iterator<Item = Choice> {
-    let ways = classes.ids().iter().map(|&id| (id, ways_of(classes, id)));
-    let ways: Vec<(Class, Vec<Way>)> = ways.collect();
+    let ways: Vec<(Class, Vec<Way>)> = classes
+        .ids()
+        .iter()
+        .map(|&id| (id, ways_of(classes, id)))
+        .collect();
     let count: usize = ways.iter().map(|(_, ways)| ways.len().max(1)).product();
     assert!(count < 100_000, "{count} choices");
     (0..count).map(move |mut index| {
@@ -112,8 +116,8 @@ fn every_rule_adds_its_right_side() {
             let is_right = |way: &Way| outer.contains(&way.0);
             assert!(new.any(is_right), "{name}, {text}: {ways:?}");
             for way in ways {
-                let found = classes.find(&classes.way_print(way));
-                assert_eq!(found.map(|found| found.0), Some(output), "{name}, {text}");
+                let class = classes.find(&classes.way_print(way));
+                assert_eq!(class.map(|class| class.0), Some(output), "{name}, {text}");
             }
         }
     }
@@ -143,8 +147,8 @@ fn finds_every_kind_of_hidden_way() {
         let is_kind = |way: &Way| (way.0 == Mul) == (operation == Mul);
         assert!(new.iter().any(is_kind), "{formula}: {new:?}");
         for way in new {
-            let found: Signed = classes.find(&classes.way_print(way));
-            assert_eq!(found.map(|found| found.0), Some(target), "{formula}");
+            let class: Signed = classes.find(&classes.way_print(way));
+            assert_eq!(class.map(|class| class.0), Some(target), "{formula}");
         }
     }
 }
@@ -210,10 +214,10 @@ fn finds_the_cheapest_of_all_programs() {
         assert_eq!(Some(extraction.cost), cost_of(classes, choice));
         extraction.climb();
         extraction.anneal(SCHEDULE, &mut Random::new(7));
-        let found = cost_of(classes, &extraction.choice());
-        assert_eq!(found, Some(extraction.cost), "the price that it keeps");
+        let cost = cost_of(classes, &extraction.choice());
+        assert_eq!(cost, Some(extraction.cost), "the price that it keeps");
         let least = choices(classes).filter_map(|choice| cost_of(classes, &choice));
-        assert_eq!(found, least.min());
+        assert_eq!(cost, least.min());
     }
 }
 
@@ -242,13 +246,13 @@ fn order_agrees_with_a_search_of_everything() {
     const CLASSES: usize = 40;
     // Class 0 is what leaves read.
     let reaches = |chosen: &[[u32; 2]], from: u32, class: u32| {
-        let (mut seen, mut stack) = (vec![false; CLASSES], vec![from]);
+        let (mut marks, mut stack) = (vec![false; CLASSES], vec![from]);
         while let Some(id) = stack.pop() {
-            if !std::mem::replace(&mut seen[id as usize], true) && id != 0 {
+            if !std::mem::replace(&mut marks[id as usize], true) && id != 0 {
                 stack.extend(chosen[id as usize]);
             }
         }
-        seen[class as usize]
+        marks[class as usize]
     };
     let mut random = Random::new(5);
     let mut chosen = vec![[0; 2]; CLASSES];

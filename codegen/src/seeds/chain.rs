@@ -61,8 +61,10 @@ pub(crate) fn trace_symbols(
     let of_frame = |quantity: &Quantity| quantity.is_regrouped() && quantity.is_of_frame();
     let arm = (function.quantities().iter().any(of_frame)).then(|| moving(setup, None, &leaves).0);
     let position = arm.as_ref().map_or_else(Vec::new, |arm| arm.at(&whole.q));
-    let among = following.iter().filter_map(|own| own.among(rows));
-    let among: Vec<_> = among.collect();
+    let among: Vec<_> = following
+        .iter()
+        .filter_map(|follower| follower.among(rows))
+        .collect();
     let regrouped = Regrouped {
         chain,
         at,
@@ -164,13 +166,13 @@ const MAX_SEEDS: usize = 16;
 pub(crate) fn regrouped(task: Task<'_>, forms: &[Form], tuned: &ChainChoice) -> Vec<Seed> {
     let mut chain = Chain::new(&skeleton_for(task), &tuned.regrouping);
     let axes = axes(&chain);
-    let own = forms.iter().map(|form| (0, *form));
+    let initial = forms.iter().map(|form| (0, *form));
     let others = 1..axes.len();
     let cheapest = others.clone().map(|place| (place, tuned.form));
     let dearer = forms.iter().filter(|form| **form != tuned.form);
     let rest = others.flat_map(|place| dearer.clone().map(move |form| (place, *form)));
     let mut seeds: Vec<Seed> = Vec::new();
-    for (place, form) in own.chain(cheapest).chain(rest) {
+    for (place, form) in initial.chain(cheapest).chain(rest) {
         if seeds.len() == MAX_SEEDS {
             break;
         }
@@ -199,21 +201,22 @@ pub(super) fn merged(task: Task<'_>, chain: &Chain<Exact>, form: Form) -> Dag {
 fn axes(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
     let freedom = chain.freedoms();
     let links = chain.links.iter().zip(&freedom);
-    let own = links.map(|(link, &[less, more])| link.axes.clamp(less, more));
-    let own: Vec<i32> = own.collect();
-    let natural = vec![0; own.len()];
-    let mut all = vec![own.clone(), natural.clone()];
-    all.extend([0, 1].map(|side| freedom.iter().map(|bounds| bounds[side]).collect()));
-    for from in [own, natural] {
+    let current: Vec<i32> = links
+        .map(|(link, &[less, more])| link.axes.clamp(less, more))
+        .collect();
+    let natural = vec![0; current.len()];
+    let mut choices = vec![current.clone(), natural.clone()];
+    choices.extend([0, 1].map(|side| freedom.iter().map(|bounds| bounds[side]).collect()));
+    for from in [current, natural] {
         for (i, &[less, more]) in freedom.iter().enumerate() {
             for axes in less..=more {
                 let mut choice = from.clone();
                 choice[i] = axes;
-                all.push(choice);
+                choices.push(choice);
             }
         }
     }
-    let mut seen = BTreeSet::new();
-    all.retain(|choice| seen.insert(choice.clone()));
-    all
+    let mut unique_choices = BTreeSet::new();
+    choices.retain(|choice| unique_choices.insert(choice.clone()));
+    choices
 }

@@ -87,8 +87,7 @@ pub(crate) fn tunings(problem: &Problem<'_>, forms: &[Form]) -> (ChainChoice, Op
         from
     };
     let chain = Chain::new(&arm, &start);
-    let starts = starts(&chain).into_iter();
-    let mut starts: Vec<Regrouping<Exact>> = starts.map(with).collect();
+    let mut starts: Vec<Regrouping<Exact>> = starts(&chain).into_iter().map(with).collect();
     if effort == Effort::Quick && starts.len() > 1 {
         // One descent: from where the others look dearer already. Of a short chain
         // a round of the search is cheap, and tells more than the folded formula. Of a tree the
@@ -109,15 +108,15 @@ pub(crate) fn tunings(problem: &Problem<'_>, forms: &[Form]) -> (ChainChoice, Op
         false => traced(chain, form, below),
     };
     let descend = |from: Regrouping<Exact>| {
-        let mut found = tune::tune(&arm, from, forms, effort.regrouping_rounds(), watched);
-        found.price = quick(&Chain::new(&arm, &found.regrouping), found.form, u64::MAX);
-        found
+        let mut choice = tune::tune(&arm, from, forms, effort.regrouping_rounds(), watched);
+        choice.price = quick(&Chain::new(&arm, &choice.regrouping), choice.form, u64::MAX);
+        choice
     };
     let mut tuned: Option<ChainChoice> = None;
     for from in starts {
-        let found = descend(from);
-        if tuned.as_ref().is_none_or(|best| found.price < best.price) {
-            tuned = Some(found);
+        let choice = descend(from);
+        if tuned.as_ref().is_none_or(|best| choice.price < best.price) {
+            tuned = Some(choice);
         }
     }
     let mut tuned = tuned.unwrap_or(ChainChoice {
@@ -128,7 +127,8 @@ pub(crate) fn tunings(problem: &Problem<'_>, forms: &[Form]) -> (ChainChoice, Op
     let mut second = beside.map(descend);
     second = second.filter(|second| second.price < tuned.price);
     if effort == Effort::Thorough && arm.links.len() <= MAX_QUICK_LINKS && !is_over() {
-        let finished = |own: ChainChoice| tune::tune(&arm, own.regrouping, &[own.form], 2, quick);
+        let finished =
+            |choice: ChainChoice| tune::tune(&arm, choice.regrouping, &[choice.form], 2, quick);
         (tuned, second) = (finished(tuned), second.map(finished));
     }
     (tuned, second)

@@ -36,8 +36,10 @@ pub(crate) fn chosen(setup: Setup) -> Setup {
         graph.live().any(|(_, node)| *node == entry)
     };
     let met = met(&chain, &full.unknowns()).into_iter().enumerate();
-    let read = met.filter(|(index, _)| is_read(*index));
-    let read = read.map(|(_, number)| number).collect();
+    let read = met
+        .filter(|(index, _)| is_read(*index))
+        .map(|(_, number)| number)
+        .collect();
     setup.with_load(read, best.regrouping)
 }
 

@@ -54,8 +54,8 @@ impl Source {
 
     pub fn from_name(name: &str) -> Option<Source> {
         let textbook = start::TEXTBOOK.into_iter().map(Source::Textbook);
-        let mut all = textbook.chain([Source::Regrouped]);
-        all.find(|source| source.name() == name)
+        let mut sources = textbook.chain([Source::Regrouped]);
+        sources.find(|source| source.name() == name)
     }
 }
 
@@ -95,13 +95,15 @@ pub fn trace(task: Task<'_>, formulation: Formulation) -> Seed {
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
     // As the textbook has it, bodies are bodies and no load.
     let mut arguments = setup.arguments(function);
-    let given = RuntimeParameter::LOADING.into_iter();
-    arguments.extend(given.filter_map(RuntimeParameter::given));
+    let parameters = RuntimeParameter::LOADING.into_iter();
+    arguments.extend(parameters.filter_map(RuntimeParameter::given));
     let leaves = (Symbol::constant, reader(&arguments, &builder));
     let outputs: Vec<Symbol> = restored(task.textbook(formulation, &AnyLeaves(&leaves)));
     let mut builder = builder.replace(Builder::new(Folding::Syntactic));
-    let outputs = outputs.iter().map(|output| output.edge(&mut builder));
-    let outputs = outputs.collect();
+    let outputs = outputs
+        .iter()
+        .map(|output| output.edge(&mut builder))
+        .collect();
     Seed {
         source: Source::Textbook(formulation),
         traced: builder.asked(),

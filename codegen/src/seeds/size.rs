@@ -44,28 +44,28 @@ pub(super) struct Sizes(Vec<[f64; 3]>);
 impl Sizes {
     pub(super) fn of(arm: &Skeleton<Exact>) -> Sizes {
         let length = |x: &[f64; 3]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let mut all = vec![LinkMoments::default(); arm.links.len()];
+        let mut moments = vec![LinkMoments::default(); arm.links.len()];
         for (i, segment) in arm.links.iter().enumerate().rev() {
             let Body {
                 mass,
                 first,
                 second,
             } = segment.link.body.map(f64::nearest);
-            all[i].mass += mass.abs();
-            all[i].first += length(&first);
-            all[i].second += (second.xx + second.yy + second.zz).abs();
-            let carried = all[i];
+            moments[i].mass += mass.abs();
+            moments[i].first += length(&first);
+            moments[i].second += (second.xx + second.yy + second.zz).abs();
+            let carried = moments[i];
             if let Some(carrier) = segment.link.parent {
                 let offset = segment.link.offset.each_ref().map(f64::nearest);
                 let away = length(&offset) + f64::nearest(&segment.d).abs();
-                let carrier = &mut all[carrier];
+                let carrier = &mut moments[carrier];
                 carrier.mass += carried.mass;
                 carrier.first += carried.first;
                 carrier.second += carried.second;
                 carrier.reach = carrier.reach.max(away + carried.reach);
             }
         }
-        Sizes(all.iter().map(LinkMoments::sizes).collect())
+        Sizes(moments.iter().map(LinkMoments::sizes).collect())
     }
 
     /// Returns false if a link of a chain in metres has larger moments.
@@ -125,13 +125,13 @@ mod tests {
         let price = |chain: &Chain<Exact>, _: Form, _: u64| {
             let size = |x: &Exact| f64::nearest(x).abs();
             let links = chain.links.iter();
-            let all: f64 = links.map(|link| size(&link.body.second.zz)).sum();
-            1_000_000 - all.min(900_000.0) as u64
+            let total: f64 = links.map(|link| size(&link.body.second.zz)).sum();
+            1_000_000 - total.min(900_000.0) as u64
         };
         let forms = Form::all(false, false, false, HandChoice::None);
         let from = Regrouping::base(&arm);
-        let found = tune::tune(&arm, from, &forms, 3, price);
-        let chain = MetricChain::new(&arm, &found.regrouping).chain;
+        let choice = tune::tune(&arm, from, &forms, 3, price);
+        let chain = MetricChain::new(&arm, &choice.regrouping).chain;
         assert!(Sizes::of(&arm).admits(&chain));
     }
 }

@@ -66,8 +66,8 @@ impl Word for Start {
     const WHAT: &'static str = "formulation";
 
     fn all() -> Vec<(&'static str, Start)> {
-        let all = [Start::Auto].into_iter().chain(TEXTBOOK.map(Start::Only));
-        all.map(|start| (start.name(), start)).collect()
+        let starts = [Start::Auto].into_iter().chain(TEXTBOOK.map(Start::Only));
+        starts.map(|start| (start.name(), start)).collect()
     }
 }
 

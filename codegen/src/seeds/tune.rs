@@ -159,11 +159,11 @@ impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
         };
         among(&|form, best| form.hand == best.hand);
         among(&|form, best| {
-            let seen = Form {
+            let counterpart = Form {
                 hand: form.hand,
                 ..best
             };
-            form != best && form == seen
+            form != best && form == counterpart
         });
     }
 
@@ -232,8 +232,8 @@ fn terms(link: &ChainLink<Exact>) -> usize {
 }
 
 fn body_terms(body: &Body<Exact>) -> usize {
-    let second = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
-    let second = second.map(|(i, j)| entry(&body.second, i, j));
+    let second =
+        [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|(i, j)| entry(&body.second, i, j));
     let constants = second.into_iter().chain(&body.first);
     constants.map(Exact::terms).max().unwrap_or(0)
 }
@@ -265,9 +265,9 @@ fn revolute(arm: &Skeleton<Exact>, chain: &Chain<Exact>, now: &Link, i: usize) -
         (|link| &mut link.second, |body| &mut body.second.zz, seconds),
     ];
     let mut links = Vec::new();
-    for (kept, of_body, own) in moments {
+    for (kept, of_body, free_amounts) in moments {
         let mut amounts = vec![Exact::zero()];
-        amounts.extend(own);
+        amounts.extend(free_amounts);
         let of_base = || chain.base.as_ref();
         let carrier = link
             .parent
@@ -278,8 +278,10 @@ fn revolute(arm: &Skeleton<Exact>, chain: &Chain<Exact>, now: &Link, i: usize) -
             let mut unit = Body::zero();
             *of_body(&mut unit) = Exact::one();
             let effect = costly(&unit.carried(&link.rotation, &link.offset));
-            let needed = parent.iter().zip(&effect);
-            let needed = needed.filter_map(|(entry, slope)| quotient(entry, slope));
+            let needed = parent
+                .iter()
+                .zip(&effect)
+                .filter_map(|(entry, slope)| quotient(entry, slope));
             amounts.extend(needed.map(|more| kept(&mut now.clone()).add(&more)));
         }
         let amounts = amounts.into_iter();
@@ -319,8 +321,9 @@ fn prismatic(chain: &Chain<Exact>, now: &Link, i: usize) -> Vec<Link> {
     if let Ok(centre) = <Vector<Exact>>::try_from(centre) {
         origins.push(shifted(&centre));
     }
-    let origins = origins.into_iter();
-    let origins = origins.map(|origin| changed(now, |link| link.origin = origin));
+    let origins = origins
+        .into_iter()
+        .map(|origin| changed(now, |link| link.origin = origin));
     let kept = [false, true].map(|kept| changed(now, |link| link.keep_seconds = kept));
     origins.chain(kept).collect()
 }
@@ -328,9 +331,9 @@ fn prismatic(chain: &Chain<Exact>, now: &Link, i: usize) -> Vec<Link> {
 fn costly(body: &Body<Exact>) -> Vec<Exact> {
     let second = &body.second;
     let [x, y, _] = &body.first;
-    let all = [
+    let entries = [
         x, y, &second.xx, &second.yy, &second.xy, &second.yz, &second.xz,
     ];
     let difference = second.xx.sub(&second.yy);
-    all.into_iter().cloned().chain([difference]).collect()
+    entries.into_iter().cloned().chain([difference]).collect()
 }

@@ -44,9 +44,11 @@ impl ParametersKey {
     /// Returns the key of a function; `None` if it takes no parameters as arguments.
     pub fn find(task: Task<'_>) -> Option<ParametersKey> {
         let Task { setup, function } = task;
-        let all = RuntimeParameter::ALL.into_iter();
-        let taken = all.filter(|&parameter| setup.takes(function, parameter));
-        let mut taken: Vec<Argument> = taken.map(RuntimeParameter::argument).collect();
+        let parameters = RuntimeParameter::ALL.into_iter();
+        let mut taken: Vec<Argument> = parameters
+            .filter(|&parameter| setup.takes(function, parameter))
+            .map(RuntimeParameter::argument)
+            .collect();
         taken.sort();
         taken.dedup();
         if taken.is_empty() {
@@ -55,11 +57,12 @@ impl ParametersKey {
         let load = setup.load().filter(|_| taken.contains(&Argument::Load));
         let numbers = load.map_or(&[][..], |load| &load.numbers);
         // Two loads may be the same numbers of other unknowns; a payload's has no more lines than before.
-        let given = RuntimeParameter::LOADING.into_iter();
-        let given = given.filter(|own| load.is_some() && setup.has(*own));
-        let given = given.filter(|own| *own != RuntimeParameter::Payload);
-        let given = given.map(|own| format!("{} {:?}\n", own.name(), setup.body_links()));
-        let lines = given.chain(numbers.iter().map(|number| format!("{number}\n")));
+        let parameter_lines = RuntimeParameter::LOADING
+            .into_iter()
+            .filter(|parameter| load.is_some() && setup.has(*parameter))
+            .filter(|parameter| *parameter != RuntimeParameter::Payload)
+            .map(|parameter| format!("{} {:?}\n", parameter.name(), setup.body_links()));
+        let lines = parameter_lines.chain(numbers.iter().map(|number| format!("{number}\n")));
         Some(ParametersKey {
             taken,
             load: numbers.len(),

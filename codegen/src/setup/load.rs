@@ -101,9 +101,11 @@ impl Setup {
 
     fn constant_angles(&self) -> Vec<Angle> {
         let robot = self.robot();
-        let rows = robot.rows().into_iter();
-        let rows = rows.flat_map(|joint| [&joint.alpha, &joint.beta, &joint.theta]);
-        let offsets = robot.followers.iter().map(|own| &own.offset);
+        let rows = robot
+            .rows()
+            .into_iter()
+            .flat_map(|joint| [&joint.alpha, &joint.beta, &joint.theta]);
+        let offsets = robot.followers.iter().map(|follower| &follower.offset);
         let frames = robot
             .placements()
             .into_iter()
@@ -112,16 +114,19 @@ impl Setup {
             .rows()
             .into_iter()
             .filter_map(|joint| joint.place.as_ref());
-        let frames = frames.chain(places.map(|place| &place.placement));
-        let frames = frames.flat_map(|Placement { rpy, .. }| rpy);
+        let frames = frames
+            .chain(places.map(|place| &place.placement))
+            .flat_map(|Placement { rpy, .. }| rpy);
         let locks = self.scene().into_iter().flat_map(|scene| &scene.lock);
-        let positions = offsets.chain(locks.map(|(_, at)| at));
-        let positions = positions.filter_map(|at| match at {
-            Position::Angle(angle) => Some(angle),
-            Position::Length(_) => None,
-        });
-        let all = rows.chain(positions).chain(frames);
-        all.flat_map(|angle| [angle.clone(), angle.negate()])
+        let positions = offsets
+            .chain(locks.map(|(_, at)| at))
+            .filter_map(|at| match at {
+                Position::Angle(angle) => Some(angle),
+                Position::Length(_) => None,
+            });
+        let angles = rows.chain(positions).chain(frames);
+        angles
+            .flat_map(|angle| [angle.clone(), angle.negate()])
             .collect()
     }
 }
@@ -139,31 +144,31 @@ impl Unknowns {
 
     /// True if a number depends on one of them.
     pub fn occur_in(&self, number: &Exact) -> bool {
-        let mut found = false;
+        let mut has_angle = false;
         number.map(&mut |x| Some(Exact::from(x.clone())), &mut |angle| {
-            found |= self.angles.contains(angle);
+            has_angle |= self.angles.contains(angle);
             Exact::sincos(angle)
         });
-        found
+        has_angle
     }
 
     fn row(&self, number: &Exact) -> LoadRow<Exact> {
-        let own = self.where_one_is(number, None);
+        let constant = self.where_one_is(number, None);
         let mut occurring: Vec<usize> = Vec::new();
         number.map(&mut |x| Some(Exact::from(x.clone())), &mut |angle| {
-            let place = self.angles.iter().position(|own| own == angle);
+            let place = self.angles.iter().position(|candidate| candidate == angle);
             occurring.extend(place.filter(|place| !occurring.contains(place)));
             Exact::sincos(angle)
         });
         occurring.sort_unstable();
         let coefficients = occurring.into_iter().filter_map(|place| {
             let with = self.where_one_is(number, Some(&self.angles[place]));
-            let factor = with.sub(&own);
+            let factor = with.sub(&constant);
             (!factor.is_zero()).then_some((place, factor))
         });
         LoadRow {
             of: coefficients.collect(),
-            own,
+            constant,
         }
     }
 

@@ -132,9 +132,9 @@ impl Setup {
     /// where the base floats.
     #[must_use]
     pub fn taking(self, parameters: &[RuntimeParameter]) -> Setup {
-        let taken = RuntimeParameter::ALL.into_iter();
-        let taken = taken.filter(|own| {
-            parameters.contains(own) || always_taken(&self.robot).any(|always| always == *own)
+        let taken = RuntimeParameter::ALL.into_iter().filter(|parameter| {
+            parameters.contains(parameter)
+                || always_taken(&self.robot).any(|always| always == *parameter)
         });
         let bodies = match parameters.contains(&RuntimeParameter::Bodies) {
             true if self.bodies.is_empty() => self.rows_with_bodies().collect(),
@@ -178,17 +178,20 @@ impl Setup {
             return Ok(self);
         }
         let known: Vec<usize> = self.rows_with_bodies().collect();
-        let bodies = links.iter().map(|&link| {
-            let row = link.checked_add(self.robot.base_coordinates());
-            let row = row.and_then(|behind| behind.checked_sub(1));
-            row.filter(|row| known.contains(row)).ok_or_else(|| {
-                let first = usize::from(self.robot.floating.is_none());
-                let message = format!("bodies: there is no link {link}");
-                let last = self.robot.rows().len();
-                Complaint::new(message, format!("links are {first} to {last}"))
+        let mut bodies = links
+            .iter()
+            .map(|&link| {
+                let row = link
+                    .checked_add(self.robot.base_coordinates())
+                    .and_then(|behind| behind.checked_sub(1));
+                row.filter(|row| known.contains(row)).ok_or_else(|| {
+                    let first = usize::from(self.robot.floating.is_none());
+                    let message = format!("bodies: there is no link {link}");
+                    let last = self.robot.rows().len();
+                    Complaint::new(message, format!("links are {first} to {last}"))
+                })
             })
-        });
-        let mut bodies = bodies.collect::<Result<Vec<usize>, Complaint>>()?;
+            .collect::<Result<Vec<usize>, Complaint>>()?;
         bodies.sort_unstable();
         bodies.dedup();
         Ok(Setup { bodies, ..self })
@@ -254,19 +257,19 @@ impl Setup {
     pub fn has_load(&self) -> bool {
         self.parameters
             .iter()
-            .any(|own| RuntimeParameter::LOADING.contains(own))
+            .any(|parameter| RuntimeParameter::LOADING.contains(parameter))
     }
 
     /// True if a function takes a load.
     pub fn takes_load(&self, function: Function) -> bool {
-        let mut all = RuntimeParameter::LOADING.into_iter();
-        all.any(|parameter| self.takes(function, parameter))
+        let mut parameters = RuntimeParameter::LOADING.into_iter();
+        parameters.any(|parameter| self.takes(function, parameter))
     }
 
     /// True if a function takes any parameter as an argument.
     pub fn takes_any(&self, function: Function) -> bool {
-        let mut all = RuntimeParameter::ALL.into_iter();
-        function == Function::Load || all.any(|parameter| self.takes(function, parameter))
+        let mut parameters = RuntimeParameter::ALL.into_iter();
+        function == Function::Load || parameters.any(|parameter| self.takes(function, parameter))
     }
 
     /// Returns the robot with the scene's payload and gravity, the box as its limits.
@@ -329,12 +332,12 @@ impl Setup {
         let locks = self.locks.iter().enumerate().map(merges);
         let mut merged: Vec<_> = base.chain(locks).collect();
         let following = self.following(Exact::clone);
-        for own in &following {
-            merged.insert(own.row, None);
+        for follower in &following {
+            merged.insert(follower.row, None);
         }
-        for own in &following {
-            let leader = merged[own.leader].as_ref();
-            merged[own.row] = leader.map(|leader| leader.followed_by(own));
+        for follower in &following {
+            let leader = merged[follower.leader].as_ref();
+            merged[follower.row] = leader.map(|leader| leader.followed_by(follower));
         }
         merged
     }
@@ -346,19 +349,21 @@ impl Setup {
 
     /// Returns the arguments that a function keeps: rates that are zero need none.
     pub fn arguments(&self, function: Function) -> Vec<Argument> {
-        let all = function.arguments().into_iter();
+        let candidates = function.arguments().into_iter();
         let is_there = |argument: Argument| {
             let mut loading = RuntimeParameter::LOADING.into_iter();
-            let parameter = loading.find(|own| own.given() == Some(argument));
-            parameter.is_none_or(|own| self.has(own)) && !self.has_zero(argument)
+            let parameter = loading.find(|parameter| parameter.given() == Some(argument));
+            parameter.is_none_or(|parameter| self.has(parameter)) && !self.has_zero(argument)
         };
-        let mut own: Vec<Argument> = all.filter(|&argument| is_there(argument)).collect();
-        let taken = RuntimeParameter::ALL.into_iter();
-        let taken = taken.filter(|&parameter| self.takes(function, parameter));
-        own.extend(taken.map(RuntimeParameter::argument));
-        own.sort();
-        own.dedup();
-        own
+        let mut arguments: Vec<Argument> =
+            candidates.filter(|&argument| is_there(argument)).collect();
+        let taken = RuntimeParameter::ALL
+            .into_iter()
+            .filter(|&parameter| self.takes(function, parameter));
+        arguments.extend(taken.map(RuntimeParameter::argument));
+        arguments.sort();
+        arguments.dedup();
+        arguments
     }
 
     /// True if the scene holds an argument at zero.
@@ -414,8 +419,8 @@ impl Setup {
     pub fn base(&self, quantity: Quantity) -> Result<&BaseParameters, &Complaint> {
         // Nothing at a frame is over base parameters.
         let place = quantity.index().unwrap_or_default();
-        let found = self.base[place].get_or_init(|| BaseParameters::find(self, quantity));
-        found.as_ref()
+        let base = self.base[place].get_or_init(|| BaseParameters::find(self, quantity));
+        base.as_ref()
     }
 
     /// Returns the base parameters that a function is over, if it is over any.
@@ -490,8 +495,8 @@ impl Setup {
         following: &[FollowerLine<S>],
         values: Vec<S>,
     ) -> Vec<S> {
-        let own: Vec<usize> = self.rows.iter().map(|&own| self.arm_row(own)).collect();
-        quantity.selected(values, [rows, &own], following, sizes)
+        let arm_rows: Vec<usize> = self.rows.iter().map(|&row| self.arm_row(row)).collect();
+        quantity.selected(values, [rows, &arm_rows], following, sizes)
     }
 }
 
@@ -507,16 +512,17 @@ fn no_bases() -> Bases {
 
 fn motion<S: Scalar>(robot: &Robot, mut input: impl FnMut(Input) -> S) -> Motion<S> {
     let joints = || robot.joints.iter().enumerate();
-    let q = joints().map(|(i, joint)| match joint.kind {
-        JointKind::Revolute => JointPosition::Revolute(SinCosPair {
-            sin: input(Input::Sin(i)),
-            cos: input(Input::Cos(i)),
-        }),
-        JointKind::Prismatic => {
-            JointPosition::Prismatic(input(Input::Entry(Argument::Position, i)))
-        }
-    });
-    let q: Vec<JointPosition<S>> = q.collect();
+    let q: Vec<JointPosition<S>> = joints()
+        .map(|(i, joint)| match joint.kind {
+            JointKind::Revolute => JointPosition::Revolute(SinCosPair {
+                sin: input(Input::Sin(i)),
+                cos: input(Input::Cos(i)),
+            }),
+            JointKind::Prismatic => {
+                JointPosition::Prismatic(input(Input::Entry(Argument::Position, i)))
+            }
+        })
+        .collect();
     let base = robot.base_coordinates();
     let q = base_position().into_iter().take(base).chain(q).collect();
     let speeds = joints().map(|(i, joint)| {

@@ -76,15 +76,18 @@ impl Setup {
     }
 
     fn heaviest(&self) -> f64 {
-        let masses = self.robot().bodies();
-        let masses = masses.map(|body| f64::nearest_rational(&body.mass));
+        let masses = self
+            .robot()
+            .bodies()
+            .map(|body| f64::nearest_rational(&body.mass));
         positive(masses.fold(0.0, f64::max))
     }
 
     fn longest(&self) -> f64 {
         let joints = self.robot().joints.iter();
-        let lengths = joints.flat_map(|joint| [&joint.a, &joint.d]);
-        let lengths = lengths.map(|x| f64::nearest_rational(x).abs());
+        let lengths = joints
+            .flat_map(|joint| [&joint.a, &joint.d])
+            .map(|x| f64::nearest_rational(x).abs());
         positive(lengths.fold(0.0, f64::max))
     }
 }

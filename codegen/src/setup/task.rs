@@ -136,14 +136,18 @@ impl Setup {
         mut input: impl FnMut(Input) -> S,
         mut constant: impl FnMut(&Exact) -> S,
     ) -> LoadArguments<S> {
-        let rows = self.load().map_or(&[][..], |load| &load.rows);
-        let rows = rows.iter().map(|row| row.map(&mut constant)).collect();
+        let rows = self
+            .load()
+            .map_or(&[][..], |load| &load.rows)
+            .iter()
+            .map(|row| row.map(&mut constant))
+            .collect();
         let mut bodies = self.given_bodies(&mut input, &mut constant);
         bodies.extend(self.given_payload(&mut input, &mut constant));
         let drives = self
             .drives()
-            .map(|(argument, place)| input(Input::Entry(argument, place)));
-        let drives = drives.collect();
+            .map(|(argument, place)| input(Input::Entry(argument, place)))
+            .collect();
         LoadArguments::new(&bodies, drives, rows)
     }
 
@@ -158,7 +162,7 @@ impl Setup {
         }
         let frames = self.arm(Exact::clone).frames;
         let body = |(place, row): (usize, &usize)| {
-            let frame = frames.of_link(*row).map(|own| own.map(&mut constant));
+            let frame = frames.of_link(*row).map(|frame| frame.map(&mut constant));
             let mut numbers = numbers(Argument::Bodies, BODY * place, &mut input);
             for (number, is_zero) in numbers.iter_mut().zip(self.zeros.iter().skip(BODY * place)) {
                 if *is_zero {
@@ -179,8 +183,11 @@ impl Setup {
         if !self.has(RuntimeParameter::Payload) {
             return None;
         }
-        let frame = self.robot().payload_frame.as_ref();
-        let frame = frame.map(|own| exact_pose(own).map(constant));
+        let frame = self
+            .robot()
+            .payload_frame
+            .as_ref()
+            .map(|placement| exact_pose(placement).map(constant));
         Some(carried(
             &numbers(Argument::Payload, 0, input),
             frame.as_ref(),
@@ -190,8 +197,9 @@ impl Setup {
     /// Lists the entries of drives that are arguments: armatures, then viscous friction, row by row.
     pub(super) fn drives(&self) -> impl Iterator<Item = (Argument, usize)> {
         let rows = self.robot().rows().len();
-        let drives = [RuntimeParameter::Armature, RuntimeParameter::Viscous].into_iter();
-        let drives = drives.filter(|parameter| self.has(*parameter));
+        let drives = [RuntimeParameter::Armature, RuntimeParameter::Viscous]
+            .into_iter()
+            .filter(|parameter| self.has(*parameter));
         let arguments = drives.filter_map(RuntimeParameter::given);
         arguments.flat_map(move |argument| (0..rows).map(move |row| (argument, row)))
     }
@@ -263,8 +271,8 @@ fn numbers_of(link: &Link<Exact>, frame: Option<&Columns<Exact>>) -> Vec<Exact> 
     });
     let listed = |link: &Link<Exact>| -> Vec<Exact> {
         let inertia = link.inertia.entries().into_iter();
-        let all = [&link.mass].into_iter().chain(&link.com).chain(inertia);
-        all.cloned().collect()
+        let numbers = [&link.mass].into_iter().chain(&link.com).chain(inertia);
+        numbers.cloned().collect()
     };
     listed(&carried(&listed(link), back.as_ref()))
 }
@@ -305,8 +313,8 @@ impl<S: Divide> TaskArm<'_, S> {
             base,
             ..Sizes::of(setup.robot())
         };
-        let own = setup.select(quantity, sizes, &rows, following, entries);
-        own.chunks(base.max(1)).map(<[S]>::to_vec).collect()
+        let matrix = setup.select(quantity, sizes, &rows, following, entries);
+        matrix.chunks(base.max(1)).map(<[S]>::to_vec).collect()
     }
 
     /// Returns the results over all joints there are.
@@ -326,15 +334,15 @@ impl<S: Divide> TaskArm<'_, S> {
     }
 
     /// Returns the results over the scene's rows, from those over all.
-    pub fn select(&self, all: Vec<S>) -> Vec<S> {
+    pub fn select(&self, values: Vec<S>) -> Vec<S> {
         let Task { setup, function } = self.task;
         let (rows, following) = (&self.rows, &self.arm.following);
         let sizes = setup.sizes(function);
-        let mut all = all.into_iter();
+        let mut rest = values.into_iter();
         let mut selected = Vec::with_capacity(function.outputs(sizes));
         for &quantity in function.quantities() {
-            let own = all.by_ref().take(quantity.len(sizes.over_all(rows.len())));
-            selected.extend(setup.select(quantity, sizes, rows, following, own.collect()));
+            let entries = rest.by_ref().take(quantity.len(sizes.over_all(rows.len())));
+            selected.extend(setup.select(quantity, sizes, rows, following, entries.collect()));
         }
         selected
     }

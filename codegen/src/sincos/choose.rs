@@ -149,7 +149,7 @@ impl Candidates {
     /// Returns the cheapest kernel that errs no more than `enough`, else the most accurate one.
     pub fn cheapest(&self, enough: f64) -> Option<Choice> {
         let fit = |choice: &Choice| choice.errors.worst() <= enough;
-        let found = self.front(enough, enough).pop().filter(fit);
-        found.or_else(|| self.front(f64::INFINITY, 0.0).pop())
+        let choice = self.front(enough, enough).pop().filter(fit);
+        choice.or_else(|| self.front(f64::INFINITY, 0.0).pop())
     }
 }

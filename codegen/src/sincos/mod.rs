@@ -104,7 +104,7 @@ pub(crate) fn polynomials(
     let mut sines: Sines = Vec::new();
     for trig in &program.trig() {
         let range = range_of(trig.joint, positions);
-        let is_same = |own: &&AngleKernel| own.range == range && own.kernel.need == trig.need;
+        let is_same = |sine: &&AngleKernel| sine.range == range && sine.kernel.need == trig.need;
         let kernel = match sines.iter().find(is_same) {
             Some(known) => AngleKernel {
                 joint: trig.joint,
@@ -124,7 +124,7 @@ fn one(
     error: f64,
 ) -> Result<AngleKernel, OutOfReach> {
     let best = Candidates::new(trig.need, scalar, range).cheapest(error);
-    let worst = best.as_ref().map(|own| own.errors.worst());
+    let worst = best.as_ref().map(|choice| choice.errors.worst());
     let least = worst.unwrap_or(f64::INFINITY);
     match best {
         Some(choice) if least <= error => Ok(AngleKernel {

@@ -200,8 +200,12 @@ impl Poly {
         while coefficients.last().is_some_and(Zero::is_zero) {
             coefficients.pop();
         }
-        let shared = coefficients.iter().filter_map(BigInt::trailing_zeros);
-        let shared = shared.min().unwrap_or(exponent).min(exponent);
+        let shared = coefficients
+            .iter()
+            .filter_map(BigInt::trailing_zeros)
+            .min()
+            .unwrap_or(exponent)
+            .min(exponent);
         for c in &mut coefficients {
             *c >>= shared;
         }

@@ -38,8 +38,8 @@ impl Errors {
     }
 
     fn and(self, other: Errors, need: SinCosUse) -> Errors {
-        let sum = |is_wanted: bool, own: f64, other: f64| match is_wanted {
-            true => (own + other).next_up(),
+        let sum = |is_wanted: bool, error: f64, other: f64| match is_wanted {
+            true => (error + other).next_up(),
             false => 0.0,
         };
         Errors {
@@ -163,8 +163,8 @@ fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
         };
         let cell = Interval::new(end(cell), end(cell + 1)).unwrap_or(range);
         let ran = ranges(kernel, scalar, cell);
-        let own = |edge: Option<Edge>| edge.map_or(0.0, |edge| error(kernel, &ran, edge));
-        let [sin, cos] = kernel.results().map(own);
+        let roundoff = |edge: Option<Edge>| edge.map_or(0.0, |edge| error(kernel, &ran, edge));
+        let [sin, cos] = kernel.results().map(roundoff);
         worst.sin = worst.sin.max(sin);
         worst.cos = worst.cos.max(cos);
     }
@@ -174,17 +174,17 @@ fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
 /// Intervals that hold what is exact and what is computed, and each node's own rounding.
 struct Forward {
     values: Vec<Interval>,
-    own: Vec<f64>,
+    roundings: Vec<f64>,
 }
 
 fn ranges(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> Forward {
     let u = scalar.unit_roundoff();
     let mut ran = Forward {
         values: Vec::with_capacity(kernel.dag.nodes.len()),
-        own: Vec::with_capacity(kernel.dag.nodes.len()),
+        roundings: Vec::with_capacity(kernel.dag.nodes.len()),
     };
     for node in &kernel.dag.nodes {
-        let (value, own) = match node {
+        let (value, rounding) = match node {
             Node::Constant(value) => (Interval::point(value.0), 0.0),
             Node::Input(_) => (angle, 0.0),
             Node::Apply(operation, operands) => {
@@ -196,12 +196,12 @@ fn ranges(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> Forward {
                     }
                     _ => (operation.apply(&x, &y), underflow(scalar)),
                 };
-                let own = ((u * exact.magnitude()).next_up() + eta).next_up();
-                (exact.widened(own), own)
+                let rounding = ((u * exact.magnitude()).next_up() + eta).next_up();
+                (exact.widened(rounding), rounding)
             }
         };
         ran.values.push(value);
-        ran.own.push(own);
+        ran.roundings.push(rounding);
     }
     ran
 }
@@ -211,10 +211,10 @@ fn error(kernel: &Kernel, ran: &Forward, result: Edge) -> f64 {
     let mut adjoints = Vec::new();
     kernel.dag.adjoints(result.node, &ran.values, &mut adjoints);
     let mut sum = Interval::ZERO;
-    for (adjoint, own) in adjoints.iter().zip(&ran.own).rev() {
+    for (adjoint, rounding) in adjoints.iter().zip(&ran.roundings).rev() {
         // Products of zero are rounded outward, too.
-        if *adjoint != Interval::ZERO && *own != 0.0 {
-            sum = sum + Interval::point(adjoint.magnitude()) * Interval::point(*own);
+        if *adjoint != Interval::ZERO && *rounding != 0.0 {
+            sum = sum + Interval::point(adjoint.magnitude()) * Interval::point(*rounding);
         }
     }
     sum.high()

@@ -80,8 +80,10 @@ pub(crate) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Ke
         Node::Input(_) => false,
     };
     let operations = dag.nodes.iter().skip(expected.nodes.len());
-    let reads = operations.filter_map(Node::operands).flatten();
-    let mut reads = reads.chain(dag.outputs.iter().map(|edge| edge.node));
+    let mut reads = operations
+        .filter_map(Node::operands)
+        .flatten()
+        .chain(dag.outputs.iter().map(|edge| edge.node));
     if !dag.is_straight() || !reads.all(is_left) {
         return None;
     }

@@ -73,13 +73,16 @@ fn errors_are_as_proved_and_not_far_below() {
     for (scalar, low, high, error) in CASES {
         let over = range(low, high);
         let choice = cheapest(BOTH, scalar, over, error);
-        let seen = seen(&choice.kernel, scalar, over);
+        let sample_errors = seen(&choice.kernel, scalar, over);
         let proved = choice.errors;
         // libm's own errors, of which the samples are not free.
-        let own = 2.0 * f64::EPSILON;
-        assert!(seen.sin <= proved.sin + own && seen.cos <= proved.cos + own);
-        let is_near = proved.worst() <= 4.0 * seen.worst() + own;
-        assert!(is_near, "{}: {proved:?} {seen:?}", choice.form);
+        let libm_error = 2.0 * f64::EPSILON;
+        assert!(
+            sample_errors.sin <= proved.sin + libm_error
+                && sample_errors.cos <= proved.cos + libm_error
+        );
+        let is_near = proved.worst() <= 4.0 * sample_errors.worst() + libm_error;
+        assert!(is_near, "{}: {proved:?} {sample_errors:?}", choice.form);
     }
 }
 
@@ -95,9 +98,9 @@ fn a_changed_literal_shows() {
             };
             *value = scalar.nearest(*value * 1.01);
             let wrong = seen(&kernel, scalar, over);
-            if let Some(found) = prove(&kernel, scalar, over, f64::INFINITY) {
-                let is_bound = wrong.sin <= found.sin && wrong.cos <= found.cos;
-                let is_seen = found.worst() > honest.errors.worst();
+            if let Some(bound) = prove(&kernel, scalar, over, f64::INFINITY) {
+                let is_bound = wrong.sin <= bound.sin && wrong.cos <= bound.cos;
+                let is_seen = bound.worst() > honest.errors.worst();
                 assert!(is_bound && is_seen, "node {index}");
             }
         }
@@ -158,7 +161,7 @@ fn nothing_unbounded_is_proved() {
     let mut wild = KernelWriter::default();
     let infinite = wild.literal(f64::INFINITY);
     for kernel in [alone(kernel, node), alone(wild, infinite)] {
-        let found = prove(&kernel, ScalarType::F64, range(0.0, 1.0), f64::INFINITY);
-        assert_eq!(found, None);
+        let bound = prove(&kernel, ScalarType::F64, range(0.0, 1.0), f64::INFINITY);
+        assert_eq!(bound, None);
     }
 }

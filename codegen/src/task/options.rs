@@ -95,8 +95,8 @@ fn output(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
 }
 
 fn find<'s>(scenes: &'s [Scene], name: &str) -> Result<&'s Scene, Complaint> {
-    let found = scenes.iter().find(|scene| scene.name == name);
-    found.ok_or_else(|| {
+    let scene = scenes.iter().find(|scene| scene.name == name);
+    scene.ok_or_else(|| {
         let known: Vec<&str> = scenes.iter().map(|scene| scene.name.as_str()).collect();
         let message = format!("the robot has no scene `{name}`");
         let none = format!("its file has none: add a table [scene.{name}]");
@@ -347,7 +347,10 @@ impl Request {
             ("bodies", !draft.request.bodies.is_empty()),
             ("keep_zeros", draft.request.keeps_zeros),
         ];
-        for (option, _) in of_bodies.into_iter().filter(|own| own.1 && !takes_bodies) {
+        for (option, _) in of_bodies
+            .into_iter()
+            .filter(|option| option.1 && !takes_bodies)
+        {
             let help = "add `parameters: bodies`, or leave this out";
             let message = "it is about bodies that are arguments, and none are";
             report(option, "", Complaint::new(message, help));
@@ -373,9 +376,17 @@ impl Request {
     /// Returns the options that ask for this request; outputs and scalars are named.
     pub fn asked(&self) -> Asked {
         let mut asked = Asked::default();
-        let outputs: Vec<String> = self.functions.iter().map(|own| own.text()).collect();
-        let scalars: Vec<&str> = self.scalars.iter().map(|own| own.name()).collect();
-        let parameters: Vec<&str> = self.parameters.iter().map(|own| own.name()).collect();
+        let outputs: Vec<String> = self
+            .functions
+            .iter()
+            .map(|function| function.text())
+            .collect();
+        let scalars: Vec<&str> = self.scalars.iter().map(|scalar| scalar.name()).collect();
+        let parameters: Vec<&str> = self
+            .parameters
+            .iter()
+            .map(|parameter| parameter.name())
+            .collect();
         let bodies: Vec<String> = self.bodies.iter().map(usize::to_string).collect();
         let error = self.sincos_error.map(|error| format!("{error:?}"));
         let scene = self.scene.as_ref().map_or("", |scene| &scene.name);

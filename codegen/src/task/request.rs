@@ -153,8 +153,7 @@ impl Request {
     /// # Errors
     /// The scene is none of this robot, or a function needs mass and no link has any.
     pub fn setup(&self, robot: &Robot) -> Result<Setup, Complaint> {
-        let setup = Setup::in_scene(robot, self.scene.as_ref())?;
-        let setup = setup
+        let setup = Setup::in_scene(robot, self.scene.as_ref())?
             .taking(&self.parameters)
             .taking_bodies(&self.bodies, self.keeps_zeros)?;
         if setup.has(RuntimeParameter::Payload) && robot.is_tree() {
@@ -166,7 +165,8 @@ impl Request {
         }
         if !setup.robot().has_mass() && !setup.has_load() {
             // A function that no payload changes is kinematics, or over any parameters.
-            let weighs = |own: &&Function| own.payload_dependence() != PayloadDependence::None;
+            let weighs =
+                |function: &&Function| function.payload_dependence() != PayloadDependence::None;
             if let Some(function) = self.functions.iter().find(weighs) {
                 let message = format!(
                     "no link has mass, inertia or an armature, so `{function}` would be that of an arm that \

@@ -86,7 +86,7 @@ pub fn attempt(
         top.extend(climbed.map(|(state, _)| run.in_last_bits(output, state, &mut random)));
     }
     let reference = Reference::new(setup);
-    let mut found = Attempt {
+    let mut attempt = Attempt {
         observed: None,
         violation: None,
     };
@@ -95,20 +95,23 @@ pub fn attempt(
         for (_, state) in top {
             let state = held(state, variant.scalar, limits);
             let truth = reference.run_program(&variant.exact, &state);
-            let error = truth.and_then(|own| {
-                let result = run.emitted.run_at(&state).get(output).copied();
-                Some(own.get(output)?.error(result.unwrap_or(f64::NAN)))
-            });
-            let error = error.unwrap_or(f64::INFINITY);
+            let error = truth
+                .and_then(|true_values| {
+                    let result = run.emitted.run_at(&state).get(output).copied();
+                    Some(true_values.get(output)?.error(result.unwrap_or(f64::NAN)))
+                })
+                .unwrap_or(f64::INFINITY);
             let error = if error == 0.0 { 0.0 } else { error / scale };
-            let observed = found.observed.get_or_insert_with(|| vec![0.0; tops.len()]);
+            let observed = attempt
+                .observed
+                .get_or_insert_with(|| vec![0.0; tops.len()]);
             observed[output] = observed[output].max(error);
-            if error > bound && found.violation.is_none() {
-                found.violation = Some((output, state));
+            if error > bound && attempt.violation.is_none() {
+                attempt.violation = Some((output, state));
             }
         }
     }
-    Ok(found)
+    Ok(attempt)
 }
 
 struct Run<'v> {
@@ -153,8 +156,9 @@ impl Run<'_> {
         let mut best = (0.0, from);
         for step in 0..LAST_MOVES {
             let reach = LAST[step % LAST.len()];
-            let each = (0..NEIGHBOURS).map(|k| nudged(limits, &best.1, reach, 1 + k % 3, random));
-            let states: Vec<JointState> = each.collect();
+            let neighbours =
+                (0..NEIGHBOURS).map(|k| nudged(limits, &best.1, reach, 1 + k % 3, random));
+            let states: Vec<JointState> = neighbours.collect();
             let errors = self.errors(&states);
             for (error, state) in errors[output].iter().zip(states) {
                 if *error > best.0 {

@@ -18,30 +18,36 @@ use crate::words::Complaint;
 /// The reason why the checker refuses the variant.
 pub(super) fn bounded(
     setup: &Setup,
-    own: &Variant,
+    variant: &Variant,
     tolerance: Option<f64>,
 ) -> Result<Variant, Complaint> {
     let (source, scene) = source(setup);
-    let claim = claim_in(setup.robot(), &source, setup, scene.as_ref(), own).write();
+    let claim = claim_in(setup.robot(), &source, setup, scene.as_ref(), variant).write();
     let demand = Demand {
         scene: scene.as_ref().map(|scene| scene.name.as_str()),
         tolerance,
         worst: None,
     };
-    let report = certify(&own.with_load(), &claim, &source, &demand);
-    let name = own.emitted.function.name();
-    let found = report.and_then(|report| {
-        let lines = report.lines.into_iter();
-        let shown = lines.map(|line| Ok((line.result?, line.name)));
-        let shown = shown.collect::<Result<Vec<_>, Fault>>()?;
-        let found = shown.into_iter().find(|own| own.1 == name);
-        let none = || Fault::Claim("the function is not in the file".into());
-        Ok(found.ok_or_else(none)?.0)
-    });
-    let found = found.map_err(|fault| above(own, &fault))?;
+    let report = certify(&variant.with_load(), &claim, &source, &demand);
+    let name = variant.emitted.function.name();
+    let findings = report
+        .and_then(|report| {
+            let lines = report.lines.into_iter();
+            let shown = lines
+                .map(|line| Ok((line.result?, line.name)))
+                .collect::<Result<Vec<_>, Fault>>()?;
+            let entry = shown.into_iter().find(|entry| entry.1 == name);
+            let none = || Fault::Claim("the function is not in the file".into());
+            Ok(entry.ok_or_else(none)?.0)
+        })
+        .map_err(|fault| above(variant, &fault))?;
     Ok(Variant {
-        bounds: found.results.iter().map(|own| own.relative()).collect(),
-        scales: found.results.iter().map(|own| own.scale).collect(),
-        ..own.clone()
+        bounds: findings
+            .results
+            .iter()
+            .map(|bound| bound.relative())
+            .collect(),
+        scales: findings.results.iter().map(|bound| bound.scale).collect(),
+        ..variant.clone()
     })
 }

@@ -59,7 +59,7 @@ pub struct Budget<'a> {
 
 /// The tolerance of each result, relative to T.
 pub struct Tolerances {
-    each: Vec<f64>,
+    per_result: Vec<f64>,
     /// The tolerance of all, if it is not the scene's.
     one: Option<f64>,
 }
@@ -83,7 +83,7 @@ impl<'a> Budget<'a> {
         let load = load.filter(|_| exact.arguments.contains(&Argument::Load));
         let reference = Reference::new(setup, exact, load).map_err(ToleranceError::Refused)?;
         let ranges = reference.domain().load().iter();
-        let range = ranges.map(|own| Interval::new(own[0], own[1]).unwrap_or(Interval::ALL));
+        let range = ranges.map(|ends| Interval::new(ends[0], ends[1]).unwrap_or(Interval::ALL));
         limits.load = range.collect();
         let (scales, reached) = match relative_to {
             Scale::Actuator => {
@@ -119,7 +119,7 @@ impl<'a> Budget<'a> {
     /// Returns the tolerance of each result by a scene's.
     pub fn allowed(&self, tolerance: &Tolerance) -> Tolerances {
         Tolerances {
-            each: scale::tolerances(self.exact, tolerance),
+            per_result: scale::tolerances(self.exact, tolerance),
             one: None,
         }
     }
@@ -127,7 +127,7 @@ impl<'a> Budget<'a> {
     /// Returns one tolerance for all results.
     pub fn all_allowed(&self, tolerance: f64) -> Tolerances {
         Tolerances {
-            each: vec![tolerance; self.scales.len()],
+            per_result: vec![tolerance; self.scales.len()],
             one: Some(tolerance),
         }
     }
@@ -188,18 +188,18 @@ impl<'a> Budget<'a> {
             scales: Vec::new(),
             bounds: Vec::new(),
         };
-        let found = bounded(self.setup, &draft.printed(), allowed.one);
-        let found = found.map_err(ToleranceError::Above)?;
-        let is_changed = found.emitted != *self.exact || !sines.is_empty();
+        let variant =
+            bounded(self.setup, &draft.printed(), allowed.one).map_err(ToleranceError::Above)?;
+        let is_changed = variant.emitted != *self.exact || !sines.is_empty();
         if is_changed {
-            let rounding = found.in_units(|bound| bound.rounding);
-            let (reference, all) = (&self.reference, found.errors());
-            if !reference.is_definite(program, sines, Some(&rounding), &all) {
+            let rounding = variant.in_units(|bound| bound.rounding);
+            let (reference, errors) = (&self.reference, variant.errors());
+            if !reference.is_definite(program, sines, Some(&rounding), &errors) {
                 let why = complaint("with its errors D cannot be shown to be positive definite");
                 return Err(ToleranceError::Indefinite(why));
             }
         }
-        Ok(found)
+        Ok(variant)
     }
 
     /// Returns a program in several scalars, as [`shown`](Self::shown).
@@ -212,8 +212,9 @@ impl<'a> Budget<'a> {
         scalars: &[ScalarType],
         allowed: &Tolerances,
     ) -> Result<VariantSet, ToleranceError> {
-        let variants = scalars.iter();
-        let variants = variants.map(|&scalar| self.shown(program, scalar, &[], allowed));
+        let variants = scalars
+            .iter()
+            .map(|&scalar| self.shown(program, scalar, &[], allowed));
         Ok(VariantSet {
             variants: variants.collect::<Result<_, _>>()?,
             exact: self.exact.clone(),
@@ -264,10 +265,16 @@ impl<'a> Budget<'a> {
         watch: FunctionWatch<'_>,
     ) -> Result<VariantSet, ToleranceError> {
         let meter = Meter::new(effort.work);
-        let scalars: Vec<ScalarType> = exact.variants.iter().map(|own| own.scalar).collect();
+        let scalars: Vec<ScalarType> = exact
+            .variants
+            .iter()
+            .map(|variant| variant.scalar)
+            .collect();
         let allowances = self.allowances(&exact, allowed);
-        let mut found = Vec::new();
-        if allowances.iter().any(|own| *own > 0.0) && self.reference.has_others(&allowances) {
+        let mut programs = Vec::new();
+        if allowances.iter().any(|allowance| *allowance > 0.0)
+            && self.reference.has_others(&allowances)
+        {
             let target = Target {
                 setup: self.setup,
                 exact: self.exact,
@@ -278,7 +285,7 @@ impl<'a> Budget<'a> {
                 watch,
                 meter,
             };
-            found = search::programs(target, from);
+            programs = search::programs(target, from);
         }
         if let Some(limit) = effort.work.filter(|_| meter.is_over()) {
             let scene = self.setup.scene().map_or("", |scene| &scene.name);
@@ -289,10 +296,10 @@ impl<'a> Budget<'a> {
                  script then take the program from its plan"
             ))));
         }
-        let mut found = found.iter().take(CANDIDATES).enumerate();
-        let shown = found.find_map(|(index, own)| {
-            watch.step(Part::Bounds, [index, CANDIDATES], Some(own.counts()));
-            self.admitted(own, &scalars, allowed).ok()
+        let mut candidates = programs.iter().take(CANDIDATES).enumerate();
+        let shown = candidates.find_map(|(index, program)| {
+            watch.step(Part::Bounds, [index, CANDIDATES], Some(program.counts()));
+            self.admitted(program, &scalars, allowed).ok()
         });
         Ok(shown.unwrap_or(exact))
     }
@@ -313,29 +320,30 @@ impl<'a> Budget<'a> {
         }
         // A bound is as large as is allowed: what is left is seen from what errors reach.
         let reached = self.reference.reached(program)?;
-        let left = variant
+        let left: Vec<f64> = variant
             .bounds
             .iter()
-            .zip(&allowed.each)
-            .zip(&variant.scales);
-        let left = left.zip(reached).map(|(((own, t), scale), reached)| {
-            let rest = (t - 1.01 * own.rounding) * scale - reached * (1.0 + REACHED);
-            rest.max(0.0)
-        });
-        let left: Vec<f64> = left.collect();
+            .zip(&allowed.per_result)
+            .zip(&variant.scales)
+            .zip(reached)
+            .map(|(((bound, t), scale), reached)| {
+                let rest = (t - 1.01 * bound.rounding) * scale - reached * (1.0 + REACHED);
+                rest.max(0.0)
+            })
+            .collect();
         let slopes = Slopes::new(program, &self.limits);
         let scalar = variant.scalar;
         let positions = self.limits.sine_positions(self.setup.robot(), scalar);
         let mut last: Option<Complaint> = None;
         for part in PARTS {
-            let allowances: Vec<f64> = left.iter().map(|own| own * part).collect();
+            let allowances: Vec<f64> = left.iter().map(|remainder| remainder * part).collect();
             let sines = sines::within(program, scalar, &positions, &allowances, &slopes);
             let sines = match (sines, last) {
                 (Err(_), Some(why)) => return Err(why),
                 (sines, _) => sines?,
             };
             match self.shown(program, scalar, &sines, allowed) {
-                Ok(found) => return Ok(found),
+                Ok(replacement) => return Ok(replacement),
                 Err(why) => last = Some(complaint(why.to_string())),
             }
         }
@@ -345,12 +353,12 @@ impl<'a> Budget<'a> {
     /// Returns the error in real numbers that each result may have, in its unit.
     fn allowances(&self, exact: &VariantSet, allowed: &Tolerances) -> Vec<f64> {
         let left = |index: usize| {
-            let each = exact.variants.iter().map(|own| {
-                let rest =
-                    (1.0 - MARGIN) * allowed.each[index] - ASIDE * own.bounds[index].rounding;
-                rest * own.scales[index]
+            let allowances = exact.variants.iter().map(|variant| {
+                let rest = (1.0 - MARGIN) * allowed.per_result[index]
+                    - ASIDE * variant.bounds[index].rounding;
+                rest * variant.scales[index]
             });
-            each.fold(f64::INFINITY, f64::min).max(0.0)
+            allowances.fold(f64::INFINITY, f64::min).max(0.0)
         };
         (0..self.scales.len()).map(left).collect()
     }

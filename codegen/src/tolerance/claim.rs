@@ -10,8 +10,8 @@ use crate::function::Argument;
 use crate::setup::Setup;
 
 /// Returns the claim about one text that a tolerance admitted.
-pub fn claim_of(robot: &Robot, source: &str, setup: &Setup, own: &Variant) -> Claim {
-    claim_in(robot, source, setup, setup.scene(), own)
+pub fn claim_of(robot: &Robot, source: &str, setup: &Setup, variant: &Variant) -> Claim {
+    claim_in(robot, source, setup, setup.scene(), variant)
 }
 
 /// Returns the claim in a scene of the source.
@@ -20,15 +20,15 @@ pub(super) fn claim_in(
     source: &str,
     setup: &Setup,
     scene: Option<&Scene>,
-    own: &Variant,
+    variant: &Variant,
 ) -> Claim {
     let mut constants = ConstantTable::default();
-    let load = own.load.iter();
+    let load = variant.load.iter();
     let load = load.map(|load| of_setup(load, setup, &mut constants));
     let mut functions: Vec<FunctionClaim> = load.collect();
     functions.push(FunctionClaim {
-        tolerated: tolerated(own, &mut constants),
-        ..of_setup(&own.emitted, setup, &mut constants)
+        tolerated: tolerated(variant, &mut constants),
+        ..of_setup(&variant.emitted, setup, &mut constants)
     });
     document(robot, source, scene, functions, constants)
 }
@@ -40,7 +40,12 @@ pub(crate) fn document(
     functions: Vec<FunctionClaim>,
     constants: ConstantTable,
 ) -> Claim {
-    let is_tilted = |own: &Placement| own.rpy.iter().any(|own| own.quarter_turns().is_none());
+    let is_tilted = |placement: &Placement| {
+        placement
+            .rpy
+            .iter()
+            .any(|angle| angle.quarter_turns().is_none())
+    };
     let scene = scene.filter(|_| robot.payload_frame.as_ref().is_some_and(is_tilted));
     let payload = scene.and_then(|scene| {
         Some(Scene {
@@ -50,7 +55,9 @@ pub(crate) fn document(
         })
     });
     let is_rounded = source.contains("placement") || payload.is_some();
-    let payload = payload.map_or_else(String::new, |own| format!("\n{}", scene::write(&own)));
+    let payload = payload.map_or_else(String::new, |payload_scene| {
+        format!("\n{}", scene::write(&payload_scene))
+    });
     Claim {
         aligned: is_rounded.then(|| write(robot) + &payload),
         notes: robot.notes.clone(),
@@ -61,15 +68,17 @@ pub(crate) fn document(
 pub(crate) fn tolerated(first: &Variant, constants: &mut ConstantTable) -> Option<ToleranceClaim> {
     let program = &first.emitted;
     let exact = Some(&first.exact).filter(|exact| *exact != program);
-    let [steps, returns] = exact.map_or_else(Default::default, |own| code(own, constants));
-    let is_given = |own: &Argument| program.arguments.contains(own);
+    let [steps, returns] = exact.map_or_else(Default::default, |exact| code(exact, constants));
+    let is_given = |argument: &Argument| program.arguments.contains(argument);
     let reached = first.reached.iter().map(|at| {
         let state = Argument::STATE.iter().chain(&[Argument::Gravity]);
-        let given = state.filter(|own| is_given(own));
+        let arguments = state.filter(|argument| is_given(argument));
         // A payload is a point there.
         let point = at.payload.iter().skip(1).take(3);
-        let given = given.flat_map(|own| at.entries(*own)).chain(point);
-        given.copied().collect()
+        let numbers = arguments
+            .flat_map(|argument| at.entries(*argument))
+            .chain(point);
+        numbers.copied().collect()
     });
     Some(ToleranceClaim {
         steps,

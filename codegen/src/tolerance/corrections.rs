@@ -117,15 +117,15 @@ impl Greedy<'_> {
     ) -> Vec<Vec<f64>> {
         let m = self.samples.len();
         let rows = self.truth.len();
-        let columns = unknowns.iter().map(|_| Vec::with_capacity(rows));
-        let mut columns: Vec<Vec<f64>> = columns.collect();
+        let mut columns: Vec<Vec<f64>> =
+            unknowns.iter().map(|_| Vec::with_capacity(rows)).collect();
         let mut adjoints = Vec::new();
         for output in 0..self.net.outputs.len() {
             self.net.adjoints(state, values, (output, m), &mut adjoints);
-            for (column, own) in columns.iter_mut().zip(&*unknowns) {
-                let adjoint = &adjoints[own.node * m..][..m];
-                match own.other {
-                    None => column.extend(adjoint.iter().map(|a| own.sign * a)),
+            for (column, unknown) in columns.iter_mut().zip(&*unknowns) {
+                let adjoint = &adjoints[unknown.node * m..][..m];
+                match unknown.other {
+                    None => column.extend(adjoint.iter().map(|a| unknown.sign * a)),
                     Some(other) => {
                         let factors = &values[other * m..][..m];
                         column.extend(adjoint.iter().zip(factors).map(|(a, x)| a * x));
@@ -136,9 +136,9 @@ impl Greedy<'_> {
                 kept.push(std::mem::take(&mut adjoints));
             }
         }
-        let mut each = columns.iter();
-        unknowns.retain(|_| each.next().is_some_and(|own| !is_zero(own)));
-        columns.retain(|own| !is_zero(own));
+        let mut iter = columns.iter();
+        unknowns.retain(|_| iter.next().is_some_and(|column| !is_zero(column)));
+        columns.retain(|column| !is_zero(column));
         columns.iter_mut().for_each(|column| self.scale(column));
         columns
     }
@@ -149,11 +149,15 @@ impl Greedy<'_> {
         let (mut unknowns, mut adjoints) = (self.unknowns(state, live), Vec::new());
         let columns = self.jacobian(state, &values, &mut unknowns, Some(&mut adjoints));
         // Where an error is large already, more counts more.
-        let weights = self.samples.blocks(&errors);
-        let weights: Vec<f64> = weights.iter().map(|own| 0.3 + own).collect();
+        let weights: Vec<f64> = self
+            .samples
+            .blocks(&errors)
+            .iter()
+            .map(|error| 0.3 + error)
+            .collect();
         let sketched = |size: usize| {
-            let each = columns.iter();
-            let sketched = each.map(|column| self.sketch(column, &weights, size));
+            let iter = columns.iter();
+            let sketched = iter.map(|column| self.sketch(column, &weights, size));
             let columns: Vec<Vec<f64>> = sketched.collect();
             let factor = normal(&columns, &unknowns);
             ColumnSketch {
@@ -164,9 +168,11 @@ impl Greedy<'_> {
             }
         };
         let reached = |column: &Vec<f64>| {
-            let results = column.chunks_exact(self.samples.len()).enumerate();
-            let results = results.filter(|own| !is_zero(own.1));
-            results.map(|own| own.0).collect()
+            let results = column
+                .chunks_exact(self.samples.len())
+                .enumerate()
+                .filter(|result| !is_zero(result.1));
+            results.map(|result| result.0).collect()
         };
         Frame {
             reached: columns.iter().map(reached).collect(),
@@ -191,27 +197,32 @@ impl Greedy<'_> {
     }
 
     /// Returns the sum of squares of sketched errors that constants leave.
-    pub(super) fn squares(own: &ColumnSketch, rows: &[f64], gone: &[usize]) -> f64 {
-        let right = own.columns.iter().map(|column| dot(column, rows));
-        let right: Vec<f64> = right.collect();
-        let left = gone.iter().map(|&k| dot(&own.inverse[k], &right));
-        let left = left.collect();
-        let taken = own.factor.forward(right);
-        let lost = Factor::new(gone.len(), |a, b| own.inverse[gone[a]][gone[b]]).forward(left);
+    pub(super) fn squares(sketch: &ColumnSketch, rows: &[f64], gone: &[usize]) -> f64 {
+        let right: Vec<f64> = sketch
+            .columns
+            .iter()
+            .map(|column| dot(column, rows))
+            .collect();
+        let left = gone
+            .iter()
+            .map(|&k| dot(&sketch.inverse[k], &right))
+            .collect();
+        let taken = sketch.factor.forward(right);
+        let lost = Factor::new(gone.len(), |a, b| sketch.inverse[gone[a]][gone[b]]).forward(left);
         dot(rows, rows) - dot(&taken, &taken) + dot(&lost, &lost)
     }
 
     /// Returns the errors that constants leave to first order, and their changes.
     pub(super) fn left(&self, frame: &Frame, mut rows: Vec<f64>, gone: &[usize]) -> Left {
         let fine = &frame.fine;
-        let own = self.sketch(&rows, &frame.weights, fine.size);
-        let right = fine.columns.iter().map(|column| dot(column, &own));
+        let sketch = self.sketch(&rows, &frame.weights, fine.size);
+        let right = fine.columns.iter().map(|column| dot(column, &sketch));
         let mut change = fine.factor.solve(right.collect());
         let small = Factor::new(gone.len(), |a, b| fine.inverse[gone[a]][gone[b]]);
         let lost = small.solve(gone.iter().map(|&k| change[k]).collect());
         for (&k, x) in gone.iter().zip(&lost) {
             let pairs = change.iter_mut().zip(&fine.inverse[k]);
-            pairs.for_each(|(change, own)| *change -= x * own);
+            pairs.for_each(|(change, entry)| *change -= x * entry);
         }
         gone.iter().for_each(|&k| change[k] = 0.0);
         let m = self.samples.len();
@@ -220,7 +231,7 @@ impl Greedy<'_> {
                 for &result in reached {
                     let rows = rows[result * m..][..m].iter_mut();
                     let pairs = rows.zip(&column[result * m..][..m]);
-                    pairs.for_each(|(row, own)| *row -= x * own);
+                    pairs.for_each(|(row, derivative)| *row -= x * derivative);
                 }
             }
         }
@@ -247,10 +258,10 @@ impl Greedy<'_> {
                 break;
             }
             let pairs = levels.iter_mut().zip(&blocks);
-            pairs.for_each(|(level, own)| *level *= own / worst + 0.02);
+            pairs.for_each(|(level, error)| *level *= error / worst + 0.02);
             let scale = levels.len() as f64 / levels.iter().sum::<f64>();
-            let each = levels.iter_mut();
-            each.for_each(|level| *level = (*level * scale).max(1e-4));
+            let levels_mut = levels.iter_mut();
+            levels_mut.for_each(|level| *level = (*level * scale).max(1e-4));
             // Squares over sizes make a sum of squares a sum of sizes.
             let weight = |row: usize| {
                 let share = errors[row].abs() / blocks[row / block].max(1e-12) + 0.05;
@@ -263,14 +274,14 @@ impl Greedy<'_> {
                 let pairs = column.iter_mut().zip(&weights);
                 pairs.for_each(|(x, weight)| *x *= weight);
             }
-            let rows = errors.iter().zip(&weights).map(|(e, w)| e * w);
-            let rows: Vec<f64> = rows.collect();
+            let rows: Vec<f64> = errors.iter().zip(&weights).map(|(e, w)| e * w).collect();
             let right = columns.iter().map(|column| dot(column, &rows)).collect();
             let ones = vec![1.0; levels.len()];
             let size = self.sketch_size(unknowns.len());
-            let each = columns.iter();
-            let sketched = each.map(|column| self.sketch(column, &ones, size));
-            let sketched: Vec<Vec<f64>> = sketched.collect();
+            let iter = columns.iter();
+            let sketched: Vec<Vec<f64>> = iter
+                .map(|column| self.sketch(column, &ones, size))
+                .collect();
             change(state, &unknowns, &normal(&sketched, &unknowns).solve(right));
         }
         *state = best.1;
@@ -290,8 +301,8 @@ fn normal(columns: &[Vec<f64>], unknowns: &[Unknown]) -> Factor {
 }
 
 pub(super) fn change(state: &mut State, unknowns: &[Unknown], change: &[f64]) {
-    for (own, by) in unknowns.iter().zip(change) {
-        match own.place {
+    for (unknown, by) in unknowns.iter().zip(change) {
+        match unknown.place {
             Place::Arg(step, side) => {
                 if let Arg::Constant(c) = &mut state.ops[step].args[side] {
                     *c -= by;

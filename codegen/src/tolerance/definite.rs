@@ -44,11 +44,11 @@ pub(crate) fn is_definite(
     };
     let entry = |i: usize, j: usize| first + i * n + j;
     let error = |joint: usize, is_sine: bool| {
-        let own = sines.iter().find(|own| own.joint == joint)?;
+        let kernel = sines.iter().find(|kernel| kernel.joint == joint)?;
         Some(if is_sine {
-            own.errors.sin
+            kernel.errors.sin
         } else {
-            own.errors.cos
+            kernel.errors.cos
         })
     };
     let errors: Option<&dyn Fn(usize, bool) -> Option<f64>> = match sines {
@@ -56,15 +56,19 @@ pub(crate) fn is_definite(
         _ => Some(&error),
     };
     let written = reference::read(program).ok();
-    let Some(written) = written.and_then(|own| domain.write(&own, errors).ok()) else {
+    let Some(written) = written.and_then(|program| domain.write(&program, errors).ok()) else {
         return false;
     };
     let lower: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
-    let off = |own: usize| off.map_or(0.0, |off| off[own]);
-    let entries = lower.iter().map(|&(i, j)| written[entry(i, j)].clone());
-    let entries: Vec<_> = entries.collect();
-    let errors = lower.iter().map(|&(i, j)| off(entry(i, j)).next_up());
-    let errors: Vec<f64> = errors.collect();
+    let off = |output: usize| off.map_or(0.0, |off| off[output]);
+    let entries: Vec<_> = lower
+        .iter()
+        .map(|&(i, j)| written[entry(i, j)].clone())
+        .collect();
+    let errors: Vec<f64> = lower
+        .iter()
+        .map(|&(i, j)| off(entry(i, j)).next_up())
+        .collect();
     domain.is_definite(&entries, &errors)
 }
 
@@ -144,7 +148,9 @@ fn middle(limits: &InputBox) -> Vec<f64> {
 
 fn start(program: &Program) -> Option<usize> {
     let quantities = program.function.quantities();
-    let place = quantities.iter().position(|own| own.facts().definite)?;
+    let place = quantities
+        .iter()
+        .position(|quantity| quantity.facts().definite)?;
     let before = quantities[..place].iter();
-    Some(before.map(|own| own.len(program.sizes())).sum())
+    Some(before.map(|quantity| quantity.len(program.sizes())).sum())
 }

@@ -111,10 +111,10 @@ impl<'a> Greedy<'a> {
 
     /// Returns the sum over the results of their largest errors, and the largest of all.
     pub(super) fn summed(&self, blocks: &[f64]) -> (f64, f64) {
-        let each = blocks.chunks_exact(self.samples.positions.len());
-        let most = each.map(|own| own.iter().copied().fold(0.0, f64::max));
-        most.fold((0.0, 0.0), |(sum, worst): (f64, f64), own| {
-            (sum + own, worst.max(own))
+        let results = blocks.chunks_exact(self.samples.positions.len());
+        let most = results.map(|errors| errors.iter().copied().fold(0.0, f64::max));
+        most.fold((0.0, 0.0), |(sum, worst): (f64, f64), error| {
+            (sum + error, worst.max(error))
         })
     }
 
@@ -152,7 +152,7 @@ impl<'a> Greedy<'a> {
         frame: &Frame,
         state: &mut State,
         paid: u32,
-        all: &[(usize, Value)],
+        edits: &[(usize, Value)],
         random: &mut Random,
     ) -> Vec<(f64, usize, Value)> {
         let m = self.samples.len();
@@ -162,21 +162,21 @@ impl<'a> Greedy<'a> {
         // The squares of errors that are allowed come to no more than this.
         let most = dot(&frame.weights, &frame.weights);
         let (mut ranked, mut live, mut part) = (Vec::new(), Vec::new(), Vec::new());
-        for &(node, value) in all {
+        for &(node, value) in edits {
             let kept = state.edits[node].replace(value);
             let price = self.net.price(state, &mut live);
             state.edits[node] = kept;
             if price >= paid {
                 continue;
             }
-            let own = &frame.values[node * m..][..m];
+            let values = &frame.values[node * m..][..m];
             let mut rows = vec![0.0; coarse.size];
             for (result, adjoint) in frame.adjoints.iter().enumerate() {
                 let adjoint = &adjoint[node * m..][..m];
                 if is_zero(adjoint) {
                     continue;
                 }
-                let pairs = adjoint.iter().zip(own);
+                let pairs = adjoint.iter().zip(values);
                 part.clear();
                 match value {
                     Value::Constant(c) => part.extend(pairs.map(|(a, x)| a * (c - x))),
@@ -188,7 +188,9 @@ impl<'a> Greedy<'a> {
                 self.scale_result(result, &mut part);
                 self.sketch_result(result, &part, &frame.weights, &mut rows);
             }
-            rows.iter_mut().zip(&base).for_each(|(x, own)| *x += own);
+            rows.iter_mut()
+                .zip(&base)
+                .for_each(|(x, entry)| *x += entry);
             let gone = Self::gone(frame, &live, Some(node));
             let growth = Self::squares(coarse, &rows, &gone) - before;
             if growth <= most {
@@ -225,7 +227,7 @@ impl<'a> Greedy<'a> {
             let values = self.run(&next);
             let errors = self.errors(&values);
             let [old, new] =
-                [&frame.errors, &errors].map(|own| self.summed(&self.samples.blocks(own)));
+                [&frame.errors, &errors].map(|errors| self.summed(&self.samples.blocks(errors)));
             if new.0 < old.0 && new.1 <= 1.0 {
                 (state, frame.values, frame.errors) = (next, values, errors);
                 if let Some(last) = history.last_mut() {
@@ -233,22 +235,22 @@ impl<'a> Greedy<'a> {
                 }
             }
             let now = self.left(&frame, frame.errors.clone(), &[]).sum;
-            let is_open = |own: &(usize, Value), state: &State, refused: &[(usize, Value)]| {
-                state.edits[own.0].is_none() && live[own.0] && !refused.contains(own)
+            let is_open = |edit: &(usize, Value), state: &State, refused: &[(usize, Value)]| {
+                state.edits[edit.0].is_none() && live[edit.0] && !refused.contains(edit)
             };
             let mut is_fresh = false;
             let next = loop {
-                pool.retain(|own| is_open(own, &state, &refused));
+                pool.retain(|edit| is_open(edit, &state, &refused));
                 if pool.is_empty() && is_fresh {
                     return;
                 }
                 if !is_fresh && (pool.is_empty() || edits % FRESH == 0) {
                     pool = self.candidates(&state, &frame.values, &live);
-                    pool.retain(|own| is_open(own, &state, &refused));
+                    pool.retain(|edit| is_open(edit, &state, &refused));
                     is_fresh = true;
                 }
                 let ranked = self.rank(&frame, &mut state, paid, &pool, random);
-                pool = ranked.into_iter().map(|own| (own.1, own.2)).collect();
+                pool = ranked.into_iter().map(|edit| (edit.1, edit.2)).collect();
                 pool.truncate(POOL);
                 let look: Vec<(usize, Value)> = pool.iter().copied().take(LOOKED_AT).collect();
                 if let Some(next) =
@@ -322,16 +324,16 @@ impl<'a> Greedy<'a> {
             (size > 0.0).then_some((out, size))
         };
         let directions: Vec<_> = (0..self.net.len()).map(direction).collect();
-        let mut all = Vec::new();
+        let mut candidates = Vec::new();
         let is_open = |node: &usize| live[*node] && state.edits[*node].is_none();
         for node in (0..self.net.len()).filter(is_open) {
             let column = &values[node * m..][..m];
             let low = column.iter().copied().fold(f64::INFINITY, f64::min);
             let high = column.iter().copied().fold(f64::NEG_INFINITY, f64::max);
             let middle = 0.5 * (low + high);
-            let mut own = vec![Value::Constant(0.0)];
+            let mut replacements = vec![Value::Constant(0.0)];
             if middle.abs() > 0.2 * (high - low) {
-                own.push(Value::Constant(short(middle)));
+                replacements.push(Value::Constant(short(middle)));
             }
             if node >= count {
                 let op = &state.ops[node - count];
@@ -343,7 +345,7 @@ impl<'a> Greedy<'a> {
                     };
                     for (arg, sign) in op.args.iter().zip([1.0, sign]) {
                         if let Arg::Node(node) = arg {
-                            own.push(Value::Times(sign, *node));
+                            replacements.push(Value::Times(sign, *node));
                         }
                     }
                 }
@@ -363,16 +365,16 @@ impl<'a> Greedy<'a> {
                 let is_constant = |arg: &Arg| matches!(arg, Arg::Constant(_));
                 let is_multiple = op.operation == Operation::Mul && op.args.iter().any(is_constant);
                 for &(_, other, factor) in alike.iter().take(MOST_ALIKE) {
-                    own.push(Value::Times(factor.signum(), other));
+                    replacements.push(Value::Times(factor.signum(), other));
                     if !is_multiple {
-                        own.push(Value::Times(short(factor), other));
+                        replacements.push(Value::Times(short(factor), other));
                     }
                 }
             }
-            own.dedup();
-            all.extend(own.into_iter().map(|value| (node, value)));
+            replacements.dedup();
+            candidates.extend(replacements.into_iter().map(|value| (node, value)));
         }
-        all
+        candidates
     }
 
     /// Takes back what saves nothing, corrects constants and rounds them to seven digits.

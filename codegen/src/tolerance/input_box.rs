@@ -42,7 +42,7 @@ pub(super) fn missing(
         let joints = match numbers.as_slice() {
             [] => None,
             [one] => Some(format!("joint {one}")),
-            all => Some(format!("joints {}", all.join(", "))),
+            numbers => Some(format!("joints {}", numbers.join(", "))),
         };
         let have = if numbers.len() + usize::from(base.is_some()) == 1 {
             "has"
@@ -58,10 +58,10 @@ pub(super) fn missing(
 
 /// Returns the bodies that a payload may be.
 pub(crate) fn payloads(setup: &Setup) -> Body {
-    let given = setup.robot().payload_range.as_ref();
-    given.map_or_else(Body::default, |own| Body {
-        mass: own.mass.each_ref().map(f64::nearest_rational),
-        radius: f64::nearest_rational(&own.radius),
+    let payload_range = setup.robot().payload_range.as_ref();
+    payload_range.map_or_else(Body::default, |range| Body {
+        mass: range.mass.each_ref().map(f64::nearest_rational),
+        radius: f64::nearest_rational(&range.radius),
     })
 }
 
@@ -95,8 +95,8 @@ impl InputBox {
         limits.add_base(setup, &arguments, &mut lacking);
         for (joint, row) in setup.robot().joints.iter().enumerate() {
             // Where a limit is missing, the box is not returned.
-            let mut or_missing = |found: Option<Interval>, limit: Limit| {
-                found.unwrap_or_else(|| {
+            let mut or_missing = |range: Option<Interval>, limit: Limit| {
+                range.unwrap_or_else(|| {
                     lacking.entry(limit.key()).or_default().push(Some(joint));
                     Interval::ZERO
                 })
@@ -140,7 +140,7 @@ impl InputBox {
         let gravity = setup.robot().gravity.each_ref().map(f64::nearest_rational);
         let length = libm::sqrt(gravity.iter().map(|x| x * x).sum());
         self.gravity = vec![Interval::symmetric(length); 3];
-        for (argument, limit, all) in [
+        for (argument, limit, intervals) in [
             (Argument::Velocity, Limit::Velocity, &mut self.velocity),
             (
                 Argument::Acceleration,
@@ -155,7 +155,7 @@ impl InputBox {
             }
             let range = |k: usize| most.map_or(0.0, |most| f64::nearest_rational(&most[k]));
             let ranges = (0..FloatingBase::COORDINATES).map(range);
-            all.extend(ranges.map(Interval::symmetric));
+            intervals.extend(ranges.map(Interval::symmetric));
         }
     }
 

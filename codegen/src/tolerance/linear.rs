@@ -7,8 +7,12 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     work::count(a.len() / work::UNIT);
     let mut sums = [0.0; 8];
     let (x, y) = (a.chunks_exact(8), b.chunks_exact(8));
-    let rest = x.remainder().iter().zip(y.remainder());
-    let rest: f64 = rest.map(|(x, y)| x * y).sum();
+    let rest: f64 = x
+        .remainder()
+        .iter()
+        .zip(y.remainder())
+        .map(|(x, y)| x * y)
+        .sum();
     for (x, y) in x.zip(y) {
         for k in 0..8 {
             sums[k] += x[k] * y[k];
@@ -33,8 +37,8 @@ impl Factor {
                 let known = dot(&row, &l[b][..b]);
                 row.push((entry(a, b) - known) / l[b][b]);
             }
-            let own = entry(a, a);
-            let left = (own - dot(&row, &row)).max(RIDGE * own + f64::MIN_POSITIVE);
+            let diagonal = entry(a, a);
+            let left = (diagonal - dot(&row, &row)).max(RIDGE * diagonal + f64::MIN_POSITIVE);
             row.push(left.sqrt());
             l.push(row);
         }

@@ -79,8 +79,10 @@ impl Net {
             args: [arg(&step.left), arg(&step.right)],
         });
         let sign = |negative: bool| if negative { -1.0 } else { 1.0 };
-        let outputs = steps.outputs.iter();
-        let outputs = outputs.map(|own| (arg(&own.value), sign(own.negative)));
+        let outputs = steps
+            .outputs
+            .iter()
+            .map(|output| (arg(&output.value), sign(output.negative)));
         Net {
             ops: ops.collect(),
             outputs: outputs.collect(),
@@ -117,9 +119,9 @@ impl Net {
     /// Returns the values of all nodes at m samples, node after node.
     pub(super) fn run(&self, state: &State, inputs: &[f64], m: usize) -> Vec<f64> {
         work::count(self.len() * m / work::UNIT);
-        let mut all = vec![0.0; self.len() * m];
+        let mut values = vec![0.0; self.len() * m];
         for node in 0..self.len() {
-            let (before, rest) = all.split_at_mut(node * m);
+            let (before, rest) = values.split_at_mut(node * m);
             let out = &mut rest[..m];
             let column = |n: usize| &before[n * m..][..m];
             match state.edits[node] {
@@ -131,15 +133,15 @@ impl Net {
                 None if node < self.inputs.len() => out.copy_from_slice(&inputs[node * m..][..m]),
                 None => {
                     let Op { operation, args } = state.ops[node - self.inputs.len()];
-                    let each = out.iter_mut();
+                    let slots = out.iter_mut();
                     match args {
-                        [Arg::Node(a), Arg::Node(b)] => each
+                        [Arg::Node(a), Arg::Node(b)] => slots
                             .zip(column(a).iter().zip(column(b)))
                             .for_each(|(out, (x, y))| *out = apply(operation, *x, *y)),
-                        [Arg::Node(a), Arg::Constant(c)] => each
+                        [Arg::Node(a), Arg::Constant(c)] => slots
                             .zip(column(a))
                             .for_each(|(out, x)| *out = apply(operation, *x, c)),
-                        [Arg::Constant(c), Arg::Node(b)] => each
+                        [Arg::Constant(c), Arg::Node(b)] => slots
                             .zip(column(b))
                             .for_each(|(out, y)| *out = apply(operation, c, *y)),
                         [Arg::Constant(c), Arg::Constant(d)] => out.fill(apply(operation, c, d)),
@@ -147,45 +149,45 @@ impl Net {
                 }
             }
         }
-        all
+        values
     }
 
     /// Returns the results, one after the other.
     pub(super) fn results(&self, values: &[f64], m: usize) -> Vec<f64> {
-        let mut all = Vec::with_capacity(self.outputs.len() * m);
+        let mut results = Vec::with_capacity(self.outputs.len() * m);
         for &(arg, sign) in &self.outputs {
             match arg {
-                Arg::Node(node) => all.extend(values[node * m..][..m].iter().map(|x| sign * x)),
-                Arg::Constant(c) => all.resize(all.len() + m, sign * c),
+                Arg::Node(node) => results.extend(values[node * m..][..m].iter().map(|x| sign * x)),
+                Arg::Constant(c) => results.resize(results.len() + m, sign * c),
             }
         }
-        all
+        results
     }
 
-    /// Puts the derivatives of a result by every node into `all`, node after node.
+    /// Puts the derivatives of a result by every node into `adjoints`, node after node.
     pub(super) fn adjoints(
         &self,
         state: &State,
         values: &[f64],
         (output, m): (usize, usize),
-        all: &mut Vec<f64>,
+        adjoints: &mut Vec<f64>,
     ) {
-        all.clear();
-        all.resize(self.len() * m, 0.0);
+        adjoints.clear();
+        adjoints.resize(self.len() * m, 0.0);
         let (Arg::Node(top), sign) = self.outputs[output] else {
             return;
         };
         work::count(top * m / work::UNIT);
-        all[top * m..][..m].fill(sign);
+        adjoints[top * m..][..m].fill(sign);
         for node in (0..=top).rev() {
-            let (before, rest) = all.split_at_mut(node * m);
-            let own = &rest[..m];
-            if own.iter().all(|x| *x == 0.0) {
+            let (before, rest) = adjoints.split_at_mut(node * m);
+            let adjoint = &rest[..m];
+            if adjoint.iter().all(|x| *x == 0.0) {
                 continue;
             }
             let add = |before: &mut [f64], to: usize, factor: f64| {
-                let to = before[to * m..][..m].iter_mut().zip(own);
-                to.for_each(|(to, own)| *to += factor * own);
+                let to = before[to * m..][..m].iter_mut().zip(adjoint);
+                to.for_each(|(to, derivative)| *to += factor * derivative);
             };
             let op = match state.edits[node] {
                 Some(Value::Constant(_)) => continue,
@@ -206,8 +208,8 @@ impl Net {
                     (_, Arg::Constant(c)) => add(before, to, c),
                     (_, Arg::Node(other)) => {
                         let factors = &values[other * m..][..m];
-                        let each = before[to * m..][..m].iter_mut().zip(own).zip(factors);
-                        each.for_each(|((to, own), factor)| *to += own * factor);
+                        let triples = before[to * m..][..m].iter_mut().zip(adjoint).zip(factors);
+                        triples.for_each(|((to, derivative), factor)| *to += derivative * factor);
                     }
                 }
             }
@@ -219,17 +221,17 @@ impl Net {
         let count = self.inputs.len();
         let mut folded: Vec<(Fold, Option<[Fold; 2]>)> = Vec::with_capacity(self.len());
         for node in 0..self.len() {
-            let own = Fold::Node(node, false);
+            let fold = Fold::Node(node, false);
             let scaled = |c: f64, x: Fold| match x {
                 Fold::Constant(d) => (Fold::Constant(c * d), None),
                 _ if c == 0.0 => (Fold::Constant(0.0), None),
                 _ if c.abs() == 1.0 => (x.negated_if(c < 0.0), None),
-                _ => (own, Some([Fold::Constant(c), x])),
+                _ => (fold, Some([Fold::Constant(c), x])),
             };
             let value = match state.edits[node] {
                 Some(Value::Constant(c)) => (Fold::Constant(c), None),
                 Some(Value::Times(c, other)) => scaled(c, folded[other].0),
-                None if node < count => (own, None),
+                None if node < count => (fold, None),
                 None => {
                     let op = &state.ops[node - count];
                     let [x, y] = op.args.map(|arg| match arg {
@@ -240,7 +242,7 @@ impl Net {
                     match (op.operation, x, y) {
                         (Operation::Mul, Fold::Constant(c), x)
                         | (Operation::Mul, x, Fold::Constant(c)) => scaled(c, x),
-                        (Operation::Mul, ..) => (own, Some([x, y])),
+                        (Operation::Mul, ..) => (fold, Some([x, y])),
                         (operation, Fold::Constant(a), Fold::Constant(b)) => {
                             (Fold::Constant(apply(operation, a, b)), None)
                         }
@@ -249,7 +251,7 @@ impl Net {
                         (_, Fold::Node(a, s), Fold::Node(b, t)) if a == b && (s == t) == minus => {
                             (Fold::Constant(0.0), None)
                         }
-                        _ => (own, Some([x, y])),
+                        _ => (fold, Some([x, y])),
                     }
                 }
             };
@@ -277,7 +279,7 @@ impl Net {
                 }
             }
         }
-        let read = self.inputs.iter().zip(&*live).filter(|own| *own.1);
+        let read = self.inputs.iter().zip(&*live).filter(|pair| *pair.1);
         let angles: BTreeSet<usize> = read.filter_map(|(input, _)| input.angle()).collect();
         total + SINCOS * angles.len() as u32
     }
@@ -315,15 +317,16 @@ impl Net {
             edges.push(edge);
         }
         let pairs = self.steps.outputs.iter().zip(&self.outputs);
-        let outputs = pairs.map(|(own, (arg, _))| {
-            let edge = match (&own.value, arg) {
-                (Operand::Constant(constant), _) => builder.constant(constant),
-                (_, Arg::Node(node)) => edges[*node],
-                (_, Arg::Constant(c)) => builder.constant(&decimal(*c)),
-            };
-            edge.negated_if(own.negative)
-        });
-        let outputs = outputs.collect();
+        let outputs = pairs
+            .map(|(output, (arg, _))| {
+                let edge = match (&output.value, arg) {
+                    (Operand::Constant(constant), _) => builder.constant(constant),
+                    (_, Arg::Node(node)) => edges[*node],
+                    (_, Arg::Constant(c)) => builder.constant(&decimal(*c)),
+                };
+                edge.negated_if(output.negative)
+            })
+            .collect();
         self.program.with_graph(&builder.finish(outputs))
     }
 }

@@ -20,9 +20,9 @@ pub(crate) fn overflows(program: &Program, scalar: ScalarType, limits: &InputBox
             Node::Input(Input::Sin(_) | Input::Cos(_)) => SINE,
             Node::Input(Input::PerSpeed(coordinate)) => {
                 let mut speeds = program.speeds.iter();
-                let own = speeds.find(|own| own.coordinate == *coordinate);
-                own.map_or(f64::INFINITY, |own| {
-                    SLACK / libm::sqrt(f64::nearest(&own.square))
+                let speed = speeds.find(|speed| speed.coordinate == *coordinate);
+                speed.map_or(f64::INFINITY, |speed| {
+                    SLACK / libm::sqrt(f64::nearest(&speed.square))
                 })
             }
             Node::Input(Input::Entry(argument, index)) => {

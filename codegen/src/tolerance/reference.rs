@@ -68,10 +68,10 @@ pub(super) fn read(
 {
     let refused = |fault: dalembert_checker::Fault| complaint(fault.to_string());
     let mut constants = ConstantTable::default();
-    let own = claimed(program, None, &mut constants);
+    let claim = claimed(program, None, &mut constants);
     let document = constants.document(Vec::new());
     let constants = document.constants(&Default::default()).map_err(refused)?;
-    own.program(&constants).map_err(refused)
+    claim.program(&constants).map_err(refused)
 }
 
 impl Reference {
@@ -110,15 +110,15 @@ impl Reference {
             return verdict;
         };
         for (difference, allowed) in differences.iter().zip(allowed) {
-            let (found, position) = self.domain.decide(difference, *allowed);
-            work::count(found.steps as usize / work::UNIT);
-            let most = match found.is_open {
+            let (decision, position) = self.domain.decide(difference, *allowed);
+            work::count(decision.steps as usize / work::UNIT);
+            let most = match decision.is_open {
                 true => OPEN * allowed,
                 false => *allowed,
             };
-            verdict.is_within &= found.is_shown || found.is_open && found.reached <= most;
-            verdict.is_open &= found.is_shown || found.is_open;
-            let ratio = found.reached / most.max(f64::MIN_POSITIVE);
+            verdict.is_within &= decision.is_shown || decision.is_open && decision.reached <= most;
+            verdict.is_open &= decision.is_shown || decision.is_open;
+            let ratio = decision.reached / most.max(f64::MIN_POSITIVE);
             verdict.ratio = verdict.ratio.max(ratio);
             if ratio > LARGE && !position.is_empty() {
                 verdict.positions.push(position);
@@ -147,19 +147,19 @@ impl Reference {
         program: &Program,
         sines: &[AngleKernel],
         rounding: Option<&[f64]>,
-        all: &[f64],
+        errors: &[f64],
     ) -> bool {
         let Some(exact) = &self.inertia else {
             return true;
         };
-        if self.is_borne(program, all) {
+        if self.is_borne(program, errors) {
             return true;
         }
         let domain = self.domain.without_payload();
         let engine = |program, sines, off| definite::is_definite(domain, program, sines, off);
         self.is_shown()
             && match self.is_loaded() {
-                true => definite::symmetric(program).is_some() && engine(exact, &[], Some(all)),
+                true => definite::symmetric(program).is_some() && engine(exact, &[], Some(errors)),
                 false => program == exact && sines.is_empty() || engine(program, sines, rounding),
             }
     }
@@ -198,17 +198,19 @@ impl Reference {
     /// A program that the checker refuses.
     pub(super) fn reached(&self, program: &Program) -> Result<Vec<f64>, Complaint> {
         let differences = self.differences(program)?;
-        let reached = |own| self.domain.decide(own, 0.0).0.reached;
+        let reached = |difference| self.domain.decide(difference, 0.0).0.reached;
         Ok(differences.iter().map(reached).collect())
     }
 
     /// Writes out what a program, which has the results of the exact one, differs by from that.
     fn differences(&self, program: &Program) -> Result<Vec<Polynomial>, Complaint> {
-        let written = self.domain.write(&read(program)?, None);
-        let written = written.map_err(|fault| complaint(fault.to_string()))?;
+        let written = self
+            .domain
+            .write(&read(program)?, None)
+            .map_err(|fault| complaint(fault.to_string()))?;
         let pairs = written.iter().zip(&self.exact);
         Ok(pairs
-            .map(|(own, exact)| own.plus(&exact.negated()))
+            .map(|(polynomial, exact)| polynomial.plus(&exact.negated()))
             .collect())
     }
 
@@ -227,7 +229,11 @@ pub(crate) fn domain(
     load: Option<&Program>,
 ) -> Result<Domain, Complaint> {
     let (source, scene) = source(setup);
-    let arguments: Vec<&str> = program.arguments.iter().map(|own| own.name()).collect();
+    let arguments: Vec<&str> = program
+        .arguments
+        .iter()
+        .map(|argument| argument.name())
+        .collect();
     let load = load.map(read).transpose()?;
     let name = scene.as_ref().map(|scene| scene.name.as_str());
     let domain = Domain::read(&source, name, &arguments, load.as_ref());

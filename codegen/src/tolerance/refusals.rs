@@ -72,21 +72,21 @@ pub(crate) fn reads(argument: Argument) -> Complaint {
 }
 
 /// Returns the reason why a variant is not shown, by the checker's words.
-pub(super) fn above(own: &Variant, fault: &Fault) -> Complaint {
+pub(super) fn above(variant: &Variant, fault: &Fault) -> Complaint {
     let why = match fault {
         Fault::Claim(why) => why.clone(),
         fault => fault.to_string(),
     };
-    let name = format!("`{}`: ", own.emitted.function.name());
+    let name = format!("`{}`: ", variant.emitted.function.name());
     let why = why.strip_prefix(&name).unwrap_or(&why);
-    let wider = own.scalar.of("", ", or choose a wider scalar");
+    let wider = variant.scalar.of("", ", or choose a wider scalar");
     let help = match why.contains("has a bound of") {
         true => format!("; allow more{wider}"),
         false => String::new(),
     };
     complaint(format!(
         "no variant in {} is shown to be within the tolerance: with nothing left out, {why}{help}",
-        own.scalar
+        variant.scalar
     ))
 }
 

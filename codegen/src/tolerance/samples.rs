@@ -49,8 +49,10 @@ impl Samples {
             loads: limits.load.clone(),
             random: random.clone(),
         };
-        let drawn = (0..count).map(|_| draw(limits, &mut random));
-        let drawn: Vec<_> = drawn.map(|state| [state.q, state.g].concat()).collect();
+        let drawn: Vec<_> = (0..count)
+            .map(|_| draw(limits, &mut random))
+            .map(|state| [state.q, state.g].concat())
+            .collect();
         samples.add(drawn);
         samples
     }
@@ -59,7 +61,7 @@ impl Samples {
     pub(super) fn add(&mut self, positions: impl IntoIterator<Item = Vec<f64>>) {
         for mut position in positions {
             let random = &mut self.random;
-            let end = |own: &Interval| [own.low(), own.high()][random.below(2)];
+            let end = |range: &Interval| [range.low(), range.high()][random.below(2)];
             position.extend(self.loads.iter().map(end));
             self.positions.push(position);
         }
@@ -79,28 +81,28 @@ impl Samples {
     /// and backward, with each two velocities.
     pub(super) fn column(&self, input: Input) -> Vec<f64> {
         let m = self.block();
-        let mut all = Vec::with_capacity(self.len());
+        let mut values = Vec::with_capacity(self.len());
         for q in &self.positions {
-            let from = all.len();
+            let from = values.len();
             match input {
-                Input::Sin(joint) => all.resize(from + m, libm::sin(q[joint])),
-                Input::Cos(joint) => all.resize(from + m, libm::cos(q[joint])),
-                Input::Entry(Argument::Position, joint) => all.resize(from + m, q[joint]),
+                Input::Sin(joint) => values.resize(from + m, libm::sin(q[joint])),
+                Input::Cos(joint) => values.resize(from + m, libm::cos(q[joint])),
+                Input::Entry(Argument::Position, joint) => values.resize(from + m, q[joint]),
                 Input::Entry(Argument::Load, index) => {
-                    all.resize(from + m, q[q.len() - self.loads.len() + index]);
+                    values.resize(from + m, q[q.len() - self.loads.len() + index]);
                 }
                 Input::Entry(Argument::Gravity, index) => {
-                    all.resize(from + m, q[self.joints + index]);
+                    values.resize(from + m, q[self.joints + index]);
                 }
                 Input::Entry(argument, joint) => {
-                    all.resize(from + m, 0.0);
-                    self.rate(argument, joint, &mut all[from..]);
+                    values.resize(from + m, 0.0);
+                    self.rate(argument, joint, &mut values[from..]);
                 }
                 // What reads it has no bounds, and is refused before any search.
-                Input::PerSpeed(_) => all.resize(from + m, f64::NAN),
+                Input::PerSpeed(_) => values.resize(from + m, f64::NAN),
             }
         }
-        all
+        values
     }
 
     fn rate(&self, argument: Argument, joint: usize, block: &mut [f64]) {

@@ -87,14 +87,14 @@ pub(crate) fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
     };
     // What is of no joint, such as an energy, is held to the strictest.
     let strictest = rows.iter().copied().map(of).reduce(f64::min);
-    let mut all = Vec::new();
+    let mut tolerances = Vec::new();
     for quantity in program.function.quantities() {
         for index in 0..quantity.len(sizes) {
-            let own = quantity.coordinates(index, rows, sizes).map(of);
-            all.push(own.reduce(f64::min).or(strictest).unwrap_or(0.0));
+            let allowances = quantity.coordinates(index, rows, sizes).map(of);
+            tolerances.push(allowances.reduce(f64::min).or(strictest).unwrap_or(0.0));
         }
     }
-    all
+    tolerances
 }
 
 /// Returns a magnitude that each output attains, found by climbing from actual states:
@@ -120,26 +120,26 @@ pub fn range(
     };
     let mut random = Random::new(0x7a46e);
     let outputs = 0..program.dag.outputs.len();
-    let each = outputs.map(|output| {
+    let ranges = outputs.map(|output| {
         let mut size = |state: &JointState| exact.run_at(state)[output].abs();
         let (mut most, mut at) = (0.0f64, JointState::default());
         for climbed in 0..12 {
             let mut from = draw(limits, &mut random);
             put(&mut from, &mut random);
-            let (mut state, mut found) = climb(limits, from, 1500, &mut random, &mut size);
+            let (mut state, mut magnitude) = climb(limits, from, 1500, &mut random, &mut size);
             for _ in 0..limits.payload.map_or(0, |_| POINTS) {
                 let mut next = state.clone();
                 put(&mut next, &mut random);
-                let own = size(&next);
-                if own > found {
-                    (state, found) = (next, own);
+                let candidate = size(&next);
+                if candidate > magnitude {
+                    (state, magnitude) = (next, candidate);
                 }
             }
-            if found > most || climbed == 0 {
-                (most, at) = (found, state);
+            if magnitude > most || climbed == 0 {
+                (most, at) = (magnitude, state);
             }
         }
         (most, at)
     });
-    each.collect()
+    ranges.collect()
 }

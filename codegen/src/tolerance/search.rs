@@ -130,7 +130,7 @@ pub(super) fn programs(target: Target<'_>, from: &[Program]) -> Vec<Program> {
     starts.splice(0..0, from.iter().cloned());
     let mut run = Run {
         target,
-        found: Vec::new(),
+        programs: Vec::new(),
         rounds: [
             0,
             starts.len().div_ceil(SIDE_BY_SIDE) + effort.again as usize,
@@ -144,8 +144,9 @@ pub(super) fn programs(target: Target<'_>, from: &[Program]) -> Vec<Program> {
         if target.is_over() || worse >= MOST_WORSE {
             break;
         }
-        let own: Vec<(&Program, u64)> = places.iter().map(|&place| (&starts[place], 0)).collect();
-        for (price, place) in run.tried(&own).into_iter().zip(places) {
+        let trials: Vec<(&Program, u64)> =
+            places.iter().map(|&place| (&starts[place], 0)).collect();
+        for (price, place) in run.tried(&trials).into_iter().zip(places) {
             let least = run.least();
             ranked.push((price, *place));
             let is_worse = price as f64 > WORSE * least as f64;
@@ -154,14 +155,14 @@ pub(super) fn programs(target: Target<'_>, from: &[Program]) -> Vec<Program> {
     }
     ranked.sort_unstable();
     for seed in 1..=effort.again {
-        if target.is_over() || run.found.is_empty() || run.spent > MOST_AGAIN {
+        if target.is_over() || run.programs.is_empty() || run.spent > MOST_AGAIN {
             break;
         }
         let best = ranked.iter().take(SIDE_BY_SIDE);
-        let own: Vec<(&Program, u64)> = best.map(|own| (&starts[own.1], seed)).collect();
-        run.tried(&own);
+        let trials: Vec<(&Program, u64)> = best.map(|rank| (&starts[rank.1], seed)).collect();
+        run.tried(&trials);
     }
-    run.found
+    run.programs
 }
 
 /// Starts that are tried beside each other, on any machine.
@@ -170,7 +171,7 @@ const SIDE_BY_SIDE: usize = 2;
 struct Run<'a> {
     target: Target<'a>,
     /// The programs within the allowances, the cheapest first.
-    found: Vec<Program>,
+    programs: Vec<Program>,
     rounds: [usize; 2],
     /// The work of all starts.
     spent: u64,
@@ -178,35 +179,37 @@ struct Run<'a> {
 
 impl Run<'_> {
     fn least(&self) -> usize {
-        self.found.first().map_or(usize::MAX, cost)
+        self.programs.first().map_or(usize::MAX, cost)
     }
 
     /// Returns the cost of the best program from each start.
     fn tried(&mut self, starts: &[(&Program, u64)]) -> Vec<usize> {
-        let best = self.found.first().map(Program::counts);
+        let best = self.programs.first().map(Program::counts);
         let rounds = [self.rounds[0], self.rounds[1].max(self.rounds[0] + 1)];
         self.target.watch.step(Part::Omissions, rounds, best);
         self.rounds[0] += 1;
         let target = self.target;
         let of = |(start, seed): &(&Program, u64)| {
             // A thread counts its work for itself.
-            let own = Meter::new(None);
-            (pruned(target, start, *seed), own.done())
+            let meter = Meter::new(None);
+            (pruned(target, start, *seed), meter.done())
         };
-        let found: Vec<(Vec<Program>, u64)> = match target.effort.work {
+        let outcomes: Vec<(Vec<Program>, u64)> = match target.effort.work {
             Some(_) => starts.iter().map(of).collect(),
             None => parallel::each(starts, of),
         };
-        self.spent += found.iter().map(|own| own.1).sum::<u64>();
-        let price = |found: &[Program]| found.iter().map(cost).min();
-        let prices = found.iter().map(|own| price(&own.0).unwrap_or(usize::MAX));
-        let prices = prices.collect();
-        for program in found.into_iter().flat_map(|own| own.0) {
-            if !self.found.contains(&program) {
-                self.found.push(program);
+        self.spent += outcomes.iter().map(|outcome| outcome.1).sum::<u64>();
+        let price = |programs: &[Program]| programs.iter().map(cost).min();
+        let prices = outcomes
+            .iter()
+            .map(|outcome| price(&outcome.0).unwrap_or(usize::MAX))
+            .collect();
+        for program in outcomes.into_iter().flat_map(|outcome| outcome.0) {
+            if !self.programs.contains(&program) {
+                self.programs.push(program);
             }
         }
-        self.found.sort_by_key(cost);
+        self.programs.sort_by_key(cost);
         prices
     }
 }
@@ -226,9 +229,9 @@ fn pruned(target: Target<'_>, start: &Program, seed: u64) -> Vec<Program> {
         noise: if seed == 0 { 0.0 } else { NOISE },
         share: 1.0,
     };
-    let (mut now, mut all) = (start.clone(), Vec::new());
+    let (mut now, mut programs) = (start.clone(), Vec::new());
     if cost(start) < cost(exact) && descent.judge(start, 1.0).is_within {
-        all.push(start.clone());
+        programs.push(start.clone());
     }
     for part in PARTS {
         if target.is_over() {
@@ -238,25 +241,27 @@ fn pruned(target: Target<'_>, start: &Program, seed: u64) -> Vec<Program> {
         if part < 1.0 && !is_exact && !descent.judge(&now, part).is_within {
             continue;
         }
-        let old = samples.positions.len();
-        let old = old.saturating_sub(2 * POSITIONS + REFUTING);
+        let old = samples
+            .positions
+            .len()
+            .saturating_sub(2 * POSITIONS + REFUTING);
         samples.positions.drain(POSITIONS..POSITIONS + old);
         match descent.descend(&now, &mut samples, part) {
-            Some(found) => {
-                let found = simplified(&found, effort.simplify);
-                if cost(&found) >= cost(&now) {
+            Some(program) => {
+                let next = simplified(&program, effort.simplify);
+                if cost(&next) >= cost(&now) {
                     break;
                 }
-                if cost(&found) < cost(exact) {
-                    all.push(found.clone());
+                if cost(&next) < cost(exact) {
+                    programs.push(next.clone());
                 }
-                now = found;
+                now = next;
             }
             None if part < 1.0 => {}
             None => break,
         }
     }
-    all
+    programs
 }
 
 struct Descent<'a> {
@@ -269,8 +274,8 @@ struct Descent<'a> {
 
 impl Descent<'_> {
     fn allowances(&self, part: f64) -> Vec<f64> {
-        let each = self.target.allowances.iter();
-        each.map(|own| part * own).collect()
+        let iter = self.target.allowances.iter();
+        iter.map(|allowance| part * allowance).collect()
     }
 
     fn judge(&self, program: &Program, part: f64) -> super::reference::Verdict {
@@ -297,11 +302,11 @@ impl Descent<'_> {
             let program = greedy.net.rebuilt(&state);
             let verdict = self.judge(&program, part);
             if verdict.is_within {
-                let found = match part < 1.0 {
+                let best = match part < 1.0 {
                     true => program,
                     false => self.tried_again(&mut greedy, state, program),
                 };
-                return (cost(&found) < cost(start)).then_some(found);
+                return (cost(&best) < cost(start)).then_some(best);
             }
             if target.is_over() {
                 return None;
@@ -367,8 +372,9 @@ impl Descent<'_> {
                 break;
             };
             greedy.finish(&mut trial, POLISH / 2);
-            let [own, least] = [&trial, &state].map(|own| greedy.net.price(own, &mut live));
-            if own > least || trial.edits == state.edits {
+            let [price, least] =
+                [&trial, &state].map(|candidate| greedy.net.price(candidate, &mut live));
+            if price > least || trial.edits == state.edits {
                 continue;
             }
             let other = greedy.net.rebuilt(&trial);
@@ -383,9 +389,9 @@ impl Descent<'_> {
 fn simplified(program: &Program, effort: Effort) -> Program {
     let limits = |operations| effort.limits(operations);
     let seeds = [program.dag.clone()];
-    let found = search(&seeds, &[], &limits, &|_| true, &|_, _| true);
-    found.map_or_else(
+    let best = search(&seeds, &[], &limits, &|_| true, &|_, _| true);
+    best.map_or_else(
         || program.clone(),
-        |found| program.with_graph(&found.graph.without_vain_steps()),
+        |best| program.with_graph(&best.graph.without_vain_steps()),
     )
 }

@@ -58,10 +58,12 @@ impl Slopes {
 
     fn of(&self, sines: &[AngleKernel]) -> Vec<f64> {
         self.costs(|input| {
-            let own = sines.iter().find(|own| input.angle() == Some(own.joint));
-            own.map_or(0.0, |own| match input {
-                Input::Sin(_) => own.errors.sin,
-                _ => own.errors.cos,
+            let kernel = sines
+                .iter()
+                .find(|kernel| input.angle() == Some(kernel.joint));
+            kernel.map_or(0.0, |kernel| match input {
+                Input::Sin(_) => kernel.errors.sin,
+                _ => kernel.errors.cos,
             })
         })
     }
@@ -126,7 +128,7 @@ pub(super) fn within(
 
 fn uniform(allowances: &[f64], slopes: &Slopes) -> f64 {
     let costs = slopes.costs(|input| f64::from(u8::from(input.angle().is_some())));
-    let pairs = costs.iter().zip(allowances).filter(|own| *own.0 > 0.0);
+    let pairs = costs.iter().zip(allowances).filter(|pair| *pair.0 > 0.0);
     let least = pairs.map(|(cost, allowed)| allowed / cost);
     least.fold(0.1, f64::min).max(0.0)
 }
@@ -141,11 +143,11 @@ fn groups(
         let range = sincos::range_of(trig.joint, positions);
         (range, trig.need)
     };
-    let all = program.trig();
+    let pairs = program.trig();
     let mut groups: Vec<(Vec<usize>, Vec<Choice>)> = Vec::new();
-    for (index, trig) in all.iter().enumerate() {
+    for (index, trig) in pairs.iter().enumerate() {
         let same = |(members, _): &&mut (Vec<usize>, Vec<Choice>)| {
-            let first = members.first().and_then(|&first| all.get(first));
+            let first = members.first().and_then(|&first| pairs.get(first));
             first.is_some_and(|first| key(first) == key(trig))
         };
         match groups.iter_mut().find(same) {

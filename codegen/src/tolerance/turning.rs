@@ -162,13 +162,13 @@ mod tests {
             inertia = [0.3, 0.3, 0.3, 0, 0, 0]\n";
         let robot = parse(&format!("{head}{joint}{joint}")).unwrap().robot;
         let turning = AxisLosses::new(&robot).unwrap();
-        let all = |most: f64| move |_, _| most;
-        assert!(turning.bears(&[0, 1], all(0.0)) && turning.bears(&[0, 1], all(0.02)));
-        assert!(!turning.bears(&[0, 1], all(0.07)) && turning.bears(&[1], all(0.1)));
+        let uniform = |most: f64| move |_, _| most;
+        assert!(turning.bears(&[0, 1], uniform(0.0)) && turning.bears(&[0, 1], uniform(0.02)));
+        assert!(!turning.bears(&[0, 1], uniform(0.07)) && turning.bears(&[1], uniform(0.1)));
         // The errors of each row go with its joint.
         let one = |place: usize| move |i, j| if i == place && j == place { 0.1 } else { 0.0 };
         let bears = |rows: [usize; 2], place| turning.bears(&rows, one(place));
         assert!(bears([0, 1], 0) && bears([1, 0], 1) && !bears([0, 1], 1) && !bears([1, 0], 0));
-        assert!(!turning.bears(&[1], all(0.31)) && !turning.bears(&[1], all(f64::NAN)));
+        assert!(!turning.bears(&[1], uniform(0.31)) && !turning.bears(&[1], uniform(f64::NAN)));
     }
 }

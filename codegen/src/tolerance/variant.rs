@@ -95,8 +95,8 @@ impl Variant {
     pub(crate) fn draw(&self, loading: Option<&Code>, random: &mut Random) -> JointState {
         let mut state = draw(&self.limits, random);
         if let Some(loading) = loading {
-            for own in &mut state.payload {
-                *own = self.scalar.of(*own, f64::from(*own as f32));
+            for number in &mut state.payload {
+                *number = self.scalar.of(*number, f64::from(*number as f32));
             }
             state.load = loading.run_at(&state);
         }

@@ -67,8 +67,8 @@ impl<'a> AccuracyFilter<'a> {
         let Some(reference) = &self.reference else {
             return 0.0;
         };
-        let excess = |own: &Rounding| own.factor(reference, FLOOR) / WORSE;
-        let reaches = |own: &Rounding| excess(own) >= bound;
+        let excess = |rounding: &Rounding| rounding.factor(reference, FLOOR) / WORSE;
+        let reaches = |rounding: &Rounding| excess(rounding) >= bound;
         let (task, first) = (&self.task, &self.worst_states);
         let program = task.program(graph);
         excess(&Rounding::until(task.setup, &program, first, reaches))

@@ -123,22 +123,22 @@ pub fn prove(setup: &Setup, program: &Program) -> Result<Proof, Disproof> {
     let formulation = reference_formulation(setup);
     let task = setup.task(function);
     let degrees = Degrees::default();
-    let own = run(Some(setup), program, &degrees).ok_or(Disproof::Shape)?;
+    let outputs = run(Some(setup), program, &degrees).ok_or(Disproof::Shape)?;
     let others = task.textbook(formulation, &AnyLeaves(&degrees));
-    let points = degrees.points(&own, &restored(others), program.joints)?;
+    let points = degrees.points(&outputs, &restored(others), program.joints)?;
     compare(
         points,
         &["program", &written(setup), &format!("{program:?}")],
         |point| {
             let posed = task.posed(&AnyLeaves(point));
-            let all = posed.all(formulation);
-            let residuals = function.residual(formulation, &posed.arm, &posed.motion, &all);
+            let results = posed.all(formulation);
+            let residuals = function.residual(formulation, &posed.arm, &posed.motion, &results);
             match integers(&restored(residuals)) {
                 None => Ok(None),
-                Some(own) if own.iter().any(|residual| residual.divides()) => {
+                Some(residues) if residues.iter().any(|residual| residual.divides()) => {
                     Err(Disproof::Equation)
                 }
-                Some(_) => Ok(Some(restored(posed.select(all)))),
+                Some(_) => Ok(Some(restored(posed.select(results)))),
             }
         },
         |point| run(Some(setup), program, point),
@@ -157,8 +157,8 @@ pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
     }
     let degrees = Degrees::default();
     let both = run(None, a, &degrees).zip(run(None, b, &degrees));
-    let (own, others) = both.ok_or(Disproof::Shape)?;
-    let points = degrees.points(&own, &others, a.joints.max(b.joints))?;
+    let (outputs, others) = both.ok_or(Disproof::Shape)?;
+    let points = degrees.points(&outputs, &others, a.joints.max(b.joints))?;
     compare(
         points,
         &["two programs", &format!("{a:?}"), &format!("{b:?}")],

@@ -33,13 +33,13 @@ impl Growth {
 /// Sines, rates and loads are at most one; a quotient is as large as what it divides.
 fn sizes(graph: &Dag) -> Vec<f64> {
     let magnitude = |constant: &Exact| f64::nearest(constant).abs();
-    let mut all: Vec<f64> = Vec::with_capacity(graph.nodes.len());
+    let mut sizes: Vec<f64> = Vec::with_capacity(graph.nodes.len());
     for node in &graph.nodes {
         let size = match node {
             Node::Constant(constant) => magnitude(constant),
             Node::Input(_) => 1.0,
             Node::Apply(operation, operands) => {
-                let [a, b] = operands.map(|id| all[id as usize]);
+                let [a, b] = operands.map(|id| sizes[id as usize]);
                 match operation {
                     Operation::Add | Operation::Sub => a + b,
                     Operation::Mul | Operation::Fused => a * b,
@@ -47,9 +47,13 @@ fn sizes(graph: &Dag) -> Vec<f64> {
                 }
             }
         };
-        all.push(size);
+        sizes.push(size);
     }
-    graph.outputs.iter().map(|edge| all[edge.index()]).collect()
+    graph
+        .outputs
+        .iter()
+        .map(|edge| sizes[edge.index()])
+        .collect()
 }
 
 #[cfg(test)]

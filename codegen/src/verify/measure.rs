@@ -42,8 +42,8 @@ pub struct ConditionAllowance(Vec<(Quantity, f64)>);
 impl ConditionAllowance {
     /// Returns the condition of a quantity: what else is in a function inverts nothing.
     pub fn factor(&self, quantity: Quantity) -> f64 {
-        let own = self.0.iter().find(|(own, _)| *own == quantity);
-        own.map_or(1.0, |(_, factor)| *factor)
+        let entry = self.0.iter().find(|(key, _)| *key == quantity);
+        entry.map_or(1.0, |(_, factor)| *factor)
     }
 }
 
@@ -75,7 +75,8 @@ impl Runtime {
 
     /// Returns the factors by which a function's results may err more than others at a state.
     pub fn granted(&self, function: Function, state: &JointState) -> ConditionAllowance {
-        let inverts = |own: &Quantity| own.facts().inverts_inertia || own.is_of_frame();
+        let inverts =
+            |quantity: &Quantity| quantity.facts().inverts_inertia || quantity.is_of_frame();
         if !function.quantities().iter().any(inverts) {
             return ConditionAllowance(Vec::new());
         }
@@ -88,9 +89,16 @@ impl Runtime {
         let divisors = posed.divisors();
         let quantities = function.quantities().iter().zip(&divisors);
         let factors = quantities.map(|(&quantity, divisor)| {
-            let own = condition(&floats(divisor)).max(1.0);
+            let of_divisor = condition(&floats(divisor)).max(1.0);
             let inverts = quantity.facts().inverts_inertia;
-            (quantity, if inverts { of_inertia * own } else { own })
+            (
+                quantity,
+                if inverts {
+                    of_inertia * of_divisor
+                } else {
+                    of_divisor
+                },
+            )
         });
         ConditionAllowance(factors.collect())
     }

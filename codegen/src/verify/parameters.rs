@@ -32,13 +32,17 @@ pub fn prove_base(task: Task<'_>, base: &BaseParameters) -> Result<(), Disproof>
         return Err(Disproof::Shape);
     };
     let parameters = parameters(setup.robot());
-    let place = |own: &Parameter| parameters.iter().position(|other| other == own);
-    let combinations = base.combinations.iter().map(|terms| {
-        let terms = terms.iter();
-        let terms = terms.map(|(own, factor)| Some((place(own)?, factor)));
-        terms.collect()
-    });
-    let combinations: Option<Vec<Vec<_>>> = combinations.collect();
+    let place = |parameter: &Parameter| parameters.iter().position(|other| other == parameter);
+    let combinations: Option<Vec<Vec<_>>> = base
+        .combinations
+        .iter()
+        .map(|terms| {
+            let terms = terms
+                .iter()
+                .map(|(parameter, factor)| Some((place(parameter)?, factor)));
+            terms.collect()
+        })
+        .collect();
     let statement = Statement {
         task,
         quantity,
@@ -62,8 +66,8 @@ pub fn prove_base(task: Task<'_>, base: &BaseParameters) -> Result<(), Disproof>
 
 fn parameters(robot: &Robot) -> Vec<Parameter> {
     let drives = of_drives::<Exact>(robot);
-    let drives = drives.iter().map(|drive| Parameter::of_drive(robot, drive));
-    Parameter::of_bodies(robot).chain(drives).collect()
+    let of_drives = drives.iter().map(|drive| Parameter::of_drive(robot, drive));
+    Parameter::of_bodies(robot).chain(of_drives).collect()
 }
 
 struct Statement<'a> {
@@ -85,20 +89,21 @@ impl Statement<'_> {
         let by = reference_formulation(setup);
         let posed = self.task.posed(leaves);
         let constant = |x: &Exact| leaves.constant(x);
-        let mut all = of_links(&setup.arm(constant));
-        all.extend(of_drives(setup.robot()));
-        let own: Vec<_> = self.columns.iter().map(|c| c.map(constant)).collect();
-        let [whole, own] = [all, own].map(|columns| posed.regressor(by, self.quantity, &columns));
-        let mut found = Vec::new();
-        for (mut differences, own) in whole.into_iter().zip(own) {
-            for (entry, terms) in own.iter().zip(&self.combinations) {
+        let mut full_columns = of_links(&setup.arm(constant));
+        full_columns.extend(of_drives(setup.robot()));
+        let base_columns: Vec<_> = self.columns.iter().map(|c| c.map(constant)).collect();
+        let [whole, base] = [full_columns, base_columns]
+            .map(|columns| posed.regressor(by, self.quantity, &columns));
+        let mut residuals = Vec::new();
+        for (mut differences, row) in whole.into_iter().zip(base) {
+            for (entry, terms) in row.iter().zip(&self.combinations) {
                 for (place, factor) in terms {
                     let part = entry.mul(&constant(factor));
                     differences[*place] = differences[*place].sub(&part);
                 }
             }
-            found.extend(differences);
+            residuals.extend(differences);
         }
-        restored(found)
+        restored(residuals)
     }
 }

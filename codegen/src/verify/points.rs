@@ -65,13 +65,13 @@ pub(super) fn points(statement: &[&str], count: usize) -> impl Iterator<Item = P
 pub(super) fn written(setup: &Setup) -> String {
     let drives = [RuntimeParameter::Armature, RuntimeParameter::Viscous];
     let of_links = (setup.has(RuntimeParameter::Bodies)
-        || drives.iter().any(|own| setup.has(*own)))
+        || drives.iter().any(|drive| setup.has(*drive)))
     .then(|| {
         format!(
             "\n{:?}\n{:?}\n{:?}",
             setup.body_links(),
             setup.zeros(),
-            drives.map(|own| setup.has(own))
+            drives.map(|drive| setup.has(drive))
         )
     });
     format!(
@@ -79,7 +79,8 @@ pub(super) fn written(setup: &Setup) -> String {
         write_robot(setup.robot()),
         setup.scene().map(write_scene).unwrap_or_default(),
         setup.rows(),
-        [RuntimeParameter::Payload, RuntimeParameter::Gravity].map(|own| setup.has(own)),
+        [RuntimeParameter::Payload, RuntimeParameter::Gravity]
+            .map(|parameter| setup.has(parameter)),
         of_links.unwrap_or_default(),
     )
 }
@@ -117,13 +118,13 @@ impl Degrees {
     /// in the drawn parameters.
     pub(super) fn points(
         &self,
-        own: &[Sparse<Degree>],
+        outputs: &[Sparse<Degree>],
         others: &[Sparse<Degree>],
         joints: usize,
     ) -> Result<usize, Disproof> {
         let pairs = joints + self.0.borrow().len();
         let mut largest = 1.0f64;
-        for (a, b) in own.iter().zip(others) {
+        for (a, b) in outputs.iter().zip(others) {
             let degree = a.add(b).value().ok_or(Disproof::Large)?;
             let degree = (2 * pairs + 1) as f64 * degree.top;
             // Infinities of both signs make no number, which is not small.

@@ -87,8 +87,9 @@ impl Rounding {
                 });
                 let worst = &mut rounding.normwise[quantity];
                 *worst = worst.max(largest(normwise));
-                let each = errors[range.clone()].iter().zip(&sizes[range.clone()]);
-                let per_output = each.map(|(own, size)| ratio(largest(own.iter().copied()), *size));
+                let pairs = errors[range.clone()].iter().zip(&sizes[range.clone()]);
+                let per_output = pairs
+                    .map(|(lane_errors, size)| ratio(largest(lane_errors.iter().copied()), *size));
                 let worst = &mut rounding.per_output[quantity];
                 *worst = worst.max(largest(per_output));
             }
@@ -103,9 +104,9 @@ impl Rounding {
     /// Returns the largest factor by which a quantity is worse than another program's,
     /// where an error of `floor` units is as good as none.
     pub fn factor(&self, than: &Rounding, floor: f64) -> f64 {
-        let worst = |own: &[f64], other: &[f64]| {
-            let pairs = own.iter().zip(other);
-            largest(pairs.map(|(own, other)| own / other.max(floor)))
+        let worst = |errors: &[f64], other: &[f64]| {
+            let pairs = errors.iter().zip(other);
+            largest(pairs.map(|(error, other)| error / other.max(floor)))
         };
         worst(&self.normwise, &than.normwise).max(worst(&self.per_output, &than.per_output))
     }

@@ -31,11 +31,11 @@ pub fn there(names: &[&'static str]) -> Vec<&'static str> {
         let run = command.arg("--version").stdout(Stdio::null()).status();
         run.is_ok_and(|status| status.success())
     };
-    let found: Vec<&str> = names.iter().filter(is_there).copied().collect();
-    if found.is_empty() {
+    let programs: Vec<&str> = names.iter().filter(is_there).copied().collect();
+    if programs.is_empty() {
         eprintln!("none of {names:?} is here: what needs one is not tested");
     }
-    found
+    programs
 }
 
 pub fn folder(name: &str) -> PathBuf {
@@ -63,13 +63,15 @@ fn call(case: &Case, generated: &GeneratedCode, emitted: &RunnableCode) -> Strin
     let base = case.request.module_name(case.robot());
     let names = Names::new(&base, case.request.language, emitted.scalar);
     let name = names.of(&format!("{function}{}", if batch { "_batch" } else { "" }));
-    let mut own = generated.functions.iter();
-    let own = own.find(|own| own.function == function).unwrap();
+    let mut functions = generated.functions.iter();
+    let generated_function = functions
+        .find(|candidate| candidate.function == function)
+        .unwrap();
     let (mut body, mut results, mut passed) = (String::new(), String::new(), Vec::new());
     if batch {
         passed.push("STATES".to_owned());
     }
-    for argument in &own.program.arguments {
+    for argument in &generated_function.program.arguments {
         let (from, length) = (argument.index() * MOST, argument.length(emitted.sizes));
         assert!(length <= MOST);
         body += &format!("IN({float}, {}, {length}, {from})\n", argument.name());
@@ -112,9 +114,12 @@ fn call(case: &Case, generated: &GeneratedCode, emitted: &RunnableCode) -> Strin
 }
 
 fn main_of(case: &Case, generated: &GeneratedCode) -> String {
-    let all = &generated.emitted;
-    let calls: String = all.iter().map(|own| call(case, generated, own)).collect();
-    let outputs = all.iter().map(|own| own.text.dag.outputs.len());
+    let emitted = &generated.emitted;
+    let calls: String = emitted
+        .iter()
+        .map(|code| call(case, generated, code))
+        .collect();
+    let outputs = emitted.iter().map(|code| code.text.dag.outputs.len());
     let states = if case.request.batch { STATES } else { 1 };
     let device = match case.request.language {
         Language::Cuda => DEVICE,
@@ -139,16 +144,16 @@ fn states() -> impl Iterator<Item = Vec<f64>> {
 }
 
 fn expected(generated: &GeneratedCode, state: &[f64]) -> Vec<u64> {
-    let mut all = Vec::new();
+    let mut bits = Vec::new();
     for emitted in &generated.emitted {
         let state = JointState::new(|argument| {
             let start = argument.index() * MOST;
             state[start..start + argument.length(emitted.sizes)].to_vec()
         });
         let results = emitted.text.run_at(&state);
-        all.extend(results.into_iter().map(f64::to_bits));
+        bits.extend(results.into_iter().map(f64::to_bits));
     }
-    all
+    bits
 }
 
 /// `what` names a folder; every compiler that is there makes the program with each of these flags.
@@ -182,8 +187,8 @@ pub fn same_bits(what: &str, case: &Case, count: usize, flags: &[&str]) {
         for (how, program) in &programs {
             let states = fs::File::open(folder.join("states")).unwrap();
             let run = Command::new(program).stdin(states).output().unwrap();
-            let found = |bytes: &[u8]| u64::from_ne_bytes(bytes.try_into().unwrap());
-            let found: Vec<u64> = run.stdout.chunks_exact(8).map(found).collect();
+            let bits_of = |bytes: &[u8]| u64::from_ne_bytes(bytes.try_into().unwrap());
+            let found: Vec<u64> = run.stdout.chunks_exact(8).map(bits_of).collect();
             assert_eq!(found.len(), expected.len(), "{what}");
             let differ = found.iter().zip(&expected).filter(|(a, b)| a != b).count();
             assert_eq!(differ, 0, "{what} by {how}, states from {start}");

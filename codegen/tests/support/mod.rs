@@ -87,8 +87,10 @@ pub fn source(name: &str, more: &str) -> String {
         return with_frames(name) + more;
     }
     let files = FOLDERS.map(|folder| root().join(format!("{folder}/{name}.toml")));
-    let file = files.into_iter().find(|file| file.exists());
-    let file = file.unwrap_or_else(|| panic!("there is no {name}.toml"));
+    let file = files
+        .into_iter()
+        .find(|file| file.exists())
+        .unwrap_or_else(|| panic!("there is no {name}.toml"));
     std::fs::read_to_string(file).unwrap() + more
 }
 
@@ -133,8 +135,8 @@ pub fn numbers(value: &Value) -> Vec<f64> {
 
 pub fn given(json: &Value) -> JointState {
     JointState::new(|argument| {
-        let given = argument.given().and_then(|key| json.get(key));
-        given.map_or_else(Vec::new, numbers)
+        let entry = argument.given().and_then(|key| json.get(key));
+        entry.map_or_else(Vec::new, numbers)
     })
 }
 
@@ -162,8 +164,10 @@ pub fn rows<const N: usize>(table: &str) -> Vec<[String; N]> {
 /// Lists words and those in their place: of a table of `FROM → TO`, one a line or with ` … `
 /// between them. In it `·` is a blank, `↵` the end of a line, and `∅` nothing.
 pub fn changes(table: &str) -> Vec<[String; 2]> {
-    let pairs = table.lines().flat_map(|line| line.split(" … "));
-    let pairs = pairs.filter_map(|pair| pair.split_once(" → "));
+    let pairs = table
+        .lines()
+        .flat_map(|line| line.split(" … "))
+        .filter_map(|pair| pair.split_once(" → "));
     let read = |words: &str| {
         let words = words.trim().replace('·', " ");
         words.replace('↵', "\n").replace('∅', "")
@@ -179,13 +183,14 @@ pub fn every_line_counts(
     is_refused: impl Fn(&str) -> bool,
 ) -> usize {
     let lines: Vec<&str> = text.lines().collect();
-    let all = lines.iter().enumerate().flat_map(|(index, line)| {
-        let others = others(index, line).into_iter();
-        let others = others.filter(move |other| other != line);
+    let candidates = lines.iter().enumerate().flat_map(|(index, line)| {
+        let others = others(index, line)
+            .into_iter()
+            .filter(move |other| other != line);
         others.map(move |other| (index, other))
     });
     let mut count = 0;
-    for (_, (index, other)) in all.enumerate().filter(|(place, _)| is_tried(*place)) {
+    for (_, (index, other)) in candidates.enumerate().filter(|(place, _)| is_tried(*place)) {
         count += 1;
         let mut changed = lines.clone();
         changed[index] = &other;
@@ -259,16 +264,17 @@ impl Case {
     fn parse(source: &str, asked: &str) -> Result<Case, String> {
         let reading = read(source);
         let (asked, language) = asked.split_once("; language: ").unwrap_or((asked, "rust"));
-        let words = asked.parse();
-        let words = words.unwrap_or_else(|error| panic!("{asked}: {error:?}"));
-        let request = Request::parse(
+        let words = asked
+            .parse()
+            .unwrap_or_else(|error| panic!("{asked}: {error:?}"));
+        let mut request = Request::parse(
             &words,
             &ScalarType::ALL,
             &reading.robot,
             &[],
             &reading.scenes,
-        );
-        let mut request = request.map_err(|problems| {
+        )
+        .map_err(|problems| {
             let said = problems.iter().map(|problem| format!("{problem}\n"));
             said.collect::<String>()
         })?;
@@ -325,8 +331,8 @@ impl Case {
         let setup = self.request.setup(self.robot()).unwrap();
         let mut states = setup.states(count, seed);
         let is_rubbed = self.robot().joints.iter().any(|joint| joint.has_coulomb());
-        let all = [1.0, 1e-2, 1e-4, 0.0];
-        let factors = if is_rubbed { &all[..] } else { &all[..1] };
+        let scales = [1.0, 1e-2, 1e-4, 0.0];
+        let factors = if is_rubbed { &scales[..] } else { &scales[..1] };
         for (state, factor) in states.iter_mut().zip(factors.iter().cycle()) {
             state.qd.iter_mut().for_each(|qd| *qd *= factor);
         }
@@ -343,13 +349,18 @@ impl Case {
 
 /// Something errs, or nothing was run.
 #[track_caller]
-pub fn rounds_well(own: &GeneratedCode, runtime: &Runtime, states: &[JointState], what: &str) {
-    assert!(!own.emitted.is_empty(), "{what}");
-    for own in &own.emitted {
-        let compared = with_runtime(own, runtime, states);
-        hold(own, &compared, what);
-        let mut errors = errors(own, &compared).into_iter();
-        let is_exact = own.function != Function::InverseDynamics || states.len() < 20;
+pub fn rounds_well(
+    generated: &GeneratedCode,
+    runtime: &Runtime,
+    states: &[JointState],
+    what: &str,
+) {
+    assert!(!generated.emitted.is_empty(), "{what}");
+    for emitted in &generated.emitted {
+        let compared = with_runtime(emitted, runtime, states);
+        hold(emitted, &compared, what);
+        let mut errors = errors(emitted, &compared).into_iter();
+        let is_exact = emitted.function != Function::InverseDynamics || states.len() < 20;
         assert!(is_exact || errors.any(|error| error > 0.0), "{what}: exact");
     }
 }
@@ -359,15 +370,20 @@ pub type Compared = (Vec<f64>, Vec<f64>, ConditionAllowance);
 
 /// Sines are libm's on both sides: how far polynomials are from them is measured apart. A result
 /// that was proved to vanish is compared with zero, not with rounding noise.
-pub fn with_runtime(own: &RunnableCode, runtime: &Runtime, states: &[JointState]) -> Vec<Compared> {
-    let own = own.with_libm();
+pub fn with_runtime(
+    emitted: &RunnableCode,
+    runtime: &Runtime,
+    states: &[JointState],
+) -> Vec<Compared> {
+    let code = emitted.with_libm();
     let compared = states.iter().map(|state| {
-        let state = state.in_scalar(own.scalar);
-        let known = runtime.run(own.function, &state).into_iter();
-        let expected = known.zip(own.vanishing());
-        let expected = expected.map(|(x, vanishes)| if vanishes { 0.0 } else { x });
-        let granted = runtime.granted(own.function, &state);
-        (own.run(&state), expected.collect(), granted)
+        let state = state.in_scalar(code.scalar);
+        let known = runtime.run(code.function, &state).into_iter();
+        let expected = known
+            .zip(code.vanishing())
+            .map(|(x, vanishes)| if vanishes { 0.0 } else { x });
+        let granted = runtime.granted(code.function, &state);
+        (code.run(&state), expected.collect(), granted)
     });
     compared.collect()
 }

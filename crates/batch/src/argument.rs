@@ -72,11 +72,11 @@ impl<'a, T: Copy, const E: usize, const R: usize> Entries<'a, T, E, R> {
                         push(Source::Column(column));
                     }
                 }
-                Argument::Rows(own) => {
-                    if own.count() != 1 {
-                        Unequal::check(Slice::Rows(index), own.count(), states)?;
+                Argument::Rows(argument_rows) => {
+                    if argument_rows.count() != 1 {
+                        Unequal::check(Slice::Rows(index), argument_rows.count(), states)?;
                     }
-                    for _ in own.row(0) {
+                    for _ in argument_rows.row(0) {
                         push(Source::Row(rows));
                         rows += 1;
                     }

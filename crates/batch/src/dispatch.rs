@@ -29,8 +29,8 @@ impl Vectors {
     #[must_use]
     pub fn widest() -> Vectors {
         let mut wider = [Vectors::Avx512, Vectors::Avx2].into_iter();
-        let found = wider.find(|vectors| vectors.are_there());
-        found.unwrap_or(Vectors::Portable)
+        let vectors = wider.find(|vectors| vectors.are_there());
+        vectors.unwrap_or(Vectors::Portable)
     }
 
     /// True if the processor has them; without the feature `std` nobody asks it.
@@ -107,12 +107,12 @@ fn few_columns<F, const E: usize, const M: usize, const K: usize, const R: usize
 {
     let blocks = entries.few(states);
     let entries = Entries::<F::Scalar, E, 0>::of_blocks(&blocks);
-    let mut found = [[F::Scalar::default(); BLOCK]; M];
+    let mut result_blocks = [[F::Scalar::default(); BLOCK]; M];
     let from = BLOCK - states;
-    let mut columns = found.each_mut().map(|column| &mut column[..]);
+    let mut columns = result_blocks.each_mut().map(|column| &mut column[..]);
     run::<F, E, M, K, 0>(vectors, &entries, &mut columns, from);
-    for (column, found) in results.iter_mut().zip(&found) {
-        column.copy_from_slice(&found[from..]);
+    for (column, block) in results.iter_mut().zip(&result_blocks) {
+        column.copy_from_slice(&block[from..]);
     }
 }
 

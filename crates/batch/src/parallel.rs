@@ -48,11 +48,11 @@ where
         |(first, results)| {
             let range = *first..(*first + task).min(states);
             *first = range.end;
-            let mut own = from_fn::<&mut [F::Scalar], M, _>(|_| &mut []);
-            for (own, rest) in own.iter_mut().zip(results) {
-                (*own, *rest) = take(rest).split_at_mut(range.len());
+            let mut parts = from_fn::<&mut [F::Scalar], M, _>(|_| &mut []);
+            for (part, rest) in parts.iter_mut().zip(results) {
+                (*part, *rest) = take(rest).split_at_mut(range.len());
             }
-            (!range.is_empty()).then(|| (entries.at(range), own))
+            (!range.is_empty()).then(|| (entries.at(range), parts))
         },
         |(entries, mut results)| entries_in::<F, E, M, K, R>(vectors, &entries, &mut results),
     );
@@ -70,15 +70,15 @@ fn share<W: Send, T>(work: W, split: impl Fn(&mut W) -> Option<T> + Sync, run: i
     let rest = Mutex::new(work);
     // Poisoned where another panicked, which ends all.
     let next = || rest.lock().ok().and_then(|mut rest| split(&mut rest));
-    let all = || {
+    let worker = || {
         while let Some(task) = next() {
             run(task);
         }
     };
     rayon::in_place_scope(|scope| {
         for _ in 1..rayon::current_num_threads() {
-            scope.spawn(|_| all());
+            scope.spawn(|_| worker());
         }
-        all();
+        worker();
     });
 }

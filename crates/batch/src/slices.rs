@@ -74,10 +74,10 @@ pub(crate) fn run_columns<F, V, const E: usize, const M: usize, const K: usize, 
         take_sines::<F, V, E, M, K>(token, &block, &mut sin, &mut cos, vectors.clone());
         let mut after = vectors.start;
         while after < vectors.end {
-            let found = at::<F, V, E, M, K>(token, &block, &sin, &cos, after);
+            let outputs = at::<F, V, E, M, K>(token, &block, &sin, &cos, after);
             let mut result = 0;
             while result < M {
-                found[result].store(&mut *results[result], begin + after * V::LANES);
+                outputs[result].store(&mut *results[result], begin + after * V::LANES);
                 result += 1;
             }
             after += 1;
@@ -101,7 +101,7 @@ fn take_sines<F, V, const E: usize, const M: usize, const K: usize>(
     let mut after = vectors.start;
     while K > 0 && after < vectors.end {
         let angles = F::angles(&vectors_of(token, block, after));
-        let (sines, cosines, all) = match F::FUSED {
+        let (sines, cosines, are_usual) = match F::FUSED {
             true => V::sincos::<Fused, K>(&angles),
             false => V::sincos::<Rounded, K>(&angles),
         };
@@ -111,7 +111,7 @@ fn take_sines<F, V, const E: usize, const M: usize, const K: usize>(
             cosines[angle].store(&mut cos.0[angle], after * V::LANES);
             angle += 1;
         }
-        usual &= all;
+        usual &= are_usual;
         after += 1;
     }
     if !usual {

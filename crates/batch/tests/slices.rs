@@ -57,10 +57,10 @@ where
     F: Function<N, M, K>,
 {
     let x = x.each_ref().map(|column| &column[..count]);
-    let mut found = from_fn(|_| vec![F::Scalar::default(); count]);
-    let mut slices = found.each_mut().map(Vec::as_mut_slice);
+    let mut results = from_fn(|_| vec![F::Scalar::default(); count]);
+    let mut slices = results.each_mut().map(Vec::as_mut_slice);
     columns_in::<F, N, M, K, 0>(vectors, &[Columns(&x)], &mut slices).unwrap();
-    found
+    results
 }
 
 #[test]
@@ -127,16 +127,19 @@ macro_rules! fused {
                     for k in 0..200 {
                         for i in 0..5 {
                             let x: $float = x[i][k];
-                            let own = [found[i][k], found[5 + i][k]];
+                            let vector = [found[i][k], found[5 + i][k]];
                             let pair: [$float; 2] = alone::<$float, Fused>(x).into();
-                            let same = own.map($float::to_bits) == pair.map($float::to_bits);
+                            let same = vector.map($float::to_bits) == pair.map($float::to_bits);
                             assert!(same || x.is_nan() || x.is_infinite(), "{vectors:?}: {x:e}");
-                            assert_eq!(own.map($float::is_nan), pair.map($float::is_nan));
-                            let has_sign = own[0].is_sign_negative() == x.is_sign_negative();
-                            assert!(x != 0.0 || has_sign && own == [x, 1.0], "{x:?}: {own:?}");
+                            assert_eq!(vector.map($float::is_nan), pair.map($float::is_nan));
+                            let has_sign = vector[0].is_sign_negative() == x.is_sign_negative();
+                            assert!(
+                                x != 0.0 || has_sign && vector == [x, 1.0],
+                                "{x:?}: {vector:?}"
+                            );
                             let rounded: [$float; 2] = alone::<$float, Rounded>(x).into();
                             far += usize::from(x.abs() > $float::LARGEST && x.is_finite());
-                            others += usize::from(own != rounded && x.is_finite());
+                            others += usize::from(vector != rounded && x.is_finite());
                         }
                     }
                 }
@@ -224,12 +227,12 @@ fn rows_are_of_a_state_or_of_all() {
         let rows: Vec<Pair> = (0..count)
             .map(|k| Pair([f32::NAN, 3.0 - k as f32]))
             .collect();
-        for given in [&rows[..], &rows[..1]] {
+        for pairs in [&rows[..], &rows[..1]] {
             let mut results = [(); 3].map(|()| vec![7.0; count]);
             let mut slices = results.each_mut().map(Vec::as_mut_slice);
-            run(vectors, &[Columns(&[&x, &x]), Rows(&given)], &mut slices).unwrap();
+            run(vectors, &[Columns(&[&x, &x]), Rows(&pairs)], &mut slices).unwrap();
             for (k, x) in x.iter().enumerate() {
-                let y = given[k.min(given.len() - 1)][1];
+                let y = pairs[k.min(pairs.len() - 1)][1];
                 let expected = [x * y, x - 2.0 * y, x / y];
                 let found = [results[0][k], results[1][k], results[2][k]];
                 assert_eq!(

@@ -81,8 +81,8 @@ pub struct BuildError(pub Vec<String>);
 
 impl fmt::Display for BuildError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let each = self.0.iter().map(|message| format!("error: {message}"));
-        f.write_str(&each.collect::<Vec<String>>().join("\n\n"))
+        let lines = self.0.iter().map(|message| format!("error: {message}"));
+        f.write_str(&lines.collect::<Vec<String>>().join("\n\n"))
     }
 }
 
@@ -129,8 +129,8 @@ impl Generator {
         })?;
         let path = Path::new(&folder).join(file_name);
         let source = self.source(&path)?;
-        let found = fs::read_to_string(&path).ok();
-        if Stamp::check(found.as_deref(), VERSION, &source, &self.asked).is_ok() {
+        let old_text = fs::read_to_string(&path).ok();
+        if Stamp::check(old_text.as_deref(), VERSION, &source, &self.asked).is_ok() {
             return Ok(());
         }
         let base = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -165,8 +165,8 @@ impl Generator {
         };
         for (suffix, asked) in files {
             let file = beside(path, suffix);
-            let found = fs::read_to_string(&file).ok();
-            if let Err(why) = Stamp::check(found.as_deref(), VERSION, &source, &asked) {
+            let old_text = fs::read_to_string(&file).ok();
+            if let Err(why) = Stamp::check(old_text.as_deref(), VERSION, &source, &asked) {
                 return self.renew(path, &file, why);
             }
         }
@@ -193,21 +193,22 @@ impl Generator {
 
     #[cfg(not(feature = "search"))]
     fn renew(&self, path: &Path, file: &Path, why: Stale) -> Result<(), BuildError> {
-        let (robot, own) = (self.robot.display().to_string(), file.display().to_string());
+        let (robot, stale) = (self.robot.display().to_string(), file.display().to_string());
         let command = format!(
             "dalembert generate {robot}{} -o {}",
             self.asked.arguments(),
             path.display()
         );
-        let message = why.message(&own, &robot);
+        let message = why.message(&stale, &robot);
         Err(one(format!("{message}\n  = help: {command}")))
     }
 
     #[cfg(feature = "search")]
     fn renew(&self, path: &Path, _: &Path, _: Stale) -> Result<(), BuildError> {
         let generated = self.generated(path)?.into_iter();
-        let files = generated.map(|(suffix, _, text)| (beside(path, suffix), text));
-        let files: Vec<(PathBuf, String)> = files.collect();
+        let files: Vec<(PathBuf, String)> = generated
+            .map(|(suffix, _, text)| (beside(path, suffix), text))
+            .collect();
         let kept: Vec<String> = files.iter().filter_map(|(file, _)| kept(file)).collect();
         if !kept.is_empty() {
             return Err(BuildError(kept));

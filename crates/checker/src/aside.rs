@@ -65,9 +65,9 @@ impl<'k> FileFacts<'k> {
         ]);
         if let Some(places) = setting.places() {
             let [_, coordinates] = places.counts;
-            let all = places.velocities.iter().chain(&places.positions);
+            let constants = places.velocities.iter().chain(&places.positions);
             let line = |name: &str, place: usize| format!("pub const {name}: usize = {place};");
-            items.extend(all.map(|(name, place)| line(name, *place)));
+            items.extend(constants.map(|(name, place)| line(name, *place)));
             items.extend([line("NV", coordinates), untabbed(&places.array())]);
             items.extend(places.limbs());
         }
@@ -78,10 +78,12 @@ impl<'k> FileFacts<'k> {
             ("Bodies", "", 10 * setting.bodies.len()),
             ("Load", "", load),
         ] {
-            for own in SCALARS {
+            for scalar in SCALARS {
                 items.extend(TYPES.map(|text| {
-                    let text = text.replace("NAME", name).replace("REAL", own);
-                    let text = text.replace("PUBLIC", public);
+                    let text = text
+                        .replace("NAME", name)
+                        .replace("REAL", scalar)
+                        .replace("PUBLIC", public);
                     text.replace("COUNT", &count.to_string())
                 }));
             }
@@ -123,9 +125,10 @@ impl<'k> FileFacts<'k> {
                 kind += &format!("\npub {name}: [[{scalar}; 2]; {count}],");
                 arguments.push(format!("{name}: &[{scalar}; {count}]"));
                 for joint in (0..count).filter(|joint| ends[*joint].is_some()) {
-                    let (own, ends) = (format!("{name}[{joint}]"), format!("BOX.{name}[{joint}]"));
+                    let (entry, ends) =
+                        (format!("{name}[{joint}]"), format!("BOX.{name}[{joint}]"));
                     asks += "\nlet inside = inside & ";
-                    asks += &format!("({ends}[0] <= {own}) & ({own} <= {ends}[1]);");
+                    asks += &format!("({ends}[0] <= {entry}) & ({entry} <= {ends}[1]);");
                 }
             }
             let arguments = arguments.join(", ");
@@ -148,7 +151,7 @@ impl<'k> FileFacts<'k> {
         let text = lines.join("\n");
         let is_known = self.items.contains(&text)
             || self.items.contains(&format!("mod {}\n{text}", item.module))
-            || values.any(|(name, own)| are(&lines, name, own));
+            || values.any(|(name, constants)| are(&lines, name, constants));
         let head = lines.first().unwrap_or(&"");
         let why = || format!("it does not follow from the functions and the robot: `{head}`");
         let fault = || Fault::Text(item.line, why());
@@ -164,10 +167,10 @@ impl<'k> FileFacts<'k> {
         let (mut ends, mut arguments) = (Ends::default(), Vec::new());
         for (place, (name, ends)) in STATE.iter().zip(&mut ends).enumerate() {
             let count = self.setting.entries(place);
-            let own = format!("const {float} {name}[{macros}_RESTRICT {count}]");
-            if head.contains(&own) {
+            let parameter = format!("const {float} {name}[{macros}_RESTRICT {count}]");
+            if head.contains(&parameter) {
                 *ends = Some(vec![None; count]);
-                arguments.push(own);
+                arguments.push(parameter);
             }
         }
         let (module, arguments) = (item.module, arguments.join(", "));
@@ -182,7 +185,7 @@ impl<'k> FileFacts<'k> {
                 let (entry, high) = rest.split_once(") && (")?;
                 let high = high.strip_prefix(entry)?.strip_prefix(" <= ")?;
                 let (name, joint) = entry.strip_suffix(']')?.split_once('[')?;
-                let place = STATE.iter().position(|own| *own == name)?;
+                let place = STATE.iter().position(|argument| *argument == name)?;
                 let end = |text: &str| number(text.strip_suffix(suffix)?, is_single);
                 let ends = ends[place].as_mut()?.get_mut(whole(joint)?)?;
                 *ends = Some([end(low)?, end(high)?]);
@@ -205,14 +208,14 @@ impl<'k> FileFacts<'k> {
             return false;
         };
         (0..3).all(|place| {
-            let given = ends[place].as_deref();
+            let joint_ends = ends[place].as_deref();
             let base = if place == 0 { 0 } else { self.setting.base() };
             let is_locked = |index: usize| {
                 let joint = index.checked_sub(base);
                 joint.is_some_and(|joint| self.setting.is_locked(joint))
             };
             let count = self.setting.entries(place);
-            let is_known = |joint: usize| match given.and_then(|own| own[joint]) {
+            let is_known = |joint: usize| match joint_ends.and_then(|pairs| pairs[joint]) {
                 None if is_locked(joint) => true,
                 None if place == 0 => {
                     let is_bounded = held.bounded[0] && self.setting.is_limited(joint);
@@ -234,23 +237,23 @@ impl<'k> FileFacts<'k> {
                     // Ends are floats inside the range.
                     let ulp = f64::from(f32::EPSILON);
                     let digits = if is_single { ulp } else { BOX_SLACK };
-                    let near = |own: f64, other: f64, size: f64| (own - other).abs() <= size;
+                    let near = |end: f64, other: f64, size: f64| (end - other).abs() <= size;
                     let slack = (digits + BOX_SLACK) * (own_low.abs() + own_high.abs());
                     low <= high && near(low, own_low, slack) && near(high, own_high, slack)
                 }
             };
-            given.is_none_or(|own| own.len() == count) && (0..count).all(is_known)
+            joint_ends.is_none_or(|pairs| pairs.len() == count) && (0..count).all(is_known)
         })
     }
 }
 
 pub(crate) fn is_body(item: &Item, setting: &Setting) -> bool {
-    let (own, macros) = (&item.symbols.prefix, &item.symbols.macros);
+    let (prefix, macros) = (&item.symbols.prefix, &item.symbols.macros);
     let is_single = item.text.contains("float ");
-    let text = |kind| payload::c(is_single, "static inline", [own, macros], kind);
+    let text = |kind| payload::c(is_single, "static inline", [prefix, macros], kind);
     let item = trimmed(item).join("\n");
     let bodies = (setting.bodies.len(), setting.zeros.as_slice());
-    let of_all = || payload::c_bodies(is_single, "static inline", [own, macros], bodies);
+    let of_all = || payload::c_bodies(is_single, "static inline", [prefix, macros], bodies);
     let mut kinds = ["payload", "body"].into_iter();
     kinds.any(|kind| text(kind) == item) || bodies.0 > 0 && of_all() == item
 }
@@ -268,12 +271,16 @@ fn ends(lines: &[&str], is_single: bool) -> Option<Ends> {
     let (mut ends, mut place) = (Ends::default(), None);
     for line in lines {
         if let Some(name) = line.strip_suffix(": [") {
-            place = STATE.iter().position(|own| *own == name);
+            place = STATE.iter().position(|argument| *argument == name);
             ends[place?] = Some(Vec::new());
         } else if let Some(pair) = between(line, "[", "],") {
             let (low, high) = pair.split_once(", ")?;
-            let is_open = SCALARS.iter().any(|own| {
-                [low, high] == [format!("{own}::NEG_INFINITY"), format!("{own}::INFINITY")]
+            let is_open = SCALARS.iter().any(|scalar| {
+                [low, high]
+                    == [
+                        format!("{scalar}::NEG_INFINITY"),
+                        format!("{scalar}::INFINITY"),
+                    ]
             });
             let range = match is_open {
                 true => None,
@@ -294,11 +301,11 @@ fn are(lines: &[&str], name: &str, values: &[Exact]) -> bool {
     let is_single = head.contains(": [f32; ");
     let scalar = if is_single { "f32" } else { "f64" };
     let expected = format!("pub const {name}: [{scalar}; {}] = [", values.len());
-    let mut all = lines.iter().zip(values);
+    let mut pairs = lines.iter().zip(values);
     *head == expected
         && lines.len() == values.len()
-        && all.all(|(line, value)| {
+        && pairs.all(|(line, value)| {
             let literal = line.strip_suffix(',');
-            literal.is_some_and(|own| is_literal(own, value, is_single))
+            literal.is_some_and(|word| is_literal(word, value, is_single))
         })
 }

@@ -94,9 +94,9 @@ pub(crate) fn functions<'t>(
     source: &'t str,
     places: Option<&Places>,
 ) -> Result<Vec<Item<'t>>, Fault> {
-    let lines = read::lines(source, true).map_err(|own| Fault::Text(own.line, own.reason))?;
-    let mut lines = lines.as_slice();
-    let guard = lines.first().map_or("", |own| own.1);
+    let text = read::lines(source, true).map_err(|error| Fault::Text(error.line, error.reason))?;
+    let mut lines = text.as_slice();
+    let guard = lines.first().map_or("", |line| line.1);
     let why = "CUDA is not checked: `--language c` prints the same functions";
     let is_c = (!guard.ends_with("_CUH")).then_some(());
     is_c.ok_or_else(|| Fault::Text(1, why.into()))?;
@@ -119,20 +119,24 @@ pub(crate) fn functions<'t>(
         text.replace("ARM", name)
     };
     take(&mut lines, &known(&format!("{BEFORE}{loops}")))?;
-    let macros = ["FORGET(", "FOUR("].map(|own| format!("{name}_{own}"));
-    let has_macro = |line: &str| macros.iter().any(|own| line.contains(own.as_str()));
-    if lines.iter().any(|own| has_macro(own.1)) {
+    let macros = ["FORGET(", "FOUR("].map(|suffix| format!("{name}_{suffix}"));
+    let has_macro = |line: &str| {
+        macros
+            .iter()
+            .any(|macro_name| line.contains(macro_name.as_str()))
+    };
+    if lines.iter().any(|line| has_macro(line.1)) {
         take(&mut lines, &known(LANES))?;
     }
-    if let Some(places) = places.filter(|_| lines.first().is_some_and(|own| own.1 == "enum {")) {
+    if let Some(places) = places.filter(|_| lines.first().is_some_and(|line| line.1 == "enum {")) {
         take(&mut lines, &untabbed(&places.header(name)))?;
     }
     let behind = known(BEHIND);
-    let mut all: Vec<Item> = Vec::new();
+    let mut items: Vec<Item> = Vec::new();
     while let Some(&first) = lines.first() {
         if behind.starts_with(first.1) {
             take(&mut lines, &behind)?;
-            return lines.first().map_or(Ok(all), |line| Err(fault(*line)));
+            return lines.first().map_or(Ok(items), |line| Err(fault(*line)));
         }
         let fourth = lines.get(3).map_or("", |(_, line)| line);
         if let Some(sines) = together::lines(name, fourth).filter(|_| has_math) {
@@ -140,7 +144,7 @@ pub(crate) fn functions<'t>(
             continue;
         }
         let mut heads = Vec::new();
-        let found = item(&mut lines, |head| {
+        let candidate = item(&mut lines, |head| {
             if head == "typedef struct {" {
                 return false;
             }
@@ -154,85 +158,92 @@ pub(crate) fn functions<'t>(
             ];
             !has_loops || ends.iter().any(|end| head.contains(end))
         });
-        let is_plain = |found: &Item| {
-            found.text.ends_with("\n}\n") && !found.text.replacen(LOOP, "", 1).contains('#')
+        let is_plain = |item: &Item| {
+            item.text.ends_with("\n}\n") && !item.text.replacen(LOOP, "", 1).contains('#')
         };
-        let mut found = found.filter(is_plain).ok_or_else(|| fault(first))?;
+        let mut item = candidate.filter(is_plain).ok_or_else(|| fault(first))?;
         // What functions call by these names is what `together` knows.
         let mut names = heads.iter().copied().filter_map(symbol);
-        if names.any(|(own, _)| own.ends_with("_sincos") || own.contains("_sines_")) {
+        if names.any(|(symbol_name, _)| {
+            symbol_name.ends_with("_sincos") || symbol_name.contains("_sines_")
+        }) {
             return Err(fault(first));
         }
         // Behind the one that is told whether angles are far, and before that of many states.
         for (full, end) in heads.into_iter().filter_map(symbol) {
             match end {
-                "_any" => found.symbols.any = full.to_owned(),
-                "_batch" => found.symbols.batch = full.to_owned(),
-                _ => found.name = full,
+                "_any" => item.symbols.any = full.to_owned(),
+                "_batch" => item.symbols.batch = full.to_owned(),
+                _ => item.name = full,
             }
         }
-        (found.module, _) = word(name, found.name, "").ok_or_else(|| fault(first))?;
+        (item.module, _) = word(name, item.name, "").ok_or_else(|| fault(first))?;
         // Two ways to write the header's name would be two modules, each with boxes of its own.
-        let base = found.name.split_at(name.len()).0;
-        if all.first().is_some_and(|own| !own.name.starts_with(base)) {
+        let base = item.name.split_at(name.len()).0;
+        if items
+            .first()
+            .is_some_and(|first_item| !first_item.name.starts_with(base))
+        {
             return Err(fault(first));
         }
         let calls = |name: &&str| {
             let mut ends = ["(", "f("].iter();
-            ends.any(|end| found.text.contains(&format!("{name}{end}")))
+            ends.any(|end| item.text.contains(&format!("{name}{end}")))
         };
         if !has_math && LIBRARY.iter().any(calls) {
             return Err(Fault::Text(first.0, "math.h is not included".into()));
         }
-        let own = &mut found.symbols;
-        own.single = found.name.to_owned();
-        own.prefix = found.name[..name.len()].to_owned();
-        if found.text.contains("float ") {
-            own.prefix += "_f32";
+        let symbols = &mut item.symbols;
+        symbols.single = item.name.to_owned();
+        symbols.prefix = item.name[..name.len()].to_owned();
+        if item.text.contains("float ") {
+            symbols.prefix += "_f32";
         }
-        own.macros = name.to_owned();
-        let structure = found.text.strip_prefix("typedef struct {");
-        let structure = structure.and_then(|rest| rest.split_once("\n} ")?.1.split_once(';'));
-        own.structure = structure.map(|(name, _)| name.to_owned());
-        if !own.structure.iter().all(|name| has_only(name, "")) {
+        symbols.macros = name.to_owned();
+        let structure = item
+            .text
+            .strip_prefix("typedef struct {")
+            .and_then(|rest| rest.split_once("\n} ")?.1.split_once(';'));
+        symbols.structure = structure.map(|(name, _)| name.to_owned());
+        if !symbols.structure.iter().all(|name| has_only(name, "")) {
             return Err(fault(first));
         }
-        all.push(found);
+        items.push(item);
     }
     let end = source.lines().count();
     Err(Fault::Text(end, "the header does not end".into()))
 }
 
 /// A name may be shortened, but never to the name of another function of the table or of the claim.
-pub(crate) fn are_of(found: &Item, function: &str, claimed: &[FunctionClaim]) -> bool {
+pub(crate) fn are_of(item: &Item, function: &str, claimed: &[FunctionClaim]) -> bool {
     let is_own = |(module, word): (&str, &str)| {
-        let mut all = table::functions().iter().map(|own| &own.name);
-        let is_other = all.any(|own| own == word) || claimed.iter().any(|own| own.function == word);
+        let mut table_names = table::functions().iter().map(|entry| &entry.name);
+        let is_other = table_names.any(|name| name == word)
+            || claimed.iter().any(|claim| claim.function == word);
         let is_other = is_other && word != function;
-        module == found.module && !is_other && is_short(word, function)
+        module == item.module && !is_other && is_short(word, function)
     };
-    let mut names = found.text.lines().filter_map(symbol);
-    names.all(|(name, end)| word(&found.symbols.macros, name, end).is_some_and(is_own))
+    let mut names = item.text.lines().filter_map(symbol);
+    names.all(|(name, end)| word(&item.symbols.macros, name, end).is_some_and(is_own))
 }
 
-pub(crate) fn are_values(found: &Item, name: &str, values: &[Exact]) -> bool {
-    let is_single = found.module.ends_with("_f32") && found.text.contains("(float pi[");
+pub(crate) fn are_values(item: &Item, name: &str, values: &[Exact]) -> bool {
+    let is_single = item.module.ends_with("_f32") && item.text.contains("(float pi[");
     let kind = if is_single { "float" } else { "double" };
     let end = if is_single { "F;" } else { ";" };
-    let (header, own, count) = (&found.symbols.macros, found.name, values.len());
-    let expected = format!("static inline void {own}({kind} pi[{header}_RESTRICT {count}])");
-    let lines = found.text.lines().filter(|line| !line.is_empty());
-    let lines: Vec<&str> = lines.collect();
+    let (header, symbol, count) = (&item.symbols.macros, item.name, values.len());
+    let expected = format!("static inline void {symbol}({kind} pi[{header}_RESTRICT {count}])");
+    let lines: Vec<&str> = item.text.lines().filter(|line| !line.is_empty()).collect();
     let [head, "{", lines @ .., "}"] = lines.as_slice() else {
         return false;
     };
-    let mut all = lines.iter().zip(values).enumerate();
+    let mut pairs = lines.iter().zip(values).enumerate();
     *head == expected
         && lines.len() == count
-        && are_of(found, name, &[])
-        && all.all(|(index, (line, value))| {
+        && are_of(item, name, &[])
+        && pairs.all(|(index, (line, value))| {
             let literal = between(line, &format!("pi[{index}] = "), end);
-            literal.is_some_and(|own| is_literal(own, value, is_single))
+            literal.is_some_and(|word| is_literal(word, value, is_single))
         })
 }
 
@@ -255,8 +266,9 @@ fn word<'t>(header: &str, symbol: &'t str, end: &str) -> Option<(&'t str, &'t st
 fn is_short(word: &str, long: &str) -> bool {
     let long = long.replace("second_derivatives", "derivatives2");
     let mut letters = long.chars();
-    let own = word.replace("sec_deriv", "deriv2");
-    let own = own.replace("second_derivatives", "derivatives2");
-    let has_all = own.chars().all(|own| letters.any(|c| c == own));
-    has_all && own.len() > 1 && long.starts_with(&own[..1])
+    let short = word
+        .replace("sec_deriv", "deriv2")
+        .replace("second_derivatives", "derivatives2");
+    let has_all = short.chars().all(|letter| letters.any(|c| c == letter));
+    has_all && short.len() > 1 && long.starts_with(&short[..1])
 }

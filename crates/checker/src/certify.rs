@@ -64,8 +64,8 @@ impl Report {
     /// Returns true if every function is shown; if the user is not strict, or measured.
     pub fn passes(&self, is_strict: bool) -> bool {
         let passes = |line: &Line| {
-            let found = line.result.as_ref();
-            found.is_ok_and(|own| own.is_bounded() || !is_strict)
+            let result = line.result.as_ref();
+            result.is_ok_and(|findings| findings.is_bounded() || !is_strict)
         };
         !self.lines.is_empty() && self.lines.iter().all(passes)
     }
@@ -91,20 +91,26 @@ pub struct Demand<'d> {
 pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Result<Report, Fault> {
     let (scene, tolerance) = (demand.scene, demand.tolerance);
     let mut document = Claim::read(claim)?;
-    if document.functions.iter().any(|own| own.planned.is_some()) {
+    if document
+        .functions
+        .iter()
+        .any(|function| function.planned.is_some())
+    {
         let why = "a plan for searches, and not what is claimed of a file";
         return Err(Fault::Claim(why.into()));
     }
     let of_robot = |why: String| Fault::Robot("file".into(), why);
     let mut file = robot::read(robot).map_err(of_robot)?;
-    let in_scene = |own: &FunctionClaim| own.scene.as_deref() == scene;
+    let in_scene = |function: &FunctionClaim| function.scene.as_deref() == scene;
     document.functions.retain(in_scene);
-    let load = document.functions.iter().find(|own| own.function == LOAD);
-    let links = load.map_or(&[][..], |own| &own.bodies);
+    let load = document
+        .functions
+        .iter()
+        .find(|function| function.function == LOAD);
+    let links = load.map_or(&[][..], |load_claim| &load_claim.bodies);
     let defaults = DEFAULTS
         .iter()
-        .map(|name| Ok((*name, file.defaults(name, links)?)));
-    let defaults = defaults
+        .map(|name| Ok((*name, file.defaults(name, links)?)))
         .collect::<Result<Vec<_>, String>>()
         .map_err(of_robot)?;
     if let Some(rows) = document.aligned.as_ref().filter(|_| file.is_placed()) {
@@ -114,9 +120,14 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
         file = rows.in_scenes_of(file, scene);
     }
     let mut setting = file.setting(scene).map_err(of_robot)?;
-    if let Some(own) = load {
+    if let Some(load_claim) = load {
         let numbers = &defaults[0].1;
-        let taken = setting.take(&own.arguments, links, numbers, own.keeps_zeros);
+        let taken = setting.take(
+            &load_claim.arguments,
+            links,
+            numbers,
+            load_claim.keeps_zeros,
+        );
         taken.map_err(Fault::Claim)?;
     }
     let is_c = source.starts_with(c99::HEAD);
@@ -129,15 +140,22 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     }
     let work = Work::default();
     let constants = document.constants(&work)?;
-    let load = document.functions.iter().find(|own| own.function == LOAD);
+    let load = document
+        .functions
+        .iter()
+        .find(|function| function.function == LOAD);
     let real = if is_c { "float " } else { "[f32; " };
     let singles = items.iter().filter(|item| item.text.contains(real));
-    let given = setting.body().map_err(of_robot)?;
+    let payload = setting.body().map_err(of_robot)?;
     let bodies = setting.bodies_given().map_err(of_robot)?;
-    let takes_payload = bodies.iter().any(|own| argument("payload") == Some(own.0));
+    let takes_payload = bodies
+        .iter()
+        .any(|entry| argument("payload") == Some(entry.0));
     let whole = Whole {
         seed: Draws::new(&[robot, claim, source]).text(),
-        load: load.map(|own| own.program(&constants)).transpose(),
+        load: load
+            .map(|function| function.program(&constants))
+            .transpose(),
         constants,
         claim: &document,
         ranges: ranges(&setting, &bodies).map_err(of_robot)?,
@@ -148,22 +166,26 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
         literals: Literals::default(),
         setting: &setting,
         tolerance: match tolerance {
-            Some(own) => Some((vec![own; setting.sizes().coordinates], None)),
-            None => (setting.tolerance().map_err(of_robot)?).map(|(own, to)| (own, Some(to))),
+            Some(bound) => Some((vec![bound; setting.sizes().coordinates], None)),
+            None => (setting.tolerance().map_err(of_robot)?)
+                .map(|(tolerances, to)| (tolerances, Some(to))),
         },
         scene,
         is_c,
         singles: singles.map(|item| item.module).collect(),
     };
-    let line = |found: &Item, name: String, result| Line {
-        module: found.module.to_owned(),
+    let line = |item: &Item, name: String, result| Line {
+        module: item.module.to_owned(),
         name,
-        line: found.line,
+        line: item.line,
         result,
     };
-    let load = whole.load().ok().flatten();
-    let load = load.map_or(0, |own| own.outputs.len());
-    let mut seen = ReportState {
+    let load = whole
+        .load()
+        .ok()
+        .flatten()
+        .map_or(0, |program| program.outputs.len());
+    let mut state = ReportState {
         identities: HashMap::new(),
         points: Points::new(&setting, &[&whole.seed]),
         known: FileFacts::new(&setting, &whole.ranges, load),
@@ -171,8 +193,9 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     let mut heads = HashSet::new();
     let mut is_twice = |item: &Item| -> Result<(), Fault> {
         let head = item.text.lines().next().unwrap_or("");
-        let name = Some(item.name).filter(|name| !name.is_empty());
-        let name = name.unwrap_or(head);
+        let name = Some(item.name)
+            .filter(|name| !name.is_empty())
+            .unwrap_or(head);
         let twice = || Fault::Text(item.line, format!("`{name}` is defined twice"));
         let is_first = heads.insert((item.module.to_owned(), name.to_owned()));
         is_first.then_some(()).ok_or_else(twice)
@@ -180,50 +203,51 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     let mut lines = Vec::new();
     let modules = |is_such: fn(&FunctionClaim) -> bool| -> HashSet<&str> {
         let is_own = |item: &&Item| whole.claimed(item).is_some_and(is_such);
-        let own = items.iter().filter(is_own);
-        own.map(|item| item.module).collect()
+        let functions = items.iter().filter(is_own);
+        functions.map(|item| item.module).collect()
     };
-    let takers = modules(|own| own.arguments.iter().any(|name| name == LOAD));
-    let loads = modules(|own| own.function == LOAD);
-    let has_load = |found: &Item| {
+    let takers = modules(|function| function.arguments.iter().any(|name| name == LOAD));
+    let loads = modules(|function| function.function == LOAD);
+    let has_load = |item: &Item| {
         let why = "a load without functions that take it, or without the function `load`";
-        let has_both = takers.contains(found.module) == loads.contains(found.module);
+        let has_both = takers.contains(item.module) == loads.contains(item.module);
         has_both.then_some(()).ok_or(Fault::Claim(why.into()))
     };
-    for found in items.iter().filter(|item| !is_beside(item)) {
-        seen.known.held.entry(found.module).or_default();
-        let result = is_twice(found).and_then(|()| has_load(found));
-        let result = result.and_then(|()| whole.shown(found, &mut seen));
-        lines.push(line(found, whole.name(found), result));
+    for item in items.iter().filter(|item| !is_beside(item)) {
+        state.known.held.entry(item.module).or_default();
+        let result = is_twice(item)
+            .and_then(|()| has_load(item))
+            .and_then(|()| whole.shown(item, &mut state));
+        lines.push(line(item, whole.name(item), result));
     }
     for item in &items {
-        seen.known.add_box(item, whole.is_single(item));
+        state.known.add_box(item, whole.is_single(item));
     }
     for item in items.iter().filter(|item| is_beside(item)) {
-        let follows = is_twice(item).and_then(|()| whole.follows(item, &seen.known));
+        let follows = is_twice(item).and_then(|()| whole.follows(item, &state.known));
         if let Err(why) = follows {
             let head = item.text.lines().next().unwrap_or("");
             let name = head.split([':', '{', '(']).next().unwrap_or("").trim();
             lines.push(line(item, name.to_owned(), Err(why)));
         }
     }
-    let are_of_links = |own: &&(usize, Vec<Body>)| argument("bodies") == Some(own.0);
+    let are_of_links = |entry: &&(usize, Vec<Body>)| argument("bodies") == Some(entry.0);
     let of_links = whole.bodies.iter().filter(are_of_links);
-    let ranges = of_links.flat_map(|own| own.1.iter().copied());
+    let ranges = of_links.flat_map(|entry| entry.1.iter().copied());
     Ok(Report {
         lines,
         is_unlimited: setting.is_unlimited(),
         bodies: setting.bodies.iter().copied().zip(ranges).collect(),
-        payloads: takes_payload.then(|| (given.unwrap_or_default(), given.is_none())),
+        payloads: takes_payload.then(|| (payload.unwrap_or_default(), payload.is_none())),
     })
 }
 
 /// Constants, payloads and boxes compute no dynamics.
-fn is_beside(found: &Item) -> bool {
-    let name = found.name.strip_prefix(found.module);
-    let is_box = found.name == "in_box" || name == Some("_in_box");
+fn is_beside(item: &Item) -> bool {
+    let name = item.name.strip_prefix(item.module);
+    let is_box = item.name == "in_box" || name == Some("_in_box");
     let mut written = [" pi[", " numbers[", " into["].iter();
-    is_box || found.name.is_empty() || written.any(|own| found.text.contains(own))
+    is_box || item.name.is_empty() || written.any(|mark| item.text.contains(mark))
 }
 
 /// The finding that a program is the robot's, once it is asked for; how often its function came.
@@ -258,50 +282,50 @@ struct Whole<'w> {
 }
 
 impl<'w> Whole<'w> {
-    fn is_single(&self, found: &Item) -> bool {
+    fn is_single(&self, item: &Item) -> bool {
         match self.is_c {
-            true => found.text.contains("float "),
-            false => self.singles.contains(found.module),
+            true => item.text.contains("float "),
+            false => self.singles.contains(item.module),
         }
     }
 
-    fn claimed(&self, found: &Item) -> Option<&'w FunctionClaim> {
-        let is_own = |own: &&FunctionClaim| match self.is_c {
+    fn claimed(&self, item: &Item) -> Option<&'w FunctionClaim> {
+        let is_own = |claim: &&FunctionClaim| match self.is_c {
             true => {
-                let symbol = own.symbols.get(usize::from(self.is_single(found)));
-                symbol.is_some_and(|own| own == found.name)
-                    && c99::are_of(found, &own.function, &self.claim.functions)
+                let symbol = claim.symbols.get(usize::from(self.is_single(item)));
+                symbol.is_some_and(|name| name == item.name)
+                    && c99::are_of(item, &claim.function, &self.claim.functions)
             }
-            false => own.function == found.name,
+            false => claim.function == item.name,
         };
         self.claim.functions.iter().find(is_own)
     }
 
-    fn name(&self, found: &Item) -> String {
-        let mut name = found.name.to_owned();
-        let Some(own) = self.claimed(found) else {
+    fn name(&self, item: &Item) -> String {
+        let mut name = item.name.to_owned();
+        let Some(claim) = self.claimed(item) else {
             return name;
         };
-        if !found.name.ends_with(&own.function) {
-            name += &format!(" = {}", own.function);
+        if !item.name.ends_with(&claim.function) {
+            name += &format!(" = {}", claim.function);
         }
-        let is_known = functions().iter().any(|known| known.name == own.function);
-        if !is_known && own.function != LOAD {
-            name += &format!(" = {}", own.results.join(" + "));
+        let is_known = functions().iter().any(|known| known.name == claim.function);
+        if !is_known && claim.function != LOAD {
+            name += &format!(" = {}", claim.results.join(" + "));
         }
         name
     }
 
-    fn shown(&self, found: &'w Item, seen: &mut ReportState<'w>) -> Result<Findings, Fault> {
-        let Some(claimed) = self.claimed(found) else {
+    fn shown(&self, item: &'w Item, state: &mut ReportState<'w>) -> Result<Findings, Fault> {
+        let Some(claimed) = self.claimed(item) else {
             let scene = self.scene.map(|scene| format!(" in scene `{scene}`"));
-            let (name, scene) = (found.name, scene.unwrap_or_default());
+            let (name, scene) = (item.name, scene.unwrap_or_default());
             let why = format!("nothing is claimed of `{name}`{scene}");
             return Err(Fault::Claim(why));
         };
         let refused = |why: String| Fault::Claim(format!("`{}`: {why}", claimed.function));
         // A file may not ask for the same work again and again.
-        let entry = seen.identities.entry(&claimed.function).or_default();
+        let entry = state.identities.entry(&claimed.function).or_default();
         entry.1 += 1;
         if entry.1 > MOST_TIMES {
             return Err(Fault::Work);
@@ -314,12 +338,12 @@ impl<'w> Whole<'w> {
             return Err(refused("two programs of other results".into()));
         }
         let mut programs = [&emitted, exact].into_iter();
-        let is_fixed = |own: &Operand<Exact>| self.setting.is_fixed(own);
-        if programs.any(|own| own.reads(is_fixed)) {
+        let is_fixed = |operand: &Operand<Exact>| self.setting.is_fixed(operand);
+        if programs.any(|program| program.reads(is_fixed)) {
             let why = "it reads a joint that is locked, or a rate that stands still";
             return Err(refused(why.into()));
         }
-        let divides = |own: &Program<Exact>| own.steps.iter().any(|step| step.0 == '/');
+        let divides = |program: &Program<Exact>| program.steps.iter().any(|step| step.0 == '/');
         let may_divide = function.fields.iter().any(Field::divides);
         if !may_divide && [&emitted, exact].into_iter().any(divides) {
             let why = "it divides, and no result of it asks for that";
@@ -330,15 +354,15 @@ impl<'w> Whole<'w> {
             self.setting.links(),
             self.setting.base() > 0,
         )?;
-        let head = self.head(claimed, &function, &base, self.is_single(found))?;
-        let read = self.read(&head, found)?;
-        seen.known.items.extend(structure(&head));
-        let why = |why: String| Fault::Text(found.line, why);
+        let head = self.head(claimed, &function, &base, self.is_single(item))?;
+        let read = self.read(&head, item)?;
+        state.known.items.extend(structure(&head));
+        let why = |why: String| Fault::Text(item.line, why);
         let literals = (&self.literals, &self.work);
         compare(&read.program, &emitted, head.is_single, literals).map_err(why)?;
         self.sines(&read, head.is_single).map_err(why)?;
-        for own in &read.sines {
-            if let Source::Polynomial(program) = &own.source {
+        for sine in &read.sines {
+            if let Source::Polynomial(program) = &sine.source {
                 // Twice each, where a tolerance asks for it as well.
                 self.work.spend(4, sines::work(program))?;
             }
@@ -358,13 +382,13 @@ impl<'w> Whole<'w> {
             let degrees = exact.steps.len() * quotients / 50;
             let operations = exact.steps.len() + degrees + 500 * exact.outputs.len();
             self.work.spend(operations, IDENTITY)?;
-            check(statement, &mut seen.points).map_err(refused)
+            check(statement, &mut state.points).map_err(refused)
         };
         entry.0.get_or_insert_with(identity).clone()?;
-        let has_load = head.arguments.iter().any(|own| own.name == LOAD);
+        let has_load = head.arguments.iter().any(|argument| argument.name == LOAD);
         let results = match self.tolerated(claimed).map_err(refused)? {
             None => Vec::new(),
-            Some((own, tolerance)) => {
+            Some((claim, tolerance)) => {
                 let subject = tolerance::Subject {
                     setting: self.setting,
                     function: &function,
@@ -373,18 +397,19 @@ impl<'w> Whole<'w> {
                     read: &read,
                     load: self.load()?.filter(|_| has_load),
                     is_single: head.is_single,
-                    own,
+                    claim,
                     tolerance,
                     work: &self.work,
                 };
                 subject.bounded()?
             }
         };
-        let mut all = results.iter().zip(1..);
-        if let Some((own, place)) = all.find(|(own, _)| !own.is_shown()) {
-            let (own, most) = (own.relative(), own.tolerated / own.unit());
-            let of = ["rounding", "approximation"][usize::from(own.real > own.rounding)];
-            let bound = own.total();
+        let mut pairs = results.iter().zip(1..);
+        if let Some((result, place)) = pairs.find(|(result, _)| !result.is_shown()) {
+            let (relative_bound, most) = (result.relative(), result.tolerated / result.unit());
+            let of = ["rounding", "approximation"]
+                [usize::from(relative_bound.real > relative_bound.rounding)];
+            let bound = relative_bound.total();
             let why = format!("result {place} has a bound of {bound:.1e} T, over {most:.1e}: {of}");
             return Err(refused(why));
         }
@@ -403,20 +428,20 @@ impl<'w> Whole<'w> {
         };
         // Under a tolerance, rounding is bounded together with the rest.
         let costs = match results.is_empty() {
-            true => subject.costs(&mut seen.points)?,
+            true => subject.costs(&mut state.points)?,
             false => Vec::new(),
         };
-        let held = seen.known.held.entry(found.module).or_default();
+        let held = state.known.held.entry(item.module).or_default();
         held.polynomials.extend(cost::polynomials(&read));
         if !results.is_empty() {
             (0..3).for_each(|place| held.bounded[place] |= function.arguments.contains(&place));
         }
         if let Some(name) = function.parameters().filter(|_| !base.values.is_empty()) {
-            let mut others = seen.known.values.iter();
-            if others.any(|(own, values)| *own == name && *values != base.values) {
+            let mut others = state.known.values.iter();
+            if others.any(|(constant, values)| *constant == name && *values != base.values) {
                 return Err(refused(format!("its {name} are not another function's")));
             }
-            seen.known.values.push((name, base.values));
+            state.known.values.push((name, base.values));
         }
         Ok(Findings {
             costs,
@@ -427,20 +452,22 @@ impl<'w> Whole<'w> {
 
     fn tolerated(
         &self,
-        own: &'w FunctionClaim,
+        function: &'w FunctionClaim,
     ) -> Result<Option<(&'w ToleranceClaim, &[f64])>, String> {
-        let why = match (&self.tolerance, &own.tolerated) {
+        let why = match (&self.tolerance, &function.tolerated) {
             (None, None) => return Ok(None),
-            (Some(_), None) if own.function == LOAD => return Ok(None),
+            (Some(_), None) if function.function == LOAD => return Ok(None),
             (Some(_), None) => "its claim has no exact program, and a tolerance is asked for",
             (None, Some(_)) => {
                 "it was generated under a tolerance, and none is asked for: name its scene, or \
                  give one"
             }
-            (Some((_, Some(to))), Some(own)) if *to != own.relative_to => {
+            (Some((_, Some(to))), Some(claim)) if *to != claim.relative_to => {
                 "its T is not the one that the scene's errors are relative to"
             }
-            (Some((each, _)), Some(own)) => return Ok(Some((own, each.as_slice()))),
+            (Some((tolerances, _)), Some(claim)) => {
+                return Ok(Some((claim, tolerances.as_slice())));
+            }
         };
         Err(why.into())
     }
@@ -453,7 +480,7 @@ impl<'w> Whole<'w> {
         is_single: bool,
     ) -> Result<Head<'h>, Fault> {
         let sizes = self.setting.sizes();
-        let load = self.load()?.map_or(0, |own| own.outputs.len());
+        let load = self.load()?.map_or(0, |program| program.outputs.len());
         let arguments = function.arguments.iter().map(|&place| {
             let (name, axis) = ARGUMENTS[place];
             Argument {
@@ -466,7 +493,7 @@ impl<'w> Whole<'w> {
             }
         });
         let columns = base.combinations.len();
-        let shape = |own: &'h Field| (own.name.as_str(), own.lengths(self.setting, columns));
+        let shape = |field: &'h Field| (field.name.as_str(), field.lengths(self.setting, columns));
         let mut fields: Vec<_> = function.fields.iter().map(shape).collect();
         if fields.is_empty() {
             fields.push((LOAD, vec![load]));
@@ -480,11 +507,11 @@ impl<'w> Whole<'w> {
         })
     }
 
-    fn read(&self, head: &Head, found: &Item) -> Result<read::Function, Fault> {
-        let text = &found.text;
+    fn read(&self, head: &Head, item: &Item) -> Result<read::Function, Fault> {
+        let text = &item.text;
         let read = match self.is_c {
             true => Text::c(text).and_then(|words| {
-                let symbols = &found.symbols;
+                let symbols = &item.symbols;
                 words.function(head, Some(symbols), !symbols.batch.is_empty())
             }),
             false => Text::rust(text).and_then(|words| words.function(head, None, false)),
@@ -494,18 +521,18 @@ impl<'w> Whole<'w> {
             Ok(_) => (1, "text after the end of the function".into()),
             Err(TextError { line, reason }) => (line, format!("not of the grammar: {reason}")),
         };
-        Err(Fault::Text(found.line + line - 1, why))
+        Err(Fault::Text(item.line + line - 1, why))
     }
 
     /// Checks that sines are of joints that turn, and roots of the widths of friction.
     fn sines(&self, read: &read::Function, is_single: bool) -> Result<(), String> {
-        let mut joints = read.sines.iter().map(|own| own.joint);
+        let mut joints = read.sines.iter().map(|sine| sine.joint);
         if let Some(joint) = joints.find(|joint| !self.setting.turns_by(*joint)) {
             return Err(format!("the sine of joint {}, which slides", joint + 1));
         }
         for &(coordinate, literal) in &read.speeds {
             let square = self.setting.square_of_width(coordinate);
-            if !square.is_some_and(|own| own.is_nearest(literal, is_single)) {
+            if !square.is_some_and(|exact| exact.is_nearest(literal, is_single)) {
                 let joint = (coordinate + 1).saturating_sub(self.setting.base());
                 return Err(format!("another width of friction of joint {joint}"));
             }
@@ -526,7 +553,8 @@ impl<'w> Whole<'w> {
             return known.follows(item);
         }
         let mut values = known.values.iter();
-        let are = values.any(|(name, own)| c99::are_values(item, &name.to_ascii_lowercase(), own));
+        let are = values
+            .any(|(name, constants)| c99::are_values(item, &name.to_ascii_lowercase(), constants));
         let why = match item.text.contains(" pi[") {
             true => "its numbers are not the base parameters that are claimed",
             false if item.text.contains(" numbers[") => "it does not make a body",
@@ -558,8 +586,10 @@ fn function(claimed: &FunctionClaim) -> Result<Function, String> {
 
 fn structure(head: &Head) -> Option<String> {
     let name = head.structure()?;
-    let fields = head.fields.iter();
-    let fields = fields.map(|(name, shape)| format!("pub {name}: {},\n", head.kind(shape)));
-    let fields: String = fields.collect();
+    let fields: String = head
+        .fields
+        .iter()
+        .map(|(name, shape)| format!("pub {name}: {},\n", head.kind(shape)))
+        .collect();
     Some(format!("pub struct {name} {{\n{fields}}}"))
 }

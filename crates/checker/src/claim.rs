@@ -171,9 +171,9 @@ impl Claim {
         let claim: Result<Claim, _> = serde_json::from_str(source);
         let claim = claim.or_else(|error| refuse(error.to_string()))?;
         if claim.claim != VERSION {
-            let own = claim.claim;
+            let version = claim.claim;
             return refuse(format!(
-                "version {own} is not known, {VERSION} is: generate the file and its claim anew"
+                "version {version} is not known, {VERSION} is: generate the file and its claim anew"
             ));
         }
         if claim.constants.len() > MOST {
@@ -183,19 +183,20 @@ impl Claim {
             return refuse(format!("more than {MOST_FUNCTIONS} functions"));
         }
         let (mut keys, mut symbols) = (HashSet::new(), HashSet::new());
-        for own in &claim.functions {
-            if !keys.insert((&own.function, &own.scene, &own.planned)) {
-                return refuse(format!("`{}` is defined twice", own.function));
+        for function in &claim.functions {
+            if !keys.insert((&function.function, &function.scene, &function.planned)) {
+                return refuse(format!("`{}` is defined twice", function.function));
             }
-            let mut own_symbols = own.symbols.iter();
-            if let Some(twice) = own_symbols.find(|name| !symbols.insert((*name, &own.scene))) {
+            let mut own_symbols = function.symbols.iter();
+            if let Some(twice) = own_symbols.find(|name| !symbols.insert((*name, &function.scene)))
+            {
                 return refuse(format!("`{twice:.40}` is defined twice"));
             }
             // It is printed where nothing else may stand.
-            if own.planned.is_none() && !is_name(&own.function) {
+            if function.planned.is_none() && !is_name(&function.function) {
                 return refuse(format!(
                     "`{:.40}` is not the name of a function",
-                    own.function
+                    function.function
                 ));
             }
         }
@@ -234,19 +235,19 @@ impl Claim {
             let why = || format!("`{text:.40}` is not a constant of at most 4000 digits");
             Exact::read(text).ok_or_else(|| Fault::Claim(why()))
         });
-        let all = read.collect::<Result<Vec<Exact>, Fault>>()?;
+        let constants = read.collect::<Result<Vec<Exact>, Fault>>()?;
         let mut sines = Sines::new();
-        for own in &all {
+        for constant in &constants {
             let before = sines.len();
-            own.settle(&mut sines);
-            work.spend(own.factors(), FACTOR)?;
+            constant.settle(&mut sines);
+            work.spend(constant.factors(), FACTOR)?;
             work.spend(sines.len() - before, ANGLE)?;
             if sines.len() > MOST_ANGLES {
                 let why = format!("sines of more than {MOST_ANGLES} angles");
                 return Err(Fault::Claim(why));
             }
         }
-        Ok(all)
+        Ok(constants)
     }
 }
 
@@ -279,10 +280,10 @@ impl FunctionClaim {
     /// # Errors
     /// The first word that is not of one.
     pub fn exact<C: Clone>(&self, constants: &[C]) -> Result<Option<Program<C>>, Fault> {
-        let own = self.tolerated.as_ref();
-        let own = own.filter(|own| !own.returns.is_empty());
-        let read = |own: &ToleranceClaim| self.read([&own.steps, &own.returns], constants);
-        own.map(read).transpose()
+        let tolerance = self.tolerated.as_ref();
+        let exact_claim = tolerance.filter(|claim| !claim.returns.is_empty());
+        let read = |claim: &ToleranceClaim| self.read([&claim.steps, &claim.returns], constants);
+        exact_claim.map(read).transpose()
     }
 
     fn read<C: Clone>(&self, code: [&str; 2], constants: &[C]) -> Result<Program<C>, Fault> {
@@ -302,13 +303,15 @@ impl FunctionClaim {
             }
         }
         let quotients = steps.iter().filter(|step| step.0 == '/').count();
-        let outputs = returns.map(|word| {
-            let bare = word.strip_prefix('-').unwrap_or(word);
-            let operand = self.operand(bare, steps.len(), constants);
-            let operand = operand.ok_or_else(|| self.refused(word))?;
-            Ok((bare.len() < word.len(), operand))
-        });
-        let outputs = outputs.collect::<Result<Vec<_>, Fault>>()?;
+        let outputs = returns
+            .map(|word| {
+                let bare = word.strip_prefix('-').unwrap_or(word);
+                let operand = self
+                    .operand(bare, steps.len(), constants)
+                    .ok_or_else(|| self.refused(word))?;
+                Ok((bare.len() < word.len(), operand))
+            })
+            .collect::<Result<Vec<_>, Fault>>()?;
         if outputs.len() > MOST_RESULTS {
             return Err(self.refused("more results than are looked at"));
         }
@@ -320,16 +323,19 @@ impl FunctionClaim {
     }
 
     fn refused(&self, word: &str) -> Fault {
-        let own = &self.function;
-        Fault::Claim(format!("`{own}`: `{word:.40}` is not of a program"))
+        let name = &self.function;
+        Fault::Claim(format!("`{name}`: `{word:.40}` is not of a program"))
     }
 
     fn operand<C: Clone>(&self, word: &str, count: usize, constants: &[C]) -> Option<Operand<C>> {
         if let Some(constant) = constant(constants, word) {
             return Some(Operand::Constant(constant.clone()));
         }
-        let takes = |name: &str| self.arguments.iter().any(|own| own == name);
-        if let Some((name, index)) = word.strip_suffix(']').and_then(|own| own.split_once('[')) {
+        let takes = |name: &str| self.arguments.iter().any(|argument| argument == name);
+        if let Some((name, index)) = word
+            .strip_suffix(']')
+            .and_then(|entry| entry.split_once('['))
+        {
             let place = argument(name).filter(|_| takes(name))?;
             return Some(Operand::Entry(place, whole(index)?));
         }
@@ -364,8 +370,8 @@ impl FunctionClaim {
         let read = |word: &str| term(word).ok_or_else(|| self.refused(word));
         let combination = |text: &String| text.split_ascii_whitespace().map(read).collect();
         let value = |word: &str| {
-            let own = constant(constants, word).cloned();
-            own.ok_or_else(|| self.refused(word))
+            let exact = constant(constants, word).cloned();
+            exact.ok_or_else(|| self.refused(word))
         };
         let combinations = self.base.iter().map(combination);
         let values = self.values.split_ascii_whitespace().map(value);
@@ -393,9 +399,9 @@ fn parameter(name: &str, links: usize, floats: bool) -> Option<usize> {
     match (&name[..digits], link) {
         ("armature", link) => Some(drives + link?),
         ("viscous", link) => Some(drives + links + link?),
-        (own, link) => {
+        (prefix, link) => {
             let body = if floats { number } else { link? };
-            Some(10 * body + NAMES.iter().position(|name| *name == own)?)
+            Some(10 * body + NAMES.iter().position(|name| *name == prefix)?)
         }
     }
 }

@@ -38,22 +38,23 @@ pub(crate) fn compare(
     (literals, work): (&Literals, &Work),
 ) -> Result<(), String> {
     let counts = |steps: usize, results: usize| format!("{steps} operations and {results} results");
-    let own = counts(text.steps.len(), text.outputs.len());
+    let text_counts = counts(text.steps.len(), text.outputs.len());
     let other = counts(exact.steps.len(), exact.outputs.len());
-    if own != other {
-        return Err(format!("{own}, not {other} as claimed"));
+    if text_counts != other {
+        return Err(format!("{text_counts}, not {other} as claimed"));
     }
-    let same = |(own, other): (&Operand<f64>, &Operand<Exact>)| match (own, other) {
-        (Operand::Constant(own), Operand::Constant(other)) => {
-            literals.are_same(other, *own, is_single, work)
+    let same = |(operand, other): (&Operand<f64>, &Operand<Exact>)| match (operand, other) {
+        (Operand::Constant(literal), Operand::Constant(other)) => {
+            literals.are_same(other, *literal, is_single, work)
         }
-        _ => is_same(own, other),
+        _ => is_same(operand, other),
     };
     let mut steps = text.steps.iter().zip(&exact.steps);
     let step =
-        steps.position(|(own, other)| own.0 != other.0 || !own.1.iter().zip(&other.1).all(same));
+        steps.position(|(step, other)| step.0 != other.0 || !step.1.iter().zip(&other.1).all(same));
     let mut results = text.outputs.iter().zip(&exact.outputs);
-    let result = results.position(|(own, other)| own.0 != other.0 || !same((&own.1, &other.1)));
+    let result =
+        results.position(|(result, other)| result.0 != other.0 || !same((&result.1, &other.1)));
     let (what, index) = match (step, result) {
         (Some(index), _) => ("operation", index),
         (None, Some(index)) => ("result", index),
@@ -66,17 +67,17 @@ pub(crate) fn compare(
 }
 
 pub(crate) fn is_literal(text: &str, value: &Exact, is_single: bool) -> bool {
-    number(text, is_single).is_some_and(|own| value.is_nearest(own, is_single))
+    number(text, is_single).is_some_and(|literal| value.is_nearest(literal, is_single))
 }
 
-fn is_same(own: &Operand<f64>, other: &Operand<Exact>) -> bool {
-    match (own, other) {
-        (Operand::Entry(own, index), Operand::Entry(other, at)) => (own, index) == (other, at),
-        (Operand::Sine(own, is_sine), Operand::Sine(other, is_other)) => {
-            (own, is_sine) == (other, is_other)
+fn is_same(operand: &Operand<f64>, other: &Operand<Exact>) -> bool {
+    match (operand, other) {
+        (Operand::Entry(place, index), Operand::Entry(other, at)) => (place, index) == (other, at),
+        (Operand::Sine(joint, is_sine), Operand::Sine(other, is_other)) => {
+            (joint, is_sine) == (other, is_other)
         }
-        (Operand::Step(own), Operand::Step(other))
-        | (Operand::Speed(own), Operand::Speed(other)) => own == other,
+        (Operand::Step(number), Operand::Step(other))
+        | (Operand::Speed(number), Operand::Speed(other)) => number == other,
         _ => false,
     }
 }

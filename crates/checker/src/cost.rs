@@ -80,13 +80,16 @@ pub struct Cost {
 impl Findings {
     /// Returns true if the cost of every result is bounded over the box.
     pub fn is_bounded(&self) -> bool {
-        self.costs.iter().all(|own| own.is_bounded)
+        self.costs.iter().all(|cost| cost.is_bounded)
     }
 
     /// Returns the largest cost of the results that are bounded, or of those that are measured.
     pub fn worst(&self, is_bounded: bool) -> Option<&Cost> {
-        let all = self.costs.iter().filter(|own| own.is_bounded == is_bounded);
-        all.max_by(|a, b| a.units.total_cmp(&b.units))
+        let costs = self
+            .costs
+            .iter()
+            .filter(|cost| cost.is_bounded == is_bounded);
+        costs.max_by(|a, b| a.units.total_cmp(&b.units))
     }
 }
 
@@ -117,12 +120,16 @@ impl Subject<'_> {
         let mut ranges = self.ranges.clone();
         if self.load.is_some() {
             rounding.load = of_load.bounds(&ranges, None).results;
-            let exact = rounding.load.iter().map(|own| own.exact);
-            let exact = exact.map(|own| [own.low, own.high]).collect();
+            let exact = rounding
+                .load
+                .iter()
+                .map(|result| result.exact)
+                .map(|interval| [interval.low, interval.high])
+                .collect();
             ranges[argument(LOAD).unwrap_or_default()] = exact;
         }
         let has_quotients = read.program.has_quotients();
-        let divides = |(_, own): &(bool, Operand<f64>)| match own {
+        let divides = |(_, operand): &(bool, Operand<f64>)| match operand {
             Operand::Step(step) => has_quotients[*step],
             _ => false,
         };
@@ -139,7 +146,10 @@ impl Subject<'_> {
                 self.work,
             )?;
         }
-        let bounded = divides.iter().filter(|own| !**own).count();
+        let bounded = divides
+            .iter()
+            .filter(|has_quotient| !**has_quotient)
+            .count();
         let steps = read.program.steps.len();
         self.work.spend(steps * (bounded + 4), 20)?;
         let over_box = rounding.bounds(&ranges, None);
@@ -147,8 +157,8 @@ impl Subject<'_> {
         // A load is computed from what it is of.
         arguments.extend(self.load.iter().flat_map(|_| &self.setting.loading));
         let joints = self.setting.joints();
-        let lengths = head.fields.iter().map(|own| own.1.iter().product());
-        let mut seen = SampledSizes {
+        let lengths = head.fields.iter().map(|field| field.1.iter().product());
+        let mut samples = SampledSizes {
             sampler: Sampler::new(read, &rounding, joints),
             load: Sampler::new(&load, &of_load, joints),
             lengths: lengths.collect(),
@@ -173,38 +183,40 @@ impl Subject<'_> {
         let count = if is_measured { STATES } else { LOOKED_AT };
         for _ in 0..count / LANES {
             let drawn: [State; LANES] = from_fn(|_| states.next());
-            let heights = seen.look(drawn.each_ref(), &divides)?;
+            let heights = samples.look(drawn.each_ref(), &divides)?;
             worst.extend(heights.into_iter().zip(drawn));
         }
         // Climbs lead to states that nobody drew.
-        let (drawn, near) = (seen.states, seen.near.clone());
+        let (drawn, near) = (samples.states, samples.near.clone());
         if is_measured {
-            self.steps_are_seen(&over_box, &has_quotients, &seen.steps)?;
+            self.steps_are_seen(&over_box, &has_quotients, &samples.steps)?;
             worst.sort_by(|a, b| b.0.total_cmp(&a.0));
             for (height, state) in worst.into_iter().take(CLIMBS) {
-                states.climb((height, state), CLIMBED, |next| seen.look(next, &divides))?;
+                states.climb((height, state), CLIMBED, |next| {
+                    samples.look(next, &divides)
+                })?;
             }
         }
-        let shapes = head.fields.iter().map(|own| own.1.as_slice());
-        let sizes = measures(&seen.sizes, shapes);
+        let shapes = head.fields.iter().map(|field| field.1.as_slice());
+        let sizes = measures(&samples.sizes, shapes);
         let (mut costs, mut first) = (Vec::new(), 0);
         for (field, (name, _)) in head.fields.iter().enumerate() {
-            let entries = first..first + seen.lengths[field];
+            let entries = first..first + samples.lengths[field];
             first = entries.end;
             let is_bounded = !divides[entries.clone()].contains(&true);
             let error = |k: usize| match is_bounded {
                 true => over_box.results[k].error,
-                false => seen.errors[k],
+                false => samples.errors[k],
             };
             let relative = |(k, size): (usize, f64)| match error(k) {
                 0.0 => 0.0,
                 error => error / size,
             };
-            let each = entries.clone().map(|k| (k, sizes[k]));
-            let mut rounding = each.map(relative).fold(0.0, worse);
+            let pairs = entries.clone().map(|k| (k, sizes[k]));
+            let mut rounding = pairs.map(relative).fold(0.0, worse);
             let is_of_whole = is_bounded && !(rounding < self.most());
             if is_of_whole {
-                let reached = seen.sizes[entries.clone()].iter().copied();
+                let reached = samples.sizes[entries.clone()].iter().copied();
                 let whole = reached.fold(0.0, f64::max);
                 rounding = entries.map(|k| (k, whole)).map(relative).fold(0.0, worse);
             }
@@ -226,24 +238,24 @@ impl Subject<'_> {
                     "`{name}` divides, and does not ask for that"
                 )));
             }
-            let unbounded = seen.unbounded[field];
+            let unbounded = samples.unbounded[field];
             // In f64 what divides is never so near to where it divides by zero.
             let is_far = unbounded > 0 || !(rounding < MOST.max(self.worst));
             if !is_bounded && !head.is_single && is_far {
                 let (most, of) = (MOST.max(self.worst), "of its largest value");
-                let found = match unbounded {
+                let reason = match unbounded {
                     0 => format!("is {rounding:.1e} {of} at a state, over {most:.1e}"),
                     _ => "has no bound at a state of the box".to_owned(),
                 };
-                return Err(unsure(format!("rounding of `{name}` {found}")));
+                return Err(unsure(format!("rounding of `{name}` {reason}")));
             }
-            let measured = seen.states - unbounded;
+            let measured = samples.states - unbounded;
             costs.push(Cost {
                 name: (*name).to_owned(),
                 is_bounded,
                 // A bound as large as the values says nothing.
                 rounding: if rounding < 1.0 { rounding } else { f64::NAN },
-                units: rounding / seen.sampler.scalar.unit,
+                units: rounding / samples.sampler.scalar.unit,
                 is_of_whole,
                 states: if is_bounded { 0 } else { measured },
             });
@@ -264,13 +276,19 @@ impl Subject<'_> {
         &self,
         bounds: &Bounds,
         has_quotients: &[bool],
-        seen: &[f64],
+        magnitudes: &[f64],
     ) -> Result<(), Fault> {
-        let all = bounds.steps.iter().zip(has_quotients).zip(seen).enumerate();
-        for (step, ((bound, has_quotient), seen)) in all {
+        let steps = bounds
+            .steps
+            .iter()
+            .zip(has_quotients)
+            .zip(magnitudes)
+            .enumerate();
+        for (step, ((bound, has_quotient), magnitude)) in steps {
             let most = bound.exact.magnitude();
-            if !has_quotient && !self.head.is_single && !(most <= MOST_RATIO * seen) {
-                let why = format!("is at most {seen:.1e} at states, and {most:.1e} over the box");
+            if !has_quotient && !self.head.is_single && !(most <= MOST_RATIO * magnitude) {
+                let why =
+                    format!("is at most {magnitude:.1e} at states, and {most:.1e} over the box");
                 return Err(hidden::refused(step, &why));
             }
         }
@@ -344,70 +362,73 @@ impl SampledSizes<'_> {
 }
 
 pub(crate) fn polynomials(read: &read::Function) -> impl Iterator<Item = usize> {
-    let is_polynomial = |own: &&read::Sines| matches!(own.source, Source::Polynomial(_));
-    read.sines.iter().filter(is_polynomial).map(|own| own.joint)
+    let is_polynomial = |sine: &&read::Sines| matches!(sine.source, Source::Polynomial(_));
+    read.sines
+        .iter()
+        .filter(is_polynomial)
+        .map(|sine| sine.joint)
 }
 
 /// Returns the larger one; what is no number counts as larger.
-fn worse(before: f64, own: f64) -> f64 {
-    let is_worse = own > before || own.is_nan();
-    if is_worse { own } else { before }
+fn worse(before: f64, error: f64) -> f64 {
+    let is_worse = error > before || error.is_nan();
+    if is_worse { error } else { before }
 }
 
 pub(crate) fn ranges(setting: &Setting, bodies: &[(usize, Vec<Body>)]) -> Result<Ranges, String> {
     let (sizes, gravity) = (setting.sizes(), setting.gravity().unwrap_or(EARTH));
     let of = |&(name, axis): &(&str, char)| {
         let rate = if name == "tau" { WRENCH } else { RATE };
-        let own = setting.ranges(name, rate)?;
+        let ranges = setting.ranges(name, rate)?;
         let [low, high] = match name {
             GRAVITY => [-gravity, gravity],
             "wrench" => [-WRENCH, WRENCH],
             "damping" => DAMPING,
             "payload" | "bodies" => {
-                let of = bodies.iter().find(|own| argument(name) == Some(own.0));
-                let all = of.into_iter().flat_map(|own| &own.1);
-                return Ok(all.flat_map(|own| own.ranges()).collect());
+                let of = bodies.iter().find(|entry| argument(name) == Some(entry.0));
+                let argument_bodies = of.into_iter().flat_map(|entry| &entry.1);
+                return Ok(argument_bodies.flat_map(|body| body.ranges()).collect());
             }
             "armature" | "viscous" => {
-                let own = setting.file.defaults(name, &[])?;
+                let defaults = setting.file.defaults(name, &[])?;
                 let most = |x: &Exact| DRIVE.max(2.0 * x.nearest());
-                return Ok(own.iter().map(|x| [0.0, most(x)]).collect());
+                return Ok(defaults.iter().map(|x| [0.0, most(x)]).collect());
             }
             _ => [-1.0, 1.0],
         };
-        Ok(own.unwrap_or_else(|| vec![[low, high]; length(axis, sizes)]))
+        Ok(ranges.unwrap_or_else(|| vec![[low, high]; length(axis, sizes)]))
     };
     ARGUMENTS.iter().map(of).collect()
 }
 
 /// Returns the size that each entry is measured by: its own largest value, of a matrix the smallest
 /// of the largest in its row and in its column; where that is zero, the result's.
-fn measures<'s>(seen: &[f64], shapes: impl Iterator<Item = &'s [usize]>) -> Vec<f64> {
-    let (mut all, mut left) = (Vec::new(), seen);
+fn measures<'s>(values: &[f64], shapes: impl Iterator<Item = &'s [usize]>) -> Vec<f64> {
+    let (mut entry_sizes, mut left) = (Vec::new(), values);
     for shape in shapes {
         let count = shape.iter().product::<usize>().min(left.len());
         if count == 0 {
             continue;
         }
-        let (each, behind) = left.split_at(count);
+        let (entries, behind) = left.split_at(count);
         left = behind;
-        let whole = each.iter().copied().fold(0.0, f64::max);
+        let whole = entries.iter().copied().fold(0.0, f64::max);
         let (mut sizes, mut stride) = (vec![whole; count], count);
         for length in shape {
             stride /= length;
             let digit = |index: usize| index / stride % length;
             let mut most = vec![0.0f64; *length];
-            for (index, own) in each.iter().enumerate() {
-                most[digit(index)] = most[digit(index)].max(*own);
+            for (index, entry) in entries.iter().enumerate() {
+                most[digit(index)] = most[digit(index)].max(*entry);
             }
             for (index, size) in sizes.iter_mut().enumerate() {
-                let own = most[digit(index)];
-                if own > ZERO * whole {
-                    *size = size.min(own);
+                let largest = most[digit(index)];
+                if largest > ZERO * whole {
+                    *size = size.min(largest);
                 }
             }
         }
-        all.extend(sizes);
+        entry_sizes.extend(sizes);
     }
-    all
+    entry_sizes
 }

@@ -8,16 +8,18 @@ use crate::identity::exact::Exact;
 pub(crate) type Default = (&'static str, Vec<Exact>);
 
 /// True if an item is the constant, in C the function, of one of these, and has its numbers.
-pub(crate) fn is_default(item: &Item, is_c: bool, is_single: bool, all: &[Default]) -> bool {
+pub(crate) fn is_default(item: &Item, is_c: bool, is_single: bool, defaults: &[Default]) -> bool {
     let words = item.text.split_whitespace();
     let text: String = words.map(|word| format!("{word} ")).collect();
-    all.iter().any(|(name, values)| {
+    defaults.iter().any(|(name, values)| {
         let list = match is_c {
             true => c_numbers(&text, item, name, is_single),
             false => rust_numbers(&text, name, is_single),
         };
-        let is = |(own, value): (&&str, &Exact)| is_literal(own, value, is_single);
-        list.is_some_and(|all| all.len() == values.len() && all.iter().zip(values).all(is))
+        let is = |(literal, value): (&&str, &Exact)| is_literal(literal, value, is_single);
+        list.is_some_and(|literals| {
+            literals.len() == values.len() && literals.iter().zip(values).all(is)
+        })
     })
 }
 
@@ -66,7 +68,7 @@ mod tests {
     #[test]
     fn constants_have_the_robots_numbers() {
         let exact = |text: &str| Exact::read(text).unwrap();
-        let all = [
+        let defaults = [
             ("bodies", vec![exact("0"), exact("1.5")]),
             ("armature", vec![exact("0.1"), exact("0")]),
         ];
@@ -74,7 +76,7 @@ mod tests {
             text: text.to_owned(),
             ..Item::default()
         };
-        let is = |text: &str, is_single| is_default(&item(text), false, is_single, &all);
+        let is = |text: &str, is_single| is_default(&item(text), false, is_single, &defaults);
         let bodies = |list: &str| {
             is(
                 &format!("pub const BODIES: Bodies = Bodies([\n{list}]);"),
@@ -100,8 +102,8 @@ mod tests {
         );
         header.name = "arm_armature";
         header.symbols.macros = "ARM".to_owned();
-        assert!(is_default(&header, true, false, &all));
-        let all = [("armature", vec![exact("12"), exact("0")])];
+        assert!(is_default(&header, true, false, &defaults));
+        let armature_defaults = [("armature", vec![exact("12"), exact("0")])];
         for (number, is_it) in [
             ("12.0", true),
             ("012", false),
@@ -110,7 +112,11 @@ mod tests {
         ] {
             let mut other = header.clone();
             other.text = header.text.replace("0.1", number);
-            assert_eq!(is_default(&other, true, false, &all), is_it, "{number}");
+            assert_eq!(
+                is_default(&other, true, false, &armature_defaults),
+                is_it,
+                "{number}"
+            );
         }
     }
 }

@@ -44,9 +44,9 @@ fn half_ulp(unit: f64, size: f64) -> f64 {
     }
 }
 
-fn is_power(own: &Operand<f64>) -> bool {
-    let is_power = |own: f64| own.is_normal() && own.to_bits() & ((1 << 52) - 1) == 0;
-    matches!(own, Operand::Constant(own) if is_power(*own))
+fn is_power(operand: &Operand<f64>) -> bool {
+    let is_power = |number: f64| number.is_normal() && number.to_bits() & ((1 << 52) - 1) == 0;
+    matches!(operand, Operand::Constant(literal) if is_power(*literal))
 }
 
 impl Derivatives<'_> {
@@ -56,7 +56,8 @@ impl Derivatives<'_> {
         let mut rounded = Vec::new();
         let steps = self.text.steps.iter().zip(&self.program.steps);
         for (step, ((operation, [a, b]), (_, [one, other]))) in steps.enumerate() {
-            let [x, y] = [(a, one), (b, other)].map(|(text, own)| self.known(text, own, &known));
+            let [x, y] =
+                [(a, one), (b, other)].map(|(text, operand)| self.known(text, operand, &known));
             let inherited = match operation {
                 '+' | '-' => x.error + y.error,
                 _ => x.size * y.error + y.size * x.error + x.error * y.error,
@@ -69,12 +70,12 @@ impl Derivatives<'_> {
                 _ => false,
             };
             let scalar = self.rounding.scalar;
-            let own = match is_exact {
+            let rounding_error = match is_exact {
                 true => scalar.least,
                 false => half_ulp(scalar.unit, size + inherited) + scalar.least,
             };
-            rounded.push(own);
-            let error = (inherited + own) * (1.0 + 1e-12);
+            rounded.push(rounding_error);
+            let error = (inherited + rounding_error) * (1.0 + 1e-12);
             known.push(OperandBound { size, error });
         }
         let bound = |result: &usize| self.bound(*result, &known, &rounded);
@@ -84,11 +85,11 @@ impl Derivatives<'_> {
     fn known(
         &self,
         text: &Operand<f64>,
-        own: &Operand<Exact>,
+        operand: &Operand<Exact>,
         steps: &[OperandBound],
     ) -> OperandBound {
         let unit = self.rounding.scalar.unit;
-        match (text, own) {
+        match (text, operand) {
             (Operand::Step(step), _) => steps[*step],
             (Operand::Constant(literal), Operand::Constant(exact)) => {
                 let [value, radius] = exact.double().unwrap_or([f64::NAN; 2]);
@@ -100,13 +101,13 @@ impl Derivatives<'_> {
             }
             (Operand::Sine(joint, is_sine), _) => {
                 let (size, error) = match self.rounding.polynomial(*joint, *is_sine) {
-                    Some(own) => (1.0 + own, 0.0),
+                    Some(deviation) => (1.0 + deviation, 0.0),
                     None => (1.0, 2.0 * unit),
                 };
                 OperandBound { size, error }
             }
             _ => {
-                let value = self.written.leaf(own);
+                let value = self.written.leaf(operand);
                 let size = value.map_or(f64::INFINITY, |value| self.ring.size(&value));
                 let error = self.rounding.load_error(text);
                 OperandBound { size, error }
@@ -137,10 +138,11 @@ impl Derivatives<'_> {
             sum += (most + off) * rounded[step];
             let (operation, [a, b]) = &self.text.steps[step];
             let [one, other] = &self.program.steps[step].1;
-            let [x, y] = [(a, one), (b, other)].map(|(text, own)| self.known(text, own, known));
+            let [x, y] =
+                [(a, one), (b, other)].map(|(text, operand)| self.known(text, operand, known));
             // The other factor of the left operand is the float, of the right one the exact value.
             let sides = [(a, x, other, y, y.error), (b, y, one, x, 0.0)];
-            for (side, (text, own, factor, other, error)) in sides.into_iter().enumerate() {
+            for (side, (text, bound, factor, other, error)) in sides.into_iter().enumerate() {
                 let (part, part_off) = match operation {
                     '-' if side == 1 => (slope.negated(), off),
                     '+' | '-' => (slope.clone(), off),
@@ -155,14 +157,14 @@ impl Derivatives<'_> {
                         slopes[*to] = slopes[*to].sum(&part, self.work)?;
                         offs[*to] += part_off;
                     }
-                    Operand::Constant(_) if own.error > 0.0 => {
-                        sum += (self.size(&part)? + part_off) * own.error;
+                    Operand::Constant(_) if bound.error > 0.0 => {
+                        sum += (self.size(&part)? + part_off) * bound.error;
                     }
                     // All places where a sine or an entry of the load is read have the same error.
-                    Operand::Sine(..) | Operand::Entry(..) if own.error > 0.0 => {
+                    Operand::Sine(..) | Operand::Entry(..) if bound.error > 0.0 => {
                         match leaves.iter_mut().find(|known| known.0 == text) {
-                            Some((_, all, off)) => {
-                                *all = all.sum(&part, self.work)?;
+                            Some((_, total, off)) => {
+                                *total = total.sum(&part, self.work)?;
                                 *off += part_off;
                             }
                             None => leaves.push((text, part, part_off)),
@@ -172,8 +174,8 @@ impl Derivatives<'_> {
                 }
             }
         }
-        for (own, slope, off) in &leaves {
-            let error = self.known(own, exact, known).error;
+        for (leaf, slope, off) in &leaves {
+            let error = self.known(leaf, exact, known).error;
             sum += (self.size(slope)? + off) * error;
         }
         let sum = sum * (1.0 + 1e-9);

@@ -40,8 +40,11 @@ impl Domain {
         let file = robot::read(source).map_err(of_robot)?;
         let mut setting = file.setting(scene).map_err(of_robot)?;
         setting.loading = load.iter().filter_map(|_| argument("payload")).collect();
-        let places: Option<Vec<usize>> = arguments.iter().map(|own| argument(own)).collect();
-        let places = places.ok_or_else(|| Fault::Claim("an argument that is not known".into()))?;
+        let places = arguments
+            .iter()
+            .map(|name| argument(name))
+            .collect::<Option<Vec<usize>>>()
+            .ok_or_else(|| Fault::Claim("an argument that is not known".into()))?;
         let (mut ranges, _) = setting.loaded_box(&places, false, load)?;
         let ring = Ring::new(&setting, &ranges, &Work::default())?;
         let mut domain = Domain {
@@ -50,8 +53,10 @@ impl Domain {
             bare: None,
         };
         if let (Some(load), Some(place)) = (load, argument(LOAD)) {
-            let none = load_of_point(load, 0.0, [0.0; 3])?;
-            let none = none.iter().map(|own| [own.low, own.high]).collect();
+            let none = load_of_point(load, 0.0, [0.0; 3])?
+                .iter()
+                .map(|interval| [interval.low, interval.high])
+                .collect();
             domain.load = std::mem::replace(&mut ranges[place], none);
             domain.bare = Some(Box::new(Domain {
                 ring: Ring::new(&setting, &ranges, &Work::default())?,
@@ -88,11 +93,11 @@ impl Domain {
 
     /// Decides whether a magnitude is at most `wanted`, and returns a position where it is large, if one
     /// was looked at; behind it stands gravity in the axes of a base that floats.
-    pub fn decide(&self, own: &Polynomial, wanted: f64) -> (Decision, Vec<f64>) {
-        let found = maximum::decide(own, &self.ring, wanted, PURSE);
-        let mut position = self.ring.positions(&found.angles);
-        position.extend(self.ring.gravity(&found.angles));
-        (found, position)
+    pub fn decide(&self, polynomial: &Polynomial, wanted: f64) -> (Decision, Vec<f64>) {
+        let decision = maximum::decide(polynomial, &self.ring, wanted, PURSE);
+        let mut position = self.ring.positions(&decision.angles);
+        position.extend(self.ring.gravity(&decision.angles));
+        (decision, position)
     }
 
     /// Returns true if a symmetric matrix is shown to be positive definite at every state; its lower

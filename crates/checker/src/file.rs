@@ -52,23 +52,23 @@ pub(crate) fn item<'t>(
     lines: &mut Lines<'_, 't>,
     mut is_last: impl FnMut(&'t str) -> bool,
 ) -> Option<Item<'t>> {
-    let (mut found, mut depth, mut ends) = (Item::default(), 0usize, 0);
+    let (mut item, mut depth, mut ends) = (Item::default(), 0usize, 0);
     let (first, mut head) = *lines.first()?;
-    found.line = first;
+    item.line = first;
     loop {
         let (&(number, line), behind) = lines.split_first()?;
         let count = |brackets: [char; 3]| line.matches(brackets).count();
         // As many lines as in the file.
-        found.text += &"\n".repeat(number - found.line - ends);
-        found.text += &format!("{line}\n");
-        ends = number - found.line + 1;
+        item.text += &"\n".repeat(number - item.line - ends);
+        item.text += &format!("{line}\n");
+        ends = number - item.line + 1;
         *lines = behind;
         depth = (depth + count(['{', '[', '('])).checked_sub(count(['}', ']', ')']))?;
         if depth == 0 && line.ends_with(['}', ';']) {
             if is_last(head) {
-                return Some(found);
+                return Some(item);
             }
-            let mut behind = lines.iter().map(|own| own.1).take(MOST_AHEAD);
+            let mut behind = lines.iter().map(|pair| pair.1).take(MOST_AHEAD);
             head = behind.find(|line| !line.starts_with(['#', '_']))?;
         }
     }
@@ -79,10 +79,10 @@ pub(crate) fn item<'t>(
 /// # Errors
 /// The first line that the generator would not print.
 pub fn functions(source: &str) -> Result<Vec<Item<'_>>, Fault> {
-    let lines = read::lines(source, false);
-    let mut lines = lines.map_err(|own| Fault::Text(own.line, own.reason))?;
-    lines.retain(|own| !is_attribute(own.1));
-    let (mut lines, mut all) = (lines.as_slice(), Vec::new());
+    let mut lines =
+        read::lines(source, false).map_err(|error| Fault::Text(error.line, error.reason))?;
+    lines.retain(|line| !is_attribute(line.1));
+    let (mut lines, mut items) = (lines.as_slice(), Vec::new());
     let (mut module, mut has_items, mut modules) = (None, false, HashSet::new());
     while let Some(&first) = lines.first() {
         let words = first.1;
@@ -97,19 +97,20 @@ pub fn functions(source: &str) -> Result<Vec<Item<'_>>, Fault> {
         }
         let is_item = words.starts_with("pub ") || words.starts_with("impl ");
         let is_item = is_item && (module.is_some() || modules.is_empty());
-        let found = item(&mut lines, |_| true).filter(|_| is_item);
-        let mut found = found.ok_or_else(|| fault(first))?;
+        let mut item = item(&mut lines, |_| true)
+            .filter(|_| is_item)
+            .ok_or_else(|| fault(first))?;
         has_items |= module.is_none();
         let name = words.strip_prefix("pub fn ");
         let name = name.filter(|name| name.starts_with(|c: char| c.is_ascii_lowercase()));
         let name = name.and_then(|name| name.split(|c: char| !is_letter(c)).next());
-        found.name = name.unwrap_or("");
-        found.module = module.unwrap_or("");
-        all.push(found);
+        item.name = name.unwrap_or("");
+        item.module = module.unwrap_or("");
+        items.push(item);
     }
     let end = source.lines().count();
     match module {
-        None => Ok(all),
+        None => Ok(items),
         Some(_) => Err(Fault::Text(end, "a brace is not closed".into())),
     }
 }

@@ -61,7 +61,7 @@ pub(crate) fn check(
         let results = program.residues(first, &state);
         let changed = program.residues_but(step, first.residue(), first, &state);
         let both = results.zip(changed).ok_or_else(lost)?;
-        let value = |own: &Number| own.value(first.prime);
+        let value = |number: &Number| number.value(first.prime);
         if both.0.iter().map(value).eq(both.1.iter().map(value)) {
             return Err(refused(step, "changes no result"));
         }
@@ -82,18 +82,22 @@ pub(crate) fn check(
         *first.or_insert(row) == row
     };
     let row = |step: usize| {
-        let mut own = loops
+        let mut lane_loops = loops
             .iter()
             .filter(|[first, rows, lanes]| (*first..first + rows * lanes).contains(&step));
-        own.next()
+        lane_loops
+            .next()
             .map_or(step, |[first, rows, _]| first + (step - first) % rows)
     };
-    let is_input = |own: &Operand<Exact>| Some(!matches!(own, Operand::Constant(_)));
-    let reads_state = program.values(is_input, |_, a, b| a || b);
-    let reads_state = reads_state.ok_or_else(lost)?;
+    let is_input = |operand: &Operand<Exact>| Some(!matches!(operand, Operand::Constant(_)));
+    let reads_state = program
+        .values(is_input, |_, a, b| a || b)
+        .ok_or_else(lost)?;
     let operands = program.steps.iter().flat_map(|step| &step.1);
-    for own in operands.filter(|own| !matches!(own, Operand::Step(_) | Operand::Constant(_))) {
-        let both = [&one, &other].map(|state| leaf(own, point, state));
+    for operand in
+        operands.filter(|operand| !matches!(operand, Operand::Step(_) | Operand::Constant(_)))
+    {
+        let both = [&one, &other].map(|state| leaf(operand, point, state));
         if let [Some(a), Some(b)] = both {
             is_new([a, b], usize::MAX);
         }
@@ -140,8 +144,8 @@ fn vain(
     let state = state(point, setting, load)?;
     let values = program.step_residues(point, &state)?;
     let mut slopes = vec![Number::new(0, point.prime); values.len()];
-    for (_, own) in &program.outputs {
-        if let Operand::Step(step) = own {
+    for (_, output) in &program.outputs {
+        if let Operand::Step(step) = output {
             slopes[*step] = slopes[*step] + point.residue();
         }
     }
@@ -150,9 +154,9 @@ fn vain(
         if !slope.is_nonzero() {
             continue;
         }
-        let value = |own: &Operand<Exact>| match own {
+        let value = |operand: &Operand<Exact>| match operand {
             Operand::Step(step) => values.get(*step).copied(),
-            own => leaf(own, point, &state),
+            input => leaf(input, point, &state),
         };
         let [a, b] = operands.each_ref().map(value);
         let (a, b) = (a?, b?);
@@ -162,36 +166,36 @@ fn vain(
             '/' => [slope / b, -(slope * values[step]) / b],
             _ => [slope * b, slope * a],
         };
-        for (own, part) in operands.iter().zip(parts) {
-            if let Operand::Step(step) = own {
+        for (operand, part) in operands.iter().zip(parts) {
+            if let Operand::Step(step) = operand {
                 slopes[*step] = slopes[*step] + part;
             }
         }
     }
-    let is_vain = |(step, own): (usize, &Number)| {
-        let is_none = own.value(point.prime) == Some(0);
+    let is_vain = |(step, slope): (usize, &Number)| {
+        let is_none = slope.value(point.prime) == Some(0);
         is_none.then_some(step)
     };
     let alone = slopes.iter().enumerate().filter_map(is_vain).collect();
     let mut twins = HashSet::new();
-    let value = |own: Number| own.value(point.prime);
+    let value = |number: Number| number.value(point.prime);
     for &[first, rows, lanes] in loops {
         for step in first..first + rows {
             // Slopes by what a lane has as the first one of its value.
             let like = |lane: usize| (step + lane * rows..first + rows * lanes).step_by(rows);
             for lane in 0..lanes {
-                let own = step + lane * rows;
+                let lane_step = step + lane * rows;
                 let mut slope = Number::new(0, point.prime);
                 let mut count = 0;
                 for other in like(lane) {
-                    if value(values[other]) == value(values[own]) {
+                    if value(values[other]) == value(values[lane_step]) {
                         (slope, count) = (slope + slopes[other], count + 1);
-                    } else if value(values[other]) == value(-values[own]) {
+                    } else if value(values[other]) == value(-values[lane_step]) {
                         (slope, count) = (slope - slopes[other], count + 1);
                     }
                 }
                 if count > 1 && !slope.is_nonzero() {
-                    twins.insert(own);
+                    twins.insert(lane_step);
                 }
             }
         }

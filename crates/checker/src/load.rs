@@ -25,13 +25,16 @@ impl Setting<'_> {
             return Ok((ranges, Vec::new()));
         };
         for (place, bodies) in self.bodies_given().map_err(of_robot)? {
-            let outward = bodies.into_iter().map(|own| own.outward(is_single));
+            let outward = bodies.into_iter().map(|body| body.outward(is_single));
             ranges[place] = outward.flat_map(Body::ranges).collect();
         }
         let text = literals(load);
-        let values = Rounding::new(&text, is_single, &ranges).bounds(&ranges, None);
-        let values = values.results;
-        let entries = values.iter().map(|own| [own.exact.low, own.exact.high]);
+        let values = Rounding::new(&text, is_single, &ranges)
+            .bounds(&ranges, None)
+            .results;
+        let entries = values
+            .iter()
+            .map(|value| [value.exact.low, value.exact.high]);
         ranges[place] = entries.collect();
         Ok((ranges, values))
     }
@@ -43,29 +46,31 @@ pub(crate) fn load_of_point(
     at_point: [f64; 3],
 ) -> Result<Vec<Interval>, Fault> {
     let numbers = [&[mass][..], &at_point, &[0.0; 6]].concat();
-    let mut given = vec![Vec::new(); ARGUMENTS.len()];
+    let mut arguments = vec![Vec::new(); ARGUMENTS.len()];
     let numbers = numbers.into_iter().map(Interval::point);
-    given[argument("payload").unwrap_or_default()] = numbers.collect();
-    let values = at(load, &given);
+    arguments[argument("payload").unwrap_or_default()] = numbers.collect();
+    let values = at(load, &arguments);
     values.ok_or_else(|| Fault::Claim("`load` reads what is not a payload".into()))
 }
 
 /// Returns a program with the nearest double in place of each constant.
-pub(crate) fn literals(own: &Program<Exact>) -> read::Function {
-    let operand = |own: &Operand<Exact>| match own {
+pub(crate) fn literals(program: &Program<Exact>) -> read::Function {
+    let operand = |operand: &Operand<Exact>| match operand {
         // An angle beyond the series' range is not a number.
-        Operand::Constant(own) => Operand::Constant(own.double().map_or(f64::NAN, |own| own[0])),
+        Operand::Constant(constant) => {
+            Operand::Constant(constant.double().map_or(f64::NAN, |double| double[0]))
+        }
         Operand::Step(step) => Operand::Step(*step),
         Operand::Entry(place, index) => Operand::Entry(*place, *index),
         Operand::Sine(joint, is_sine) => Operand::Sine(*joint, *is_sine),
         Operand::Speed(joint) => Operand::Speed(*joint),
     };
     let step = |(operation, both): &Step<Exact>| (*operation, both.each_ref().map(operand));
-    let output = |(negative, own): &(bool, Operand<Exact>)| (*negative, operand(own));
+    let output = |(negative, result): &(bool, Operand<Exact>)| (*negative, operand(result));
     read::Function {
         program: Program {
-            steps: own.steps.iter().map(step).collect(),
-            outputs: own.outputs.iter().map(output).collect(),
+            steps: program.steps.iter().map(step).collect(),
+            outputs: program.outputs.iter().map(output).collect(),
         },
         ..read::Function::default()
     }

@@ -152,30 +152,32 @@ pub fn rust_bodies(count: usize, zeros: &[bool]) -> String {
 }
 
 fn digits(zeros: &[bool]) -> String {
-    let numbers = zeros.iter().map(|own| if *own { "1" } else { "0" });
+    let numbers = zeros.iter().map(|is_zero| if *is_zero { "1" } else { "0" });
     numbers.collect::<Vec<_>>().join(", ")
 }
 
 /// Returns a type and its function in C, `payload` or `body`; the text begins with `function`, names
-/// with `own`, and macros with `macros`.
-pub fn c(is_single: bool, function: &str, [own, macros]: [&str; 2], kind: &str) -> String {
+/// with `prefix`, and macros with `macros`.
+pub fn c(is_single: bool, function: &str, [prefix, macros]: [&str; 2], kind: &str) -> String {
     let (real, half, suffix) = match is_single {
         true => ("float", "0.5005", "F"),
         false => ("double", "0.5000005", ""),
     };
     let tested = TESTED.replace("TEST", &format!("({TEST})"));
-    let each = |line: fn((usize, &&str)) -> String| -> String {
+    let lines_of = |line: fn((usize, &&str)) -> String| -> String {
         NUMBERS.iter().enumerate().map(line).collect()
     };
-    let lines = each(|(place, own)| format!("let {own} = numbers[{place}];\n")) + &tested;
-    let lines = lines.replace("let", &format!("const {real}"));
-    let lines = lines.replace("HALF", half).replace('~', suffix);
-    let kept = each(|(place, own)| format!("KIND->KIND[{place}] = {own};\n"));
-    let kept = kept.replace("KIND", kind);
+    let lines = lines_of(|(place, name)| format!("let {name} = numbers[{place}];\n")) + &tested;
+    let lines = lines
+        .replace("let", &format!("const {real}"))
+        .replace("HALF", half)
+        .replace('~', suffix);
+    let kept =
+        lines_of(|(place, name)| format!("KIND->KIND[{place}] = {name};\n")).replace("KIND", kind);
     format!(
-        "typedef struct {{\n{real} {kind}[10];\n}} {own}_{kind}_t;\n\
-         {function} int {own}_{kind}(const {real} numbers[{macros}_RESTRICT 10], \
-         {own}_{kind}_t {kind}[{macros}_RESTRICT 1])\n{{\n{macros}_UNFUSED\nint is_body = 0;\n\
+        "typedef struct {{\n{real} {kind}[10];\n}} {prefix}_{kind}_t;\n\
+         {function} int {prefix}_{kind}(const {real} numbers[{macros}_RESTRICT 10], \
+         {prefix}_{kind}_t {kind}[{macros}_RESTRICT 1])\n{{\n{macros}_UNFUSED\nint is_body = 0;\n\
          {lines}\n{kept}is_body = 1;\n}}\nreturn is_body;\n}}"
     )
 }
@@ -185,7 +187,7 @@ pub fn c(is_single: bool, function: &str, [own, macros]: [&str; 2], kind: &str) 
 pub fn c_bodies(
     is_single: bool,
     function: &str,
-    [own, macros]: [&str; 2],
+    [prefix, macros]: [&str; 2],
     (count, zeros): (usize, &[bool]),
 ) -> String {
     let (real, numbers) = (if is_single { "float" } else { "double" }, 10 * count);
@@ -202,9 +204,9 @@ pub fn c_bodies(
         ),
     };
     format!(
-        "typedef struct {{\n{real} bodies[{numbers}];\n}} {own}_bodies_t;\n\
-         {function} int {own}_with_body({own}_bodies_t into[{macros}_RESTRICT 1], int place, \
-         const {own}_body_t body[{macros}_RESTRICT 1])\n{{\n{list}int number = 0;\n\
+        "typedef struct {{\n{real} bodies[{numbers}];\n}} {prefix}_bodies_t;\n\
+         {function} int {prefix}_with_body({prefix}_bodies_t into[{macros}_RESTRICT 1], int place, \
+         const {prefix}_body_t body[{macros}_RESTRICT 1])\n{{\n{list}int number = 0;\n\
          if (!((place >= 0) && (place < {count}))) {{\nreturn 0;\n}}\n{test}while (number < 10) {{\n\
          into->bodies[10 * place + number] = body->body[number];\nnumber += 1;\n}}\nreturn 1;\n}}"
     )

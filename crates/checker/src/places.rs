@@ -34,25 +34,28 @@ impl Places {
     /// with which limbs begin where the base floats.
     pub fn new(names: &[Option<&str>], limbs: Option<Vec<usize>>) -> Places {
         let floats = limbs.is_some();
-        let mut seen: BTreeSet<String> = TAKEN.split(' ').map(str::to_owned).collect();
+        let mut used_names: BTreeSet<String> = TAKEN.split(' ').map(str::to_owned).collect();
         let mut constants = Vec::new();
         for (number, name) in (1..).zip(names) {
-            let mut own = constant(name.unwrap_or(""), number);
-            if seen.contains(&own) || own.ends_with(PARAMETERS) {
-                own = format!("JOINT_{own}");
+            let mut constant = constant(name.unwrap_or(""), number);
+            if used_names.contains(&constant) || constant.ends_with(PARAMETERS) {
+                constant = format!("JOINT_{constant}");
             }
-            while [&own, &format!("Q_{own}")]
+            while [&constant, &format!("Q_{constant}")]
                 .into_iter()
-                .any(|own| seen.contains(own))
+                .any(|candidate| used_names.contains(candidate))
             {
-                own += &format!("_{number}");
+                constant += &format!("_{number}");
             }
-            seen.extend([format!("Q_{own}"), own.clone()]);
-            constants.push(own);
+            used_names.extend([format!("Q_{constant}"), constant.clone()]);
+            constants.push(constant);
         }
         let base = if floats { BASE } else { 0 };
-        let own = constants.iter().cloned().zip(base..);
-        let positions = constants.iter().map(|own| format!("Q_{own}")).zip(0..);
+        let velocities = constants.iter().cloned().zip(base..);
+        let positions = constants
+            .iter()
+            .map(|constant| format!("Q_{constant}"))
+            .zip(0..);
         Places {
             names: (1..)
                 .zip(names)
@@ -61,7 +64,7 @@ impl Places {
             velocities: floats
                 .then(|| ("BASE".into(), 0))
                 .into_iter()
-                .chain(own)
+                .chain(velocities)
                 .collect(),
             positions: positions.filter(|_| floats).collect(),
             limbs: limbs
@@ -88,14 +91,25 @@ impl Places {
     /// Returns the lines of a header: an enum, and the names and the limbs as macros that begin arrays.
     pub fn header(&self, name: &str) -> String {
         let counts = ["N", "NV"].map(str::to_owned).into_iter().zip(self.counts);
-        let all = counts.chain(self.velocities.iter().cloned());
-        let all = all.chain(self.positions.iter().cloned());
-        let lines = all.map(|(own, place)| format!("    {name}_{own} = {place}"));
-        let lines = lines.collect::<Vec<String>>().join(",\n");
-        let names = self.names.iter().map(|name| format!("\"{name}\""));
-        let names = names.collect::<Vec<String>>().join(", ");
-        let limbs = self.limbs.iter().map(usize::to_string);
-        let limbs = limbs.collect::<Vec<String>>().join(", ");
+        let places = counts
+            .chain(self.velocities.iter().cloned())
+            .chain(self.positions.iter().cloned());
+        let lines = places
+            .map(|(constant, place)| format!("    {name}_{constant} = {place}"))
+            .collect::<Vec<String>>()
+            .join(",\n");
+        let names = self
+            .names
+            .iter()
+            .map(|name| format!("\"{name}\""))
+            .collect::<Vec<String>>()
+            .join(", ");
+        let limbs = self
+            .limbs
+            .iter()
+            .map(usize::to_string)
+            .collect::<Vec<String>>()
+            .join(", ");
         let limbs = match limbs.is_empty() {
             true => limbs,
             false => format!("\n#define {name}_LIMBS {{{limbs}}}"),
@@ -113,8 +127,8 @@ fn constant(name: &str, number: usize) -> String {
             '_'
         }
     };
-    let own: String = name.chars().map(letter).take(LONGEST).collect();
-    match own.trim_matches('_') {
+    let capitals: String = name.chars().map(letter).take(LONGEST).collect();
+    match capitals.trim_matches('_') {
         "" => format!("JOINT_{number}"),
         short if short.starts_with(|c: char| c.is_ascii_digit()) => format!("JOINT_{short}"),
         short => short.to_owned(),
@@ -140,15 +154,15 @@ mod tests {
         ]
         .map(Some);
         let places = Places::new(&names, Some(vec![0, 4]));
-        let own = |(name, place): &(String, usize)| format!("{name} {place}");
-        let all: Vec<String> = places.velocities.iter().map(own).collect();
+        let line = |(name, place): &(String, usize)| format!("{name} {place}");
+        let velocities: Vec<String> = places.velocities.iter().map(line).collect();
         assert_eq!(
-            all.join(", "),
+            velocities.join(", "),
             "BASE 0, FL_HIP 6, JOINT_FL_HIP 7, JOINT_N 8, JOINT_4 9, JOINT_2ND 10, Q_A 11, A_7 12, \
              JOINT_8 13, JOINT_BASE 14"
         );
-        let all: Vec<String> = places.positions.iter().map(own).collect();
-        assert_eq!(all[5..7], ["Q_Q_A 5", "Q_A_7 6"]);
+        let positions: Vec<String> = places.positions.iter().map(line).collect();
+        assert_eq!(positions[5..7], ["Q_Q_A 5", "Q_A_7 6"]);
         assert!(places.array().contains("    \"_é_\",\n"));
         assert!(
             places

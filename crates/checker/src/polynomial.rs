@@ -76,20 +76,20 @@ const fn of_joints(bits: u64) -> [u64; WORDS] {
 
 /// Returns the monomial that is a variable of a joint, or of an entry of the load.
 pub fn key(variable: Variable, index: usize) -> Key {
-    let mut own = Key::default();
+    let mut key = Key::default();
     let place = index as u64 + 1;
-    own.0[WORDS - 1] = match variable {
+    key.0[WORDS - 1] = match variable {
         Variable::Acceleration => place << ONES[0].0,
         Variable::EvenError => place << ONES[1].0,
         Variable::OddError => (place | ODD) << ONES[1].0,
         Variable::Load => place << ONES[2].0,
         Variable::Sin | Variable::Cos | Variable::Velocity => {
             let bit = index % JOINTS * WIDTH + FIELDS[variable as usize].0;
-            own.0[index / JOINTS] = 1 << bit;
-            return own;
+            key.0[index / JOINTS] = 1 << bit;
+            return key;
         }
     };
-    own
+    key
 }
 
 /// Returns the exponent of a variable in a monomial.
@@ -111,7 +111,7 @@ pub fn exponent(key: Key, variable: Variable, index: usize) -> u32 {
 impl Key {
     /// Returns the product; none if both have a q̈, an error or a load.
     fn times(self, other: Key) -> Option<Key> {
-        let [a, b] = [self, other].map(|own| own.0[WORDS - 1]);
+        let [a, b] = [self, other].map(|key| key.0[WORDS - 1]);
         let are_both = |(start, bits): &(usize, u64)| {
             let mask = bits << start;
             a & mask != 0 && b & mask != 0
@@ -159,8 +159,10 @@ impl Polynomial {
     }
 
     fn term(key: Key, factor: f64, rest: f64) -> Polynomial {
-        let terms = Some((key, factor)).filter(|_| factor != 0.0);
-        let terms = terms.into_iter().collect();
+        let terms = Some((key, factor))
+            .filter(|_| factor != 0.0)
+            .into_iter()
+            .collect();
         Polynomial { terms, rest }
     }
 
@@ -240,7 +242,7 @@ fn reduce(key: Key, coefficient: f64, terms: &mut Vec<(Key, f64)>) -> Result<(),
         return Err(Fault::Large);
     }
     let squares = key.and(SINE_SQUARED);
-    let Some(word) = squares.iter().position(|own| *own != 0) else {
+    let Some(word) = squares.iter().position(|square| *square != 0) else {
         terms.push((key, coefficient));
         return Ok(());
     };

@@ -28,7 +28,7 @@ pub(crate) const LOAD: &str = "load";
 
 /// Returns the place of an argument.
 pub fn argument(name: &str) -> Option<usize> {
-    ARGUMENTS.iter().position(|own| own.0 == name)
+    ARGUMENTS.iter().position(|argument| argument.0 == name)
 }
 
 /// An operand of an operation.
@@ -61,8 +61,8 @@ pub struct Program<C> {
 impl<C> Program<C> {
     /// Returns true if some operand is such.
     pub fn reads(&self, is_such: impl Fn(&Operand<C>) -> bool) -> bool {
-        let steps = self.steps.iter().flat_map(|own| &own.1);
-        let outputs = self.outputs.iter().map(|own| &own.1);
+        let steps = self.steps.iter().flat_map(|step| &step.1);
+        let outputs = self.outputs.iter().map(|output| &output.1);
         steps.chain(outputs).any(is_such)
     }
 
@@ -74,7 +74,9 @@ impl<C> Program<C> {
     ) -> Option<Vec<V>> {
         let mut values: Vec<V> = Vec::with_capacity(self.steps.len());
         for (operation, operands) in &self.steps {
-            let [a, b] = operands.each_ref().map(|own| read(own, &values, &leaf));
+            let [a, b] = operands
+                .each_ref()
+                .map(|operand| read(operand, &values, &leaf));
             values.push(apply(*operation, a?, b?));
         }
         Some(values)
@@ -89,8 +91,8 @@ impl<C> Program<C> {
         opposite: impl Fn(V) -> V,
     ) -> Option<Vec<V>> {
         let values = self.values(&leaf, apply)?;
-        let output = |(negative, own): &(bool, Operand<C>)| {
-            let value = read(own, &values, &leaf)?;
+        let output = |(negative, operand): &(bool, Operand<C>)| {
+            let value = read(operand, &values, &leaf)?;
             Some(if *negative { opposite(value) } else { value })
         };
         self.outputs.iter().map(output).collect()
@@ -104,12 +106,12 @@ impl<C> Program<C> {
 }
 
 fn read<C, V: Clone>(
-    own: &Operand<C>,
+    operand: &Operand<C>,
     values: &[V],
     leaf: impl Fn(&Operand<C>) -> Option<V>,
 ) -> Option<V> {
-    match own {
+    match operand {
         Operand::Step(step) => values.get(*step).cloned(),
-        own => leaf(own),
+        operand => leaf(operand),
     }
 }

@@ -59,12 +59,13 @@ fn between([low, high]: [f64; 2], joint: usize) -> Polynomial {
 /// Returns sine and cosine of a joint: sin(φ ∓ ψ) and cos(φ ∓ ψ), ψ being the variable of the
 /// joint before, if the sign of that is given.
 fn pair(joint: usize, sign: Option<f64>, work: &Work) -> Result<[Polynomial; 2], Fault> {
-    let own = |joint| [Variable::Sin, Variable::Cos].map(|v| Polynomial::variable(v, joint, 1.0));
-    let [sin, cos] = own(joint);
+    let variables =
+        |joint| [Variable::Sin, Variable::Cos].map(|v| Polynomial::variable(v, joint, 1.0));
+    let [sin, cos] = variables(joint);
     let Some(sign) = sign else {
         return Ok([sin, cos]);
     };
-    let [sin_b, cos_b] = own(joint - 1);
+    let [sin_b, cos_b] = variables(joint - 1);
     let sin_b = if sign < 0.0 { sin_b.negated() } else { sin_b };
     let across = cos.times(&sin_b, work)?.negated();
     let along = sin.times(&sin_b, work)?;
@@ -107,7 +108,9 @@ impl Ring {
             } else if !setting.turns_by(joint) {
                 [None, None, Some(between(position, joint))]
             } else {
-                let before = joint.checked_sub(1).filter(|&own| is_whole && moves(own));
+                let before = joint
+                    .checked_sub(1)
+                    .filter(|&previous| is_whole && moves(previous));
                 sign = before.and_then(|before| arm.parallel([before, joint]));
                 let [sin, cos] = pair(joint, sign, work)?;
                 [Some(sin), Some(cos), None]
@@ -127,7 +130,8 @@ impl Ring {
                 ring.gravity.push(cos.times(&share, work)?);
             }
         }
-        let place = |own: &(Variable, &str)| argument(own.1).and_then(|place| ranges.get(place));
+        let place =
+            |entry: &(Variable, &str)| argument(entry.1).and_then(|place| ranges.get(place));
         let lists = LINEAR.each_ref().map(place);
         if lists[2].is_some_and(|load| load.len() > MAX_LOADS) {
             let why = format!("a load of more than {MAX_LOADS} numbers");
@@ -153,26 +157,31 @@ impl Ring {
     pub fn positions(&self, angles: &[f64]) -> Vec<f64> {
         let before = [0.0].into_iter().chain(angles.iter().copied());
         let places = self.places.iter().zip(&self.positions);
-        let each = places.zip(angles.iter().zip(before));
-        each.map(|((([low, high], sign), own), (angle, before))| match own {
-            [.., Some(_)] => 0.5 * low + 0.5 * high + (0.5 * high - 0.5 * low) * sin_cos(*angle).1,
-            [None, ..] => *low,
-            _ => angle - sign * before,
-        })
-        .collect()
+        let joints = places.zip(angles.iter().zip(before));
+        joints
+            .map(
+                |((([low, high], sign), position), (angle, before))| match position {
+                    [.., Some(_)] => {
+                        0.5 * low + 0.5 * high + (0.5 * high - 0.5 * low) * sin_cos(*angle).1
+                    }
+                    [None, ..] => *low,
+                    _ => angle - sign * before,
+                },
+            )
+            .collect()
     }
 
     /// Returns gravity of full length at the variables' angles, m/s²; nothing on a fixed base.
     pub fn gravity(&self, angles: &[f64]) -> Vec<f64> {
         let value = |entry: &Polynomial| {
             let term = |(key, value): &(Key, f64)| {
-                let each = angles.iter().enumerate().map(|(joint, angle)| {
+                let factors = angles.iter().enumerate().map(|(joint, angle)| {
                     let (sin, cos) = sin_cos(*angle);
                     let [s, c] =
                         [Variable::Sin, Variable::Cos].map(|kind| exponent(*key, kind, joint));
                     sin.powi(s as i32) * cos.powi(c as i32)
                 });
-                value * each.product::<f64>()
+                value * factors.product::<f64>()
             };
             entry.terms.iter().map(term).sum()
         };
@@ -188,8 +197,8 @@ impl Ring {
     }
 
     /// None for other operands, and for a joint that is locked.
-    pub fn leaf<C>(&self, own: &Operand<C>) -> Option<Polynomial> {
-        match own {
+    pub fn leaf<C>(&self, operand: &Operand<C>) -> Option<Polynomial> {
+        match operand {
             Operand::Sine(joint, is_sine) => {
                 self.positions.get(*joint)?[usize::from(!is_sine)].clone()
             }
@@ -199,7 +208,7 @@ impl Ring {
                 if name == GRAVITY {
                     return self.gravity.get(*index).cloned();
                 }
-                let which = LINEAR.iter().position(|own| own.1 == name)?;
+                let which = LINEAR.iter().position(|entry| entry.1 == name)?;
                 self.linear[which].get(*index).cloned()
             }
             _ => None,
@@ -225,7 +234,7 @@ impl Ring {
             }
         }
         let errors = [Variable::EvenError, Variable::OddError];
-        let has = |joint: usize| errors.iter().any(|own| exponent(key, *own, joint) > 0);
+        let has = |joint: usize| errors.iter().any(|error| exponent(key, *error, joint) > 0);
         if (0..self.width()).any(has) {
             let most = low.abs().max(high.abs());
             (low, high) = (-most, most);

@@ -54,23 +54,26 @@ impl<'f> Rounding<'f> {
         let mut polynomials = HashMap::new();
         // Angles of one range mostly have the same polynomials.
         let mut known: Vec<(&Program<f64>, Interval, usize, f64)> = Vec::new();
-        for own in &function.sines {
-            let Source::Polynomial(program) = &own.source else {
+        for pair in &function.sines {
+            let Source::Polynomial(program) = &pair.source else {
                 continue;
             };
-            let angle = entry(ranges, 0, own.joint).unwrap_or(Interval::NOTHING_KNOWN);
-            let needed = [true, false].into_iter().zip(own.needs).filter(|own| own.1);
+            let angle = entry(ranges, 0, pair.joint).unwrap_or(Interval::NOTHING_KNOWN);
+            let needed = [true, false]
+                .into_iter()
+                .zip(pair.needs)
+                .filter(|need| need.1);
             for (result, (is_sine, _)) in needed.enumerate() {
                 let place = 2 * result + usize::from(is_sine);
-                let is_same = |own: &&(&Program<f64>, Interval, usize, f64)| {
-                    (own.1, own.2) == (angle, place) && own.0 == program
+                let is_same = |entry: &&(&Program<f64>, Interval, usize, f64)| {
+                    (entry.1, entry.2) == (angle, place) && entry.0 == program
                 };
                 let error = match known.iter().find(is_same) {
                     Some(known) => known.3,
                     None => sines::error(program, result, is_sine, angle, scalar),
                 };
                 known.push((program, angle, place, error));
-                polynomials.insert((own.joint, is_sine), error);
+                polynomials.insert((pair.joint, is_sine), error);
             }
         }
         Rounding {
@@ -82,10 +85,10 @@ impl<'f> Rounding<'f> {
     }
 
     /// Returns how far an entry of the load is off; zero for other operands.
-    pub(crate) fn load_error<C>(&self, own: &Operand<C>) -> f64 {
-        match own {
+    pub(crate) fn load_error<C>(&self, operand: &Operand<C>) -> f64 {
+        match operand {
             Operand::Entry(place, index) if argument(LOAD) == Some(*place) => {
-                self.load.get(*index).map_or(0.0, |own| own.error)
+                self.load.get(*index).map_or(0.0, |entry| entry.error)
             }
             _ => 0.0,
         }
@@ -101,15 +104,18 @@ impl<'f> Rounding<'f> {
     pub fn bounds(&self, ranges: &Ranges, sizes: Option<&[f64]>) -> Bounds {
         let steps = &self.function.program.steps;
         let is_exact = sizes.is_none();
-        let pair = |joint: usize| [true, false].map(|own| self.sine(joint, ranges, own, is_exact));
-        let mut given = Inputs {
+        let pair =
+            |joint: usize| [true, false].map(|is_sine| self.sine(joint, ranges, is_sine, is_exact));
+        let mut inputs = Inputs {
             ranges,
             sines: (0..ranges[0].len()).map(pair).collect(),
             is_exact,
             values: Vec::with_capacity(steps.len()),
         };
         for (index, (operation, operands)) in steps.iter().enumerate() {
-            let [a, b] = operands.each_ref().map(|own| self.operand(own, &given));
+            let [a, b] = operands
+                .each_ref()
+                .map(|operand| self.operand(operand, &inputs));
             let (mut exact, error) = match operation {
                 '+' => (a.exact + b.exact, a.error + b.error),
                 '-' => (a.exact + -b.exact, a.error + b.error),
@@ -118,7 +124,7 @@ impl<'f> Rounding<'f> {
                 _ => (a.exact * b.exact, inherited(a, b)),
             };
             if ['+', '-'].contains(operation)
-                && let Some(most) = self.turned(operands, &given)
+                && let Some(most) = self.turned(operands, &inputs)
             {
                 exact = exact.within(most);
             }
@@ -129,33 +135,33 @@ impl<'f> Rounding<'f> {
                 '×' => 0.0,
                 _ => self.scalar.rounding(exact.magnitude() + error),
             };
-            given.values.push(Value {
+            inputs.values.push(Value {
                 exact,
                 error: self.scalar.sum(exact.magnitude(), error, rounded),
                 rounded,
             });
         }
         let outputs = self.function.program.outputs.iter();
-        let result = |(negative, own): &(bool, Operand<f64>)| {
-            let mut value = self.operand(own, &given);
+        let result = |(negative, operand): &(bool, Operand<f64>)| {
+            let mut value = self.operand(operand, &inputs);
             if *negative {
                 value.exact = -value.exact;
             }
-            if let Operand::Step(step) = own
+            if let Operand::Step(step) = operand
                 && value.error.is_finite()
             {
-                value.error = value.error.min(self.by_derivatives(*step, &given));
+                value.error = value.error.min(self.by_derivatives(*step, &inputs));
             }
             value
         };
         let results = outputs.map(result).collect();
-        let steps = given.values;
+        let steps = inputs.values;
         Bounds { steps, results }
     }
 
     /// Bounds the error of a step by the mean value theorem: each rounding times the largest
     /// derivative by it, whatever the others are.
-    fn by_derivatives(&self, top: usize, given: &Inputs) -> f64 {
+    fn by_derivatives(&self, top: usize, inputs: &Inputs) -> f64 {
         let zero = Interval::point(0.0);
         let mut slopes = vec![zero; top + 1];
         slopes[top] = Interval::point(1.0);
@@ -166,32 +172,32 @@ impl<'f> Rounding<'f> {
             if slope == zero {
                 continue;
             }
-            sum += slope.magnitude() * given.values[step].rounded;
+            sum += slope.magnitude() * inputs.values[step].rounded;
             let (operation, operands) = &self.function.program.steps[step];
-            let all = |own: &Operand<f64>| self.operand(own, given).all();
-            let [a, b] = operands.each_ref().map(all);
+            let interval = |operand: &Operand<f64>| self.operand(operand, inputs).all();
+            let [a, b] = operands.each_ref().map(interval);
             let parts = match operation {
                 '+' => [slope, slope],
                 '-' => [slope, -slope],
                 '/' => return f64::INFINITY,
                 _ => [slope * b, slope * a],
             };
-            for (own, part) in operands.iter().zip(parts) {
-                match own {
+            for (operand, part) in operands.iter().zip(parts) {
+                match operand {
                     Operand::Step(step) => slopes[*step] = slopes[*step] + part,
                     Operand::Constant(_) => {
-                        sum += part.magnitude() * self.operand(own, given).error;
+                        sum += part.magnitude() * self.operand(operand, inputs).error;
                     }
                     // All places where a sine is read have the same error.
-                    own => match leaves.iter_mut().find(|(other, _)| *other == own) {
+                    leaf => match leaves.iter_mut().find(|(other, _)| *other == leaf) {
                         Some((_, slope)) => *slope = *slope + part,
-                        None => leaves.push((own, part)),
+                        None => leaves.push((leaf, part)),
                     },
                 }
             }
         }
-        for (own, slope) in leaves {
-            let error = self.operand(own, given).error;
+        for (leaf, slope) in leaves {
+            let error = self.operand(leaf, inputs).error;
             // Nothing times what is not known is nothing.
             if error != 0.0 {
                 sum += slope.magnitude() * error;
@@ -201,9 +207,9 @@ impl<'f> Rounding<'f> {
         if sum.is_nan() { f64::INFINITY } else { sum }
     }
 
-    fn operand(&self, own: &Operand<f64>, given: &Inputs) -> Value {
-        let known = match own {
-            Operand::Step(step) => given.values.get(*step).copied(),
+    fn operand(&self, operand: &Operand<f64>, inputs: &Inputs) -> Value {
+        let known = match operand {
+            Operand::Step(step) => inputs.values.get(*step).copied(),
             Operand::Constant(literal) if *literal == 0.0 => {
                 Some(Value::new(Interval::point(0.0), 0.0))
             }
@@ -213,14 +219,14 @@ impl<'f> Rounding<'f> {
                 Some(Value::new(exact, error))
             }
             Operand::Entry(place, index) => {
-                let error = self.load_error(own);
-                entry(given.ranges, *place, *index).map(|exact| Value::new(exact, error))
+                let error = self.load_error(operand);
+                entry(inputs.ranges, *place, *index).map(|exact| Value::new(exact, error))
             }
             Operand::Sine(joint, is_sine) => {
-                let own = given.sines.get(*joint);
-                own.map(|own| own[usize::from(!is_sine)])
+                let pair = inputs.sines.get(*joint);
+                pair.map(|pair| pair[usize::from(!is_sine)])
             }
-            Operand::Speed(joint) => self.speed(*joint, given.ranges),
+            Operand::Speed(joint) => self.speed(*joint, inputs.ranges),
         };
         known.unwrap_or(Value::new(Interval::NOTHING_KNOWN, f64::INFINITY))
     }
@@ -239,7 +245,7 @@ impl<'f> Rounding<'f> {
     /// Returns 1/√(q̇² + w²): four operations, and w² is rounded.
     fn speed(&self, joint: usize, ranges: &Ranges) -> Option<Value> {
         let mut speeds = self.function.speeds.iter();
-        let square = speeds.find(|own| own.0 == joint)?.1;
+        let square = speeds.find(|speed| speed.0 == joint)?.1;
         let rate = entry(ranges, 1, joint)?;
         let per = |rate: f64| 1.0 / (rate * rate + square).sqrt();
         let slack = 1.0 + 8.0 * self.scalar.unit;
@@ -250,13 +256,13 @@ impl<'f> Rounding<'f> {
 
     /// |c x ± s y| is at most √(x² + y²), c and s being of one angle. Of two entries of gravity that is
     /// its length.
-    fn turned(&self, operands: &[Operand<f64>; 2], given: &Inputs) -> Option<f64> {
+    fn turned(&self, operands: &[Operand<f64>; 2], inputs: &Inputs) -> Option<f64> {
         let steps = &self.function.program.steps;
-        let product = |own: &Operand<f64>| match own {
+        let product = |operand: &Operand<f64>| match operand {
             Operand::Step(step) => match &steps[*step] {
                 ('*' | '×', [Operand::Sine(joint, is_sine), other])
                 | ('*' | '×', [other, Operand::Sine(joint, is_sine)]) => {
-                    let size = self.operand(other, given).exact.magnitude();
+                    let size = self.operand(other, inputs).exact.magnitude();
                     let entry = match other {
                         Operand::Entry(place, entry) if argument(GRAVITY) == Some(*place) => {
                             Some(*entry)
@@ -272,9 +278,9 @@ impl<'f> Rounding<'f> {
         let (joint, is_sine, x, one) = product(&operands[0])?;
         let (other, is_other, y, two) = product(&operands[1])?;
         // What polynomials return is no point of the circle.
-        let is_off = [true, false].map(|own| self.polynomial(joint, own).is_some());
+        let is_off = [true, false].map(|is_sine| self.polynomial(joint, is_sine).is_some());
         let is_pair = joint == other && is_sine != is_other;
-        let is_circle = given.is_exact || is_off == [false; 2];
+        let is_circle = inputs.is_exact || is_off == [false; 2];
         let length = match one.is_some() && two.is_some() && one != two {
             true => x.max(y),
             false => x.hypot(y),
@@ -299,14 +305,14 @@ fn entry(ranges: &Ranges, place: usize, index: usize) -> Option<Interval> {
 fn inherited(a: Value, b: Value) -> f64 {
     // Nothing times what is not known is nothing: so it is in products of zero.
     let part = |error: f64, size: f64| if error == 0.0 { 0.0 } else { error * size };
-    let [x, y] = [a, b].map(|own| own.exact.magnitude());
+    let [x, y] = [a, b].map(|factor| factor.exact.magnitude());
     part(a.error, y) + part(b.error, x) + part(a.error, b.error)
 }
 
 /// Returns the squares: of an interval around zero the product begins below.
-fn square(own: Interval) -> Interval {
-    let all = own * own;
-    Interval::new(all.low.max(0.0), all.high)
+fn square(interval: Interval) -> Interval {
+    let product = interval * interval;
+    Interval::new(product.low.max(0.0), product.high)
 }
 
 /// Returns a quotient; nothing is known of one whose divisor may be zero.

@@ -33,11 +33,11 @@ pub struct Lanes {
 }
 
 impl Lanes {
-    pub fn new(all: [Near; LANES]) -> Lanes {
+    pub fn new(lanes: [Near; LANES]) -> Lanes {
         Lanes {
-            value: all.map(|near| near.value),
-            off: all.map(|near| near.off),
-            error: all.map(|near| near.error),
+            value: lanes.map(|near| near.value),
+            off: lanes.map(|near| near.off),
+            error: lanes.map(|near| near.error),
         }
     }
 
@@ -72,10 +72,10 @@ impl<'f> Sampler<'f> {
         let mut leaves: Vec<Operand<f64>> = Vec::new();
         let mut known = std::collections::HashMap::new();
         // Steps are behind all leaves, whose number is not known yet.
-        let mut place = |own: &Operand<f64>| match own {
+        let mut place = |operand: &Operand<f64>| match operand {
             Operand::Step(step) => Err(*step),
-            own => {
-                let key = match own {
+            leaf => {
+                let key = match leaf {
                     Operand::Constant(literal) => (0, 0, literal.to_bits()),
                     Operand::Entry(place, index) => (1, *place, *index as u64),
                     Operand::Sine(joint, is_sine) => (2, *joint, u64::from(*is_sine)),
@@ -83,26 +83,32 @@ impl<'f> Sampler<'f> {
                     Operand::Step(_) => (4, 0, 0),
                 };
                 Ok(*known.entry(key).or_insert_with(|| {
-                    leaves.push(own.clone());
+                    leaves.push(leaf.clone());
                     leaves.len() - 1
                 }))
             }
         };
         let steps = program.steps.iter();
-        let code = steps.map(|(operation, both)| (*operation, both.each_ref().map(&mut place)));
-        let code: Vec<_> = code.collect();
-        let outputs = program.outputs.iter();
-        let outputs: Vec<_> = outputs.map(|own| (own.0, place(&own.1))).collect();
+        let code: Vec<_> = steps
+            .map(|(operation, both)| (*operation, both.each_ref().map(&mut place)))
+            .collect();
+        let outputs: Vec<_> = program
+            .outputs
+            .iter()
+            .map(|output| (output.0, place(&output.1)))
+            .collect();
         let first = leaves.len();
-        let index = |own: Result<usize, usize>| own.unwrap_or_else(|step| first + step);
-        let pair = |joint| [true, false].map(|own| rounding.polynomial(joint, own));
-        let code = code.into_iter().map(|(own, both)| (own, both.map(index)));
+        let index = |slot: Result<usize, usize>| slot.unwrap_or_else(|step| first + step);
+        let pair = |joint| [true, false].map(|is_sine| rounding.polynomial(joint, is_sine));
+        let code = code
+            .into_iter()
+            .map(|(operation, both)| (operation, both.map(index)));
         Sampler {
             code: code.collect(),
             leaves,
             outputs: outputs
                 .into_iter()
-                .map(|own| (own.0, index(own.1)))
+                .map(|output| (output.0, index(output.1)))
                 .collect(),
             speeds: &function.speeds,
             polynomials: (0..joints).map(pair).collect(),
@@ -154,9 +160,9 @@ impl<'f> Sampler<'f> {
 
     pub fn results<'v>(&'v self, values: &'v [Lanes]) -> impl Iterator<Item = Lanes> + 'v {
         self.outputs.iter().map(|&(is_negative, place)| {
-            let own = values[place];
-            let value = own.value.map(|x| if is_negative { -x } else { x });
-            Lanes { value, ..own }
+            let lanes = values[place];
+            let value = lanes.value.map(|x| if is_negative { -x } else { x });
+            Lanes { value, ..lanes }
         })
     }
 
@@ -166,12 +172,12 @@ impl<'f> Sampler<'f> {
         steps.map(|step| step.value.iter().fold(0.0, |most, x| x.abs().max(most)))
     }
 
-    fn leaf(&self, own: &Operand<f64>, state: &State, load: &[Lanes], lane: usize) -> Near {
+    fn leaf(&self, operand: &Operand<f64>, state: &State, load: &[Lanes], lane: usize) -> Near {
         let unit = self.scalar.unit;
         let entry = |place: usize, index: usize| state.get(place)?.get(index).copied();
         let near = |value, off, error| Near { value, off, error };
         let exactly = |value| near(value, 0.0, 0.0);
-        let found = match own {
+        let estimate = match operand {
             Operand::Constant(literal) if *literal == 0.0 => Some(Near::default()),
             Operand::Constant(literal) => {
                 let error = self.scalar.rounded(literal.abs(), 0.0);
@@ -183,14 +189,16 @@ impl<'f> Sampler<'f> {
             Operand::Entry(place, index) => entry(*place, *index).map(exactly),
             Operand::Sine(joint, is_sine) => entry(0, *joint).map(|angle| {
                 let (sin, cos) = sin_cos(angle);
-                let polynomial = self.polynomials.get(*joint);
-                let polynomial = polynomial.and_then(|own| own[usize::from(!is_sine)]);
+                let polynomial = self
+                    .polynomials
+                    .get(*joint)
+                    .and_then(|errors| errors[usize::from(!is_sine)]);
                 // The library's is within an ulp of at most one.
                 let error = polynomial.unwrap_or(2.0 * unit);
                 near(if *is_sine { sin } else { cos }, SINE_ERROR, error)
             }),
             Operand::Speed(joint) => {
-                let square = self.speeds.iter().find(|own| own.0 == *joint);
+                let square = self.speeds.iter().find(|speed| speed.0 == *joint);
                 let both = square.zip(entry(1, *joint));
                 // Four operations, and w² is rounded.
                 both.map(|((_, square), rate)| {
@@ -201,7 +209,7 @@ impl<'f> Sampler<'f> {
             }
             Operand::Step(_) => None,
         };
-        found.unwrap_or(near(f64::NAN, f64::INFINITY, f64::INFINITY))
+        estimate.unwrap_or(near(f64::NAN, f64::INFINITY, f64::INFINITY))
     }
 }
 

@@ -72,9 +72,9 @@ pub fn error(
     match Reduction::read(polynomials, scalar) {
         None => error_near(polynomials, result, is_sine, range, scalar),
         Some(_) if !(range.magnitude() <= scalar.far) => f64::INFINITY,
-        Some(own) => {
-            let near = Interval::new(-own.most, own.most);
-            own.error + error_near(&own.rest, result, is_sine, near, scalar)
+        Some(reduction) => {
+            let near = Interval::new(-reduction.most, reduction.most);
+            reduction.error + error_near(&reduction.rest, result, is_sine, near, scalar)
         }
     }
 }
@@ -90,9 +90,9 @@ struct Reduction {
 impl Reduction {
     /// k = (q·ι + M) − M with ι ≈ 1/2π, and M so that floats next to it are the integers; then
     /// (q − k·A) − k·B with A + B ≈ 2π, where k·A is exact.
-    fn read(own: &Program<f64>, scalar: Scalar) -> Option<Reduction> {
+    fn read(program: &Program<f64>, scalar: Scalar) -> Option<Reduction> {
         const ANGLE: Operand<f64> = Operand::Entry(0, 0);
-        let (steps, behind) = own.steps.split_first_chunk::<7>()?;
+        let (steps, behind) = program.steps.split_first_chunk::<7>()?;
         let number = |step: usize| match steps[step].1[1] {
             Operand::Constant(value) => Some(value),
             _ => None,
@@ -110,17 +110,18 @@ impl Reduction {
             of('-', step(4), step(5)),
         ];
         // Nothing else reads what came before.
-        let moved = |own: &Operand<f64>| match own {
+        let moved = |operand: &Operand<f64>| match operand {
             Operand::Step(6) => Some(ANGLE),
             Operand::Step(step) => step.checked_sub(7).map(Operand::Step),
             Operand::Constant(value) => Some(Operand::Constant(*value)),
             _ => None,
         };
         let step = |(operation, [a, b]): &Step<f64>| Some((*operation, [moved(a)?, moved(b)?]));
-        let output = |(negative, own): &(bool, Operand<f64>)| Some((*negative, moved(own)?));
+        let output =
+            |(negative, operand): &(bool, Operand<f64>)| Some((*negative, moved(operand)?));
         let rest = Program {
             steps: behind.iter().map(step).collect::<Option<_>>()?,
-            outputs: own.outputs.iter().map(output).collect::<Option<_>>()?,
+            outputs: program.outputs.iter().map(output).collect::<Option<_>>()?,
         };
         let Scalar {
             unit, least, far, ..
@@ -174,8 +175,8 @@ fn error_near(
         let (value, slope) = if is_sine { (sin, cos) } else { (cos, -sin) };
         let ([at, rise, _], _) = evaluate(polynomials, result, Interval::point(middle), scalar);
         let ([_, _, bend], rounding) = evaluate(polynomials, result, over, scalar);
-        let apart = |own: Interval, other: f64, radius: f64| {
-            (own + -Interval::around(other, radius)).magnitude()
+        let apart = |interval: Interval, other: f64, radius: f64| {
+            (interval + -Interval::around(other, radius)).magnitude()
         };
         // The second derivative of the sine is −sin, and so of the cosine.
         let bent = apart(bend, -value, half + SINE_ERROR);
@@ -197,8 +198,8 @@ fn error_near(
 /// The value and two derivatives over a range of angles, and the rounding error up to it.
 type Enclosed = ([Interval; 3], f64);
 
-fn evaluate(own: &Program<f64>, result: usize, angle: Interval, scalar: Scalar) -> Enclosed {
-    let leaf = |own: &Operand<f64>| match own {
+fn evaluate(program: &Program<f64>, result: usize, angle: Interval, scalar: Scalar) -> Enclosed {
+    let leaf = |operand: &Operand<f64>| match operand {
         Operand::Constant(literal) => Some(([*literal, 0.0, 0.0].map(Interval::point), 0.0)),
         Operand::Entry(..) => {
             let [one, zero] = [1.0, 0.0].map(Interval::point);
@@ -207,12 +208,12 @@ fn evaluate(own: &Program<f64>, result: usize, angle: Interval, scalar: Scalar) 
         _ => None,
     };
     let apply = |operation: char, (a, a_error): Enclosed, (b, b_error): Enclosed| {
-        let (all, inherited) = match operation {
+        let (intervals, inherited) = match operation {
             '+' => ([0, 1, 2].map(|k| a[k] + b[k]), a_error + b_error),
             '-' => ([0, 1, 2].map(|k| a[k] + -b[k]), a_error + b_error),
             '*' | '×' => {
-                let own = a_error * (b[0].magnitude() + b_error);
-                let inherited = own + b_error * a[0].magnitude();
+                let a_term = a_error * (b[0].magnitude() + b_error);
+                let inherited = a_term + b_error * a[0].magnitude();
                 let cross = a[1] * b[1];
                 let bend = a[2] * b[0] + (cross + cross) + a[0] * b[2];
                 ([a[0] * b[0], a[1] * b[0] + a[0] * b[1], bend], inherited)
@@ -221,12 +222,12 @@ fn evaluate(own: &Program<f64>, result: usize, angle: Interval, scalar: Scalar) 
         };
         let error = match operation {
             '×' => inherited,
-            _ => scalar.rounded(all[0].magnitude(), inherited),
+            _ => scalar.rounded(intervals[0].magnitude(), inherited),
         };
-        (all, error)
+        (intervals, error)
     };
-    let opposite = |(all, error): Enclosed| (all.map(|own| -own), error);
-    let results = own.run(leaf, apply, opposite).unwrap_or_default();
+    let opposite = |(intervals, error): Enclosed| (intervals.map(|interval| -interval), error);
+    let results = program.run(leaf, apply, opposite).unwrap_or_default();
     let nothing = ([Interval::NOTHING_KNOWN; 3], f64::INFINITY);
     results.get(result).copied().unwrap_or(nothing)
 }

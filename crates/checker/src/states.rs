@@ -37,13 +37,13 @@ impl States<'_> {
             let Some(list) = self.ranges.get(place) else {
                 continue;
             };
-            let of_bodies = self.bodies.iter().find(|(own, _)| *own == place);
+            let of_bodies = self.bodies.iter().find(|(argument, _)| *argument == place);
             state[place] = match of_bodies {
                 Some((_, bodies)) => {
-                    let all = bodies
+                    let parameters = bodies
                         .iter()
-                        .map(|own| own.draw(&mut || self.draws.share()));
-                    all.collect::<Vec<_>>().concat()
+                        .map(|body| body.draw(&mut || self.draws.share()));
+                    parameters.collect::<Vec<_>>().concat()
                 }
                 None => (list.iter().enumerate().map(|(index, range)| match count {
                     0 => 0f64.clamp(range[0], range[1]),
@@ -61,19 +61,19 @@ impl States<'_> {
 
     fn special(&mut self, place: usize, index: usize, [low, high]: [f64; 2]) -> f64 {
         let middle = 0.5 * (low + high);
-        let mut all = vec![0f64.clamp(low, high), low, high, middle];
+        let mut candidates = vec![0f64.clamp(low, high), low, high, middle];
         if place == 0 {
             let quarters = [-4.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0];
-            let turns = quarters.map(|own| own * std::f64::consts::FRAC_PI_2);
-            all.extend(turns.into_iter().filter(|own| (low..=high).contains(own)));
+            let turns = quarters.map(|quarter| quarter * std::f64::consts::FRAC_PI_2);
+            candidates.extend(turns.into_iter().filter(|turn| (low..=high).contains(turn)));
         }
-        if let (1, Some((_, square))) = (place, self.widths.iter().find(|own| own.0 == index)) {
+        if let (1, Some((_, square))) = (place, self.widths.iter().find(|entry| entry.0 == index)) {
             let width = square.sqrt();
             let bends = [-width, -0.5 * width, 0.5 * width, width];
-            all.extend(bends.into_iter().filter(|own| (low..=high).contains(own)));
+            candidates.extend(bends.into_iter().filter(|bend| (low..=high).contains(bend)));
         }
-        let index = (self.draws.share() * all.len() as f64) as usize;
-        all[index.min(all.len() - 1)]
+        let index = (self.draws.share() * candidates.len() as f64) as usize;
+        candidates[index.min(candidates.len() - 1)]
     }
 
     fn rounded(&self, mut state: State) -> State {
@@ -89,8 +89,8 @@ impl States<'_> {
             }
         }
         if self.is_single {
-            let all = state.iter_mut().flatten();
-            all.for_each(|own| *own = f64::from(*own as f32));
+            let entries = state.iter_mut().flatten();
+            entries.for_each(|entry| *entry = f64::from(*entry as f32));
         }
         state
     }
@@ -103,12 +103,12 @@ impl States<'_> {
         mut tries: usize,
         mut heights: impl FnMut([&State; LANES]) -> Result<[f64; LANES], Fault>,
     ) -> Result<(), Fault> {
-        let is_body = |place: &usize| self.bodies.iter().any(|(own, _)| own == place);
+        let is_body = |place: &usize| self.bodies.iter().any(|(argument, _)| argument == place);
         for ways in STRIDES {
             let mut has_moved = true;
             while has_moved {
                 has_moved = false;
-                for &place in self.places.iter().filter(|own| !is_body(own)) {
+                for &place in self.places.iter().filter(|place| !is_body(place)) {
                     for index in 0..state[place].len() {
                         let Some([low, high]) = self.ranges[place].get(index).copied() else {
                             continue;
@@ -117,13 +117,15 @@ impl States<'_> {
                             return Ok(());
                         }
                         tries -= LANES;
-                        let all = ways.map(|way| {
+                        let neighbours = ways.map(|way| {
                             let mut next = state.clone();
                             let entry = &mut next[place][index];
                             *entry = (*entry + way * (high - low)).clamp(low, high);
                             self.rounded(next)
                         });
-                        for (height, next) in heights(all.each_ref())?.into_iter().zip(all) {
+                        for (height, next) in
+                            heights(neighbours.each_ref())?.into_iter().zip(neighbours)
+                        {
                             if height > highest {
                                 (state, highest, has_moved) = (next, height, true);
                             }

@@ -75,8 +75,9 @@ return pair;
 /// Returns the lines of the functions that give sines, if this is the fourth of them: the head of
 /// what is called once, or the name of a struct.
 pub(crate) fn lines(header: &str, fourth: &str) -> Option<String> {
-    let several = fourth.strip_prefix("static inline void ");
-    let several = several.and_then(|head| head.split_once('(')?.0.split_once("_sines_"));
+    let several = fourth
+        .strip_prefix("static inline void ")
+        .and_then(|head| head.split_once('(')?.0.split_once("_sines_"));
     let one = || Some((between(fourth, "} ", "_sincos_t;")?, "1"));
     let (base, count) = several.or_else(one)?;
     let module = base.to_ascii_uppercase();

@@ -98,7 +98,7 @@ pub(crate) struct Subject<'s> {
     /// The function that makes a load, where this one takes it.
     pub(crate) load: Option<&'s Program<Exact>>,
     pub(crate) is_single: bool,
-    pub(crate) own: &'s ToleranceClaim,
+    pub(crate) claim: &'s ToleranceClaim,
     /// The tolerance of each joint, relative to T.
     pub(crate) tolerance: &'s [f64],
     pub(crate) work: &'s Work,
@@ -115,7 +115,7 @@ impl Subject<'_> {
         let fields = self.results();
         unless(fields.len() == count, "results that are not the function's")?;
         let mut loading = self.setting.loading.iter();
-        let is_of_payload = loading.all(|own| argument("payload") == Some(*own));
+        let is_of_payload = loading.all(|place| argument("payload") == Some(*place));
         unless(
             is_of_payload,
             "a tolerance where bodies or drives are arguments",
@@ -134,22 +134,22 @@ impl Subject<'_> {
         let exact = PolynomialProgram::new(self.exact, &ring, None, work)?;
         let steps = self.read.program.steps.len();
         let size = |step: usize| {
-            let own = emitted.step(step);
-            own.map_or(f64::INFINITY, |own| ring.size(own) * SLACK)
+            let polynomial = emitted.step(step);
+            polynomial.map_or(f64::INFINITY, |p| ring.size(p) * SLACK)
         };
         let mut sizes: Vec<f64> = (0..steps).map(size).collect();
         work.spend(steps * (count + 4), INTERVALS)?;
         let bounds = rounding.bounds(ranges, Some(&sizes)).results;
-        let mut costs: Vec<f64> = bounds.iter().map(|own| own.error).collect();
+        let mut costs: Vec<f64> = bounds.iter().map(|bound| bound.error).collect();
         // Where intervals leave little of the tolerance.
         let allowed = |k: usize| self.held(&fields[k].1) * scales[k];
         let is_dear = |k: &usize| costs[*k] > SHARE * allowed(*k);
         let dear: Vec<usize> = (0..count).filter(is_dear).collect();
         if !dear.is_empty() {
             for (step, size) in sizes.iter_mut().enumerate() {
-                if let Some(own) = emitted.step(step) {
-                    work.spend(own.terms.len(), LENGTH)?;
-                    *size = size.min(length(own, &ring) * SLACK);
+                if let Some(polynomial) = emitted.step(step) {
+                    work.spend(polynomial.terms.len(), LENGTH)?;
+                    *size = size.min(length(polynomial, &ring) * SLACK);
                 }
             }
             let derivatives = Derivatives {
@@ -167,7 +167,7 @@ impl Subject<'_> {
         }
         let (emitted, exact) = (&emitted.outputs, &exact.outputs);
         let largest = scales.iter().copied().fold(0.0, f64::max);
-        let mut found = Vec::new();
+        let mut results = Vec::new();
         for (k, (field, joints)) in fields.into_iter().enumerate() {
             let scale = scales[k];
             let rounding = if self.is_literal(k) { 0.0 } else { costs[k] };
@@ -181,7 +181,7 @@ impl Subject<'_> {
             };
             let difference = emitted[k].plus(&exact[k].negated());
             let wanted = (tolerated - rounding).next_down().next_down();
-            found.push(ResultBound {
+            results.push(ResultBound {
                 field: field.name.clone(),
                 joints,
                 scale,
@@ -192,21 +192,21 @@ impl Subject<'_> {
                 tolerated,
             });
         }
-        Ok(found)
+        Ok(results)
     }
 
     fn is_literal(&self, result: usize) -> bool {
         let text = self.read.program.outputs.get(result);
         match (text, self.emitted.outputs.get(result)) {
-            (Some((_, Operand::Constant(own))), Some((_, Operand::Constant(exact)))) => {
-                exact.double() == Some([*own, 0.0])
+            (Some((_, Operand::Constant(literal))), Some((_, Operand::Constant(exact)))) => {
+                exact.double() == Some([*literal, 0.0])
             }
             _ => false,
         }
     }
 
     fn results(&self) -> Vec<Entry<'_>> {
-        let mut all = Vec::new();
+        let mut entries = Vec::new();
         for field in &self.function.fields {
             let lengths = field.lengths(self.setting, 0);
             for index in 0..lengths.iter().product::<usize>() {
@@ -216,10 +216,10 @@ impl Subject<'_> {
                     left /= length;
                 }
                 joints.reverse();
-                all.push((field, joints));
+                entries.push((field, joints));
             }
         }
-        all
+        entries
     }
 
     /// Returns the tolerance of a result: of several joints, and of none, the strictest.
@@ -227,13 +227,14 @@ impl Subject<'_> {
         let mut lists = [joints, &self.setting.rows].into_iter();
         let held = lists.find(|list| !list.is_empty());
         let is_held = |joint: &usize| held.is_none_or(|list| list.contains(joint));
-        let each = (0..self.tolerance.len()).filter(is_held);
-        let each = each.map(|joint| self.tolerance[joint]);
-        each.fold(f64::INFINITY, f64::min)
+        let tolerances = (0..self.tolerance.len())
+            .filter(is_held)
+            .map(|joint| self.tolerance[joint]);
+        tolerances.fold(f64::INFINITY, f64::min)
     }
 
     fn scales(&self, results: &[Entry], ranges: &Ranges) -> Result<Vec<f64>, Fault> {
-        match self.own.relative_to.as_str() {
+        match self.claim.relative_to.as_str() {
             "actuator" => self.actuator(results),
             "range" => self.reached(ranges),
             _ => {
@@ -247,8 +248,8 @@ impl Subject<'_> {
     /// the largest acceleration, of h_ikm the coefficient at the largest velocities.
     fn actuator(&self, results: &[Entry]) -> Result<Vec<f64>, Fault> {
         let limit = |joint: usize, name: &str| {
-            let own = self.setting.limit(joint, name).filter(|own| *own > 0.0);
-            own.unwrap_or(f64::NAN)
+            let bound = self.setting.limit(joint, name).filter(|limit| *limit > 0.0);
+            bound.unwrap_or(f64::NAN)
         };
         let torque = |joint: usize| limit(joint, "torque");
         let inertia = |i: usize, k: usize| torque(i) / limit(k, "acceleration");
@@ -259,15 +260,15 @@ impl Subject<'_> {
             [i, k, m] => Some(torque(i) / (limit(k, "velocity") * limit(m, "velocity"))),
             _ => None,
         };
-        let own = results.iter().map(measure).collect::<Option<_>>();
+        let measures = results.iter().map(measure).collect::<Option<_>>();
         let why = "the actuators' limits are no measure of this function";
-        own.ok_or_else(|| Fault::Claim(why.into()))
+        measures.ok_or_else(|| Fault::Claim(why.into()))
     }
 
     /// Returns T, which the exact program reaches at the claim's state of each result: positions, rates,
     /// and the point where a payload is.
     fn reached(&self, ranges: &Ranges) -> Result<Vec<f64>, Fault> {
-        let states = &self.own.reached;
+        let states = &self.claim.reached;
         let of_robot = |why| Fault::Robot("limits".into(), why);
         let Body { mass, radius } = self.setting.body().map_err(of_robot)?.unwrap_or_default();
         let places = &self.function.arguments;
@@ -279,18 +280,18 @@ impl Subject<'_> {
         let total = places.iter().map(count).sum::<usize>();
         let gravity = self.setting.gravity().unwrap_or_default();
         let least = |(result, state): (usize, &Vec<f64>)| {
-            let mut given = vec![Vec::new(); ARGUMENTS.len()];
+            let mut arguments = vec![Vec::new(); ARGUMENTS.len()];
             let (mut state, point) = state.split_at(state.len().min(total));
             let mut is_inside = state.len() == total;
             for place in &places {
                 let (list, others) = state.split_at(count(place).min(state.len()));
                 state = others;
                 let mut pairs = list.iter().zip(&ranges[*place]);
-                is_inside &= pairs.all(|(at, own)| is_within(*at, *own));
+                is_inside &= pairs.all(|(at, range)| is_within(*at, *range));
                 // Ranges of its entries are those of a ball.
                 let square = list.iter().map(|x| x * x).sum::<f64>();
                 is_inside &= *place < 3 || is_within(square.sqrt(), [0.0, gravity]);
-                given[*place] = list.iter().copied().map(Interval::point).collect();
+                arguments[*place] = list.iter().copied().map(Interval::point).collect();
             }
             match (self.load, <[f64; 3]>::try_from(point)) {
                 (None, _) => is_inside &= point.is_empty(),
@@ -298,13 +299,13 @@ impl Subject<'_> {
                 (Some(load), Ok(point)) => {
                     is_inside &= point.iter().map(|x| x * x).sum::<f64>().sqrt() <= radius;
                     let load = load_of_point(load, mass[1], point)?;
-                    given[argument(LOAD).unwrap_or_default()] = load;
+                    arguments[argument(LOAD).unwrap_or_default()] = load;
                 }
             }
             unless(is_inside, wrong)?;
-            let values = at(self.exact, &given).unwrap_or_default();
-            let found = values.get(result).ok_or(Fault::Claim(wrong.into()))?;
-            Ok(found.low.max(-found.high).max(0.0))
+            let values = at(self.exact, &arguments).unwrap_or_default();
+            let interval = values.get(result).ok_or(Fault::Claim(wrong.into()))?;
+            Ok(interval.low.max(-interval.high).max(0.0))
         };
         states.iter().enumerate().map(least).collect()
     }
@@ -322,19 +323,25 @@ impl Setting<'_> {
         let are_bounded = places.iter().all(is_bounded);
         unless(are_bounded, "an argument that no box bounds")?;
         let of_robot = |why: String| Fault::Robot("limits".into(), why);
-        let mut all: Ranges = vec![Vec::new(); ARGUMENTS.len()];
+        let mut ranges: Ranges = vec![Vec::new(); ARGUMENTS.len()];
         if let (Some(place), Some(most)) = (argument(GRAVITY), gravity) {
-            all[place] = vec![[-most, most]; 3];
+            ranges[place] = vec![[-most, most]; 3];
         }
         for place in 0..3 {
             if !places.contains(&place) {
-                all[place].resize(self.entries(place), [0.0; 2]);
+                ranges[place].resize(self.entries(place), [0.0; 2]);
                 continue;
             }
             let name = ARGUMENTS[place].0;
-            let own = self.ranges(name, f64::INFINITY).map_err(of_robot)?;
-            let own = own.unwrap_or_default();
-            if !own.iter().flatten().all(|end| end.abs() < MOST_RATE) {
+            let joint_ranges = self
+                .ranges(name, f64::INFINITY)
+                .map_err(of_robot)?
+                .unwrap_or_default();
+            if !joint_ranges
+                .iter()
+                .flatten()
+                .all(|end| end.abs() < MOST_RATE)
+            {
                 let why = format!("a tolerance needs the range of `{name}` of every joint");
                 return Err(of_robot(why));
             }
@@ -345,14 +352,14 @@ impl Setting<'_> {
                 (true, true) => [(low as f32).next_down(), (high as f32).next_up()].map(f64::from),
                 _ => [low.next_down(), high.next_up()],
             };
-            all[place] = own.into_iter().map(outward).collect();
+            ranges[place] = joint_ranges.into_iter().map(outward).collect();
         }
         let is_far = |(joint, range): (usize, &[f64; 2])| {
             self.turns_by(joint) && range.iter().any(|end| end.abs() >= FARTHEST)
         };
-        let is_near = !all[0].iter().enumerate().any(is_far);
+        let is_near = !ranges[0].iter().enumerate().any(is_far);
         unless(is_near, "the sine of an angle beyond 1000 rad")?;
-        Ok(all)
+        Ok(ranges)
     }
 }
 

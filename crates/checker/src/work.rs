@@ -25,8 +25,8 @@ impl Work {
     ///
     /// # Errors
     /// No more is left.
-    pub fn spend(&self, parts: usize, each: u64) -> Result<(), Fault> {
-        let work = (parts as u64).saturating_mul(each);
+    pub fn spend(&self, parts: usize, nanoseconds: u64) -> Result<(), Fault> {
+        let work = (parts as u64).saturating_mul(nanoseconds);
         let left = self.left.get().checked_sub(work);
         self.left.set(left.unwrap_or(0));
         left.map(|_| ()).ok_or(Fault::Work)

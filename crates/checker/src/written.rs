@@ -11,15 +11,15 @@ use crate::work::Work;
 /// The most terms that are alive at once: 32 bytes each.
 const MOST_ALIVE: usize = 1 << 23;
 
-pub(crate) fn at(program: &Program<Exact>, given: &[Vec<Interval>]) -> Option<Vec<Interval>> {
-    let leaf = |own: &Operand<Exact>| match own {
+pub(crate) fn at(program: &Program<Exact>, arguments: &[Vec<Interval>]) -> Option<Vec<Interval>> {
+    let leaf = |operand: &Operand<Exact>| match operand {
         Operand::Constant(constant) => {
             let [value, radius] = constant.double()?;
             Some(Interval::around(value, radius))
         }
-        Operand::Entry(place, index) => given.get(*place)?.get(*index).copied(),
+        Operand::Entry(place, index) => arguments.get(*place)?.get(*index).copied(),
         Operand::Sine(joint, is_sine) => {
-            let angle = given.first()?.get(*joint)?;
+            let angle = arguments.first()?.get(*joint)?;
             Some(angle.sine(*is_sine))
         }
         _ => None,
@@ -30,7 +30,7 @@ pub(crate) fn at(program: &Program<Exact>, given: &[Vec<Interval>]) -> Option<Ve
         '*' | '×' => a * b,
         _ => Interval::NOTHING_KNOWN,
     };
-    program.run(leaf, apply, |own: Interval| -own)
+    program.run(leaf, apply, |interval: Interval| -interval)
 }
 
 /// The largest error of a joint's sine, or else of its cosine; none where it is exact.
@@ -55,7 +55,7 @@ impl<'w> PolynomialProgram<'w> {
         work: &Work,
     ) -> Result<PolynomialProgram<'w>, Fault> {
         let mut left = uses(program);
-        let mut own = PolynomialProgram {
+        let mut polynomials = PolynomialProgram {
             ring,
             errors,
             steps: vec![None; left.len()],
@@ -67,7 +67,7 @@ impl<'w> PolynomialProgram<'w> {
                 continue;
             }
             let [one, other] = operands;
-            let (a, b) = (own.value(one)?, own.value(other)?);
+            let (a, b) = (polynomials.value(one)?, polynomials.value(other)?);
             let value = match operation {
                 '+' => a.sum(&b, work)?,
                 '-' => a.sum(&b.negated(), work)?,
@@ -75,12 +75,14 @@ impl<'w> PolynomialProgram<'w> {
                 _ => return Err(Fault::Claim("tolerance: the program divides".into())),
             };
             alive += value.terms.len();
-            own.steps[index] = Some(value);
+            polynomials.steps[index] = Some(value);
             for operand in operands {
                 if let Operand::Step(step) = operand {
                     left[*step] -= 1;
                     if left[*step] == 0 && errors.is_none() {
-                        alive -= own.steps[*step].take().map_or(0, |own| own.terms.len());
+                        alive -= polynomials.steps[*step]
+                            .take()
+                            .map_or(0, |polynomial| polynomial.terms.len());
                     }
                 }
             }
@@ -89,11 +91,12 @@ impl<'w> PolynomialProgram<'w> {
             }
         }
         for (negative, output) in &program.outputs {
-            let value = own.value(output)?;
-            own.outputs
+            let value = polynomials.value(output)?;
+            polynomials
+                .outputs
                 .push(if *negative { value.negated() } else { value });
         }
-        Ok(own)
+        Ok(polynomials)
     }
 
     /// Returns the step of an index, if it is needed.
@@ -101,50 +104,50 @@ impl<'w> PolynomialProgram<'w> {
         self.steps[index].as_ref()
     }
 
-    pub(crate) fn value(&self, own: &Operand<Exact>) -> Result<Polynomial, Fault> {
-        let value = match own {
+    pub(crate) fn value(&self, operand: &Operand<Exact>) -> Result<Polynomial, Fault> {
+        let value = match operand {
             Operand::Step(step) => self.steps[*step].clone(),
-            own => self.leaf(own),
+            leaf => self.leaf(leaf),
         };
         let why = "tolerance: it reads an angle as a number, or what is no state";
         value.ok_or_else(|| Fault::Claim(why.into()))
     }
 
     /// Returns the value of an operand that is not a step.
-    pub(crate) fn leaf(&self, own: &Operand<Exact>) -> Option<Polynomial> {
-        match own {
+    pub(crate) fn leaf(&self, operand: &Operand<Exact>) -> Option<Polynomial> {
+        match operand {
             Operand::Constant(constant) => {
                 let double = constant.double();
                 double.map(|[value, radius]| Polynomial::constant(value, radius))
             }
             Operand::Sine(joint, is_sine) => {
-                let value = self.ring.leaf(own)?;
-                let error = self.errors.and_then(|own| own(*joint, *is_sine));
+                let value = self.ring.leaf(operand)?;
+                let error = self.errors.and_then(|errors| errors(*joint, *is_sine));
                 let variable = [Variable::EvenError, Variable::OddError][usize::from(*is_sine)];
                 Some(match error {
                     Some(error) => value.plus(&Polynomial::variable(variable, *joint, error)),
                     None => value,
                 })
             }
-            own => self.ring.leaf(own),
+            leaf => self.ring.leaf(leaf),
         }
     }
 }
 
 /// Counts how often each step is read on the way to the results: never, if it is in vain.
 fn uses(program: &Program<Exact>) -> Vec<usize> {
-    let mut all = vec![0; program.steps.len()];
-    let step = |own: &Operand<Exact>| match own {
+    let mut counts = vec![0; program.steps.len()];
+    let step = |operand: &Operand<Exact>| match operand {
         Operand::Step(step) => Some(*step),
         _ => None,
     };
-    let outputs = program.outputs.iter().filter_map(|own| step(&own.1));
-    outputs.for_each(|step| all[step] += 1);
+    let outputs = program.outputs.iter().filter_map(|output| step(&output.1));
+    outputs.for_each(|step| counts[step] += 1);
     for (index, (_, operands)) in program.steps.iter().enumerate().rev() {
-        if all[index] > 0 {
-            let own = operands.iter().filter_map(step);
-            own.for_each(|step| all[step] += 1);
+        if counts[index] > 0 {
+            let steps = operands.iter().filter_map(step);
+            steps.for_each(|step| counts[step] += 1);
         }
     }
-    all
+    counts
 }

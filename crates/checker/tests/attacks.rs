@@ -94,8 +94,12 @@ fn exact_functions_that_are_not_what_is_claimed() {
             Err(fault) => fault.to_string(),
             Ok(report) => {
                 assert!(!report.passes(false), "{name}");
-                let faults = report.lines.into_iter().filter_map(|own| own.result.err());
-                let faults: Vec<String> = faults.map(|own| own.to_string()).collect();
+                let faults: Vec<String> = report
+                    .lines
+                    .into_iter()
+                    .filter_map(|line| line.result.err())
+                    .map(|fault| fault.to_string())
+                    .collect();
                 faults.join("; ")
             }
         };
@@ -132,8 +136,8 @@ fn variants_without_the_planted_number() {
 fn variants_that_are_checked_in() {
     let robot = file("generated/robots/puma560.toml");
     for (name, tolerance) in [("actuator-1e-3", 1e-3), ("range-1e-2", 1e-2)] {
-        let own = format!("generated/variants/puma560-{name}");
-        let [text, claim] = [".rs", ".claim.json"].map(|end| file(&format!("{own}{end}")));
+        let stem = format!("generated/variants/puma560-{name}");
+        let [text, claim] = [".rs", ".claim.json"].map(|end| file(&format!("{stem}{end}")));
         let demand = Demand {
             tolerance: Some(tolerance),
             ..Demand::default()
@@ -158,7 +162,7 @@ fn rows_are_measured_by_the_robot_file() {
         let (text, claim) = (data(name), data(&claim));
         let report = certify(&text, &claim, &data("placed.toml"), &Demand::default());
         assert!(
-            !report.as_ref().is_ok_and(|own| own.passes(false)),
+            !report.as_ref().is_ok_and(|report| report.passes(false)),
             "{name}"
         );
         assert!(format!("{report:?}").contains(words), "{name}: {report:?}");

@@ -71,14 +71,15 @@ fn refused(
     let source = file(ROBOT) + "\n[scene.all]\n[scene.none]\njoints = []\n";
     let file = robot::read(&source).unwrap();
     let one = || Exact::read("1").unwrap();
-    let combination =
-        |own: &&[usize]| -> Combination { own.iter().map(|column| (*column, one())).collect() };
+    let combination = |columns: &&[usize]| -> Combination {
+        columns.iter().map(|column| (*column, one())).collect()
+    };
     let setting = file.setting(Some(scene)).unwrap();
     let statement = Statement {
         function: &Function::named("x", &words(arguments), &words(results)).unwrap(),
         program: &Program {
             steps: Vec::new(),
-            outputs: outputs.into_iter().map(|own| (false, own)).collect(),
+            outputs: outputs.into_iter().map(|output| (false, output)).collect(),
         },
         base: &Base {
             combinations: base.iter().map(combination).collect(),

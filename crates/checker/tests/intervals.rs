@@ -29,8 +29,8 @@ fn has(interval: Interval, value: &BigRational) -> bool {
 
 #[test]
 fn operations_of_intervals_have_the_exact_results() {
-    let all = numbers(400);
-    for four in all.windows(4) {
+    let numbers = numbers(400);
+    for four in numbers.windows(4) {
         let [a, b, c, d] = [four[0], four[1], four[2], four[3]];
         let [x, y] = [[a, b], [c, d]].map(|[p, q]| Interval::new(p.min(q), p.max(q)));
         for p in [a, b] {
@@ -47,9 +47,9 @@ fn operations_of_intervals_have_the_exact_results() {
 
 #[test]
 fn what_is_no_interval_is_everything() {
-    for all in [Interval::new(1.0, 0.0), Interval::new(f64::NAN, 0.0)] {
-        assert_eq!(all.magnitude(), f64::INFINITY);
-        assert_eq!((all * Interval::point(0.0)).magnitude(), f64::INFINITY);
+    for interval in [Interval::new(1.0, 0.0), Interval::new(f64::NAN, 0.0)] {
+        assert_eq!(interval.magnitude(), f64::INFINITY);
+        assert_eq!((interval * Interval::point(0.0)).magnitude(), f64::INFINITY);
     }
 }
 
@@ -65,8 +65,8 @@ fn sines_are_within_their_error() {
 
 #[test]
 fn products_of_polynomials_are_within_their_rest() {
-    let all = numbers(240);
-    for six in all.chunks(6) {
+    let numbers = numbers(240);
+    for six in numbers.chunks(6) {
         let cos = Polynomial::variable(Variable::Cos, 0, six[0]);
         let rate = Polynomial::variable(Variable::Velocity, 1, six[1]);
         let one = cos.plus(&Polynomial::constant(six[2], 0.0)).plus(&rate);
@@ -92,7 +92,7 @@ fn products_of_polynomials_are_within_their_rest() {
 fn the_square_of_a_sine_is_one_less_that_of_the_cosine() {
     let [sin, cos] = [Variable::Sin, Variable::Cos].map(|v| Polynomial::variable(v, 3, 1.0));
     let work = &Work::default();
-    let [one, other] = [sin, cos].map(|own| own.times(&own, work).unwrap());
+    let [one, other] = [sin, cos].map(|polynomial| polynomial.times(&polynomial, work).unwrap());
     assert_eq!(one.plus(&other), Polynomial::constant(1.0, 0.0));
 }
 
@@ -112,18 +112,24 @@ fn products_of_two_accelerations_loads_or_errors_count_with_their_magnitudes() {
     use Variable::{Acceleration, EvenError, Load, OddError};
     let work = &Work::default();
     let ones = [Acceleration, EvenError, OddError, Load];
-    let variable = |own, index| Polynomial::variable(own, index, 0.5);
-    for own in ones {
+    let variable = |kind, index| Polynomial::variable(kind, index, 0.5);
+    for factor in ones {
         for other in ones {
-            let are_errors = [own, other].map(|own| format!("{own:?}").ends_with("Error"));
-            let is_left_out = own == other || are_errors == [true; 2];
-            let product = variable(own, 21).times(&variable(other, 3), work).unwrap();
-            assert_eq!(product.terms.is_empty(), is_left_out, "{own:?} {other:?}");
-            assert_eq!(product.rest >= 0.25, is_left_out, "{own:?} {other:?}");
+            let are_errors = [factor, other].map(|kind| format!("{kind:?}").ends_with("Error"));
+            let is_left_out = factor == other || are_errors == [true; 2];
+            let product = variable(factor, 21)
+                .times(&variable(other, 3), work)
+                .unwrap();
+            assert_eq!(
+                product.terms.is_empty(),
+                is_left_out,
+                "{factor:?} {other:?}"
+            );
+            assert_eq!(product.rest >= 0.25, is_left_out, "{factor:?} {other:?}");
             for (key, _) in &product.terms {
-                let powers = [exponent(*key, own, 21), exponent(*key, other, 3)];
-                assert_eq!(powers, [1, 1], "{own:?} {other:?}");
-                assert_eq!(exponent(*key, own, 20) + exponent(*key, other, 2), 0);
+                let powers = [exponent(*key, factor, 21), exponent(*key, other, 3)];
+                assert_eq!(powers, [1, 1], "{factor:?} {other:?}");
+                assert_eq!(exponent(*key, factor, 20) + exponent(*key, other, 2), 0);
             }
         }
     }

@@ -23,7 +23,7 @@ const ROBOTS: [&str; 6] = [
 ];
 
 fn value(arm: &Arm, state: &State, name: &str) -> Vec<Number> {
-    let function = functions().iter().find(|own| own.name == name);
+    let function = functions().iter().find(|function| function.name == name);
     result(arm, state, &function.unwrap().fields[0]).unwrap()
 }
 
@@ -38,7 +38,7 @@ fn torques_are_those_of_lagranges_equation() {
         let point = Point::new(&[name]);
         let arm = Arm::read(&setting, &point).unwrap();
         let state = State::draw(&point, &setting).unwrap();
-        let [qd, qdd] = ["qd", "qdd"].map(|own| &state.given[argument(own).unwrap()]);
+        let [qd, qdd] = ["qd", "qdd"].map(|key| &state.given[argument(key).unwrap()]);
         let n = qd.len();
         let d = value(&arm, &state, "inertia");
         let slope = |joint: usize| {
@@ -51,8 +51,9 @@ fn torques_are_those_of_lagranges_equation() {
         let torques = value(&arm, &state, "inverse_dynamics");
         for (i, torque) in torques.into_iter().enumerate() {
             let followers = arm.joints.iter().filter(|joint| joint.leader.0 == i);
-            let viscous = followers.map(|joint| joint.viscous * joint.leader.1 * joint.leader.1);
-            let viscous = viscous.fold(0.into(), |all: Number, one| all + one);
+            let viscous = followers
+                .map(|joint| joint.viscous * joint.leader.1 * joint.leader.1)
+                .fold(0.into(), |sum: Number, one| sum + one);
             let mut expected = slopes[i].1 + viscous * qd[i];
             for k in 0..n {
                 expected = expected + d[i * n + k] * qdd[k];
@@ -61,8 +62,8 @@ fn torques_are_those_of_lagranges_equation() {
                     expected = expected + slope * qd[k] * qd[m];
                 }
             }
-            let [own, expected] = [torque, expected].map(|own| own.value(point.prime));
-            assert!(own.is_some() && own == expected, "{name} {i}");
+            let [found, expected] = [torque, expected].map(|number| number.value(point.prime));
+            assert!(found.is_some() && found == expected, "{name} {i}");
         }
     }
 }

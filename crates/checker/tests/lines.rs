@@ -5,7 +5,7 @@ use std::fs;
 
 use crate::support::file;
 
-const MOST: usize = 13020;
+const MOST: usize = 13360;
 
 #[test]
 fn trusted_lines_are_named_and_counted() {
@@ -33,18 +33,26 @@ fn trusted_lines_are_named_and_counted() {
         .iter()
         .map(|(name, lines)| (name.clone(), lines.next_multiple_of(10)));
     assert_eq!(named, rounded.collect());
-    let all: usize = counted.values().sum();
-    assert!(all <= MOST, "{all}");
+    let total: usize = counted.values().sum();
+    assert!(total <= MOST, "{total}");
 }
 
 /// The checker must not depend on code that it checks: no crate of this project, nor any but these.
 #[test]
 fn dependencies_are_named() {
     let manifest = file("crates/checker/Cargo.toml");
-    let own = manifest.split("[dependencies]\n").nth(1).unwrap();
-    let own = own.split("\n[").next().unwrap().lines();
-    let names = own.filter_map(|line| line.split(['.', ' ']).next());
-    let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
+    let lines = manifest
+        .split("[dependencies]\n")
+        .nth(1)
+        .unwrap()
+        .split("\n[")
+        .next()
+        .unwrap()
+        .lines();
+    let names: Vec<&str> = lines
+        .filter_map(|line| line.split(['.', ' ']).next())
+        .filter(|name| !name.is_empty())
+        .collect();
     let known = "hmac-sha256 num-bigint num-rational num-traits serde serde_json toml";
     assert_eq!(names.join(" "), known);
 }

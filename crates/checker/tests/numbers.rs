@@ -21,15 +21,15 @@ fn the_nearest_float_is_told_from_its_neighbours() {
         ("1e-300", 1e-300, false),
     ];
     for (text, literal, is_single) in cases {
-        let own = Exact::read(text).unwrap();
-        assert!(own.is_nearest(literal, is_single), "{text}");
+        let number = Exact::read(text).unwrap();
+        assert!(number.is_nearest(literal, is_single), "{text}");
         let next: [f64; 2] = match is_single {
             true => [(literal as f32).next_up(), (literal as f32).next_down()].map(f64::from),
             false => [literal.next_up(), literal.next_down()],
         };
         let others = next.into_iter().chain([-literal, f64::NAN, f64::INFINITY]);
         for other in others {
-            assert!(!own.is_nearest(other, is_single), "{text} {other:e}");
+            assert!(!number.is_nearest(other, is_single), "{text} {other:e}");
         }
     }
     let third = Exact::read("1/3").unwrap();

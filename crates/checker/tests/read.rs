@@ -34,18 +34,18 @@ fn refused(good: &str, changes: &[(&str, &str, &str)]) {
     for (from, to, why) in changes {
         let text = good.replacen(from, to, 1);
         assert_ne!(text, good, "{from}");
-        let found = read(&text).unwrap_err();
-        assert!(found.contains(why), "{text}: {found}");
+        let reason = read(&text).unwrap_err();
+        assert!(reason.contains(why), "{text}: {reason}");
     }
 }
 
 #[test]
 fn polynomials_of_another_angle() {
-    let own = "const double x1_1 = q[0] * q[0];\nconst double x1_2 = x1_1 * 0.5;\n";
-    let other = own.replace("x1", "x2").replace("q[0]", "q[1]");
+    let polynomial = "const double x1_1 = q[0] * q[0];\nconst double x1_2 = x1_1 * 0.5;\n";
+    let other = polynomial.replace("x1", "x2").replace("q[0]", "q[1]");
     let sine = "const double s1 = x1_2;\n";
     let result = "const double t1 = s1 * 0.5;";
-    let good = format!("{own}{sine}{other}const double s2 = x2_2;\n{result}");
+    let good = format!("{polynomial}{sine}{other}const double s2 = x2_2;\n{result}");
     let between = format!("{other}{sine}");
     refused(
         &good,
@@ -83,13 +83,14 @@ fn sines_of_a_list_behind_the_call() {
     );
     let other = listed.replace("angles, sines", "&q[0], sines");
     let late = other.replace(list, "").replace("cosines);\n", &behind);
-    let found = read(&late).unwrap_err();
-    assert!(found.contains("neither the angle"), "{found}");
+    let reason = read(&late).unwrap_err();
+    assert!(reason.contains("neither the angle"), "{reason}");
     // As many angles as nobody has need no room.
-    let many = good.replace("[1]", "[99999999999]");
-    let many = many.replace("sines_1", "sines_99999999999");
-    let found = read(&many).unwrap_err();
-    assert!(found.contains("as many angles"), "{found}");
+    let many = good
+        .replace("[1]", "[99999999999]")
+        .replace("sines_1", "sines_99999999999");
+    let refusal = read(&many).unwrap_err();
+    assert!(refusal.contains("as many angles"), "{refusal}");
 }
 
 #[test]

@@ -64,11 +64,11 @@ const RESULTS: &str = "result|joint|T|real|rounding|E|.tolerance";
 
 /// Values are relative to T; absolute if T is zero. `base` is the number of coordinates of a base that
 /// floats in the scene.
-fn row(own: &ResultBound, robot: &Robot, base: usize) -> Vec<Cell> {
+fn row(result: &ResultBound, robot: &Robot, base: usize) -> Vec<Cell> {
     let cell = |x: f64| Cell::of(bound_of(x, 4), x);
-    let bound = own.relative();
+    let bound = result.relative();
     // An entry of D has two: its row and its column.
-    let joints = own
+    let joints = result
         .joints
         .iter()
         .map(|coordinate| match coordinate.checked_sub(base) {
@@ -76,13 +76,13 @@ fn row(own: &ResultBound, robot: &Robot, base: usize) -> Vec<Cell> {
             None => robot.coordinate_label(*coordinate),
         });
     cells![
-        own.field.clone(),
+        result.field.clone(),
         joints.collect::<Vec<_>>().join(", "),
-        Cell::of(bound_of(own.scale, 5), own.scale),
+        Cell::of(bound_of(result.scale, 5), result.scale),
         cell(bound.real),
         cell(bound.rounding),
         cell(bound.total()),
-        Cell::json(own.tolerated / own.unit()),
+        Cell::json(result.tolerated / result.unit()),
     ]
 }
 
@@ -106,11 +106,15 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
         tolerance: args.tolerance,
         worst: args.worst,
     };
-    let found = certify(source, &claim, &robot.robot_file, &demand);
-    let found = found.map_err(|fault| Failure::Input(format!("error: {fault}")))?;
+    let certificate = certify(source, &claim, &robot.robot_file, &demand)
+        .map_err(|fault| Failure::Input(format!("error: {fault}")))?;
     let mut report = Report::default();
-    let results = |line: &Line| line.result.as_ref().map_or(0, |own| own.results.len());
-    report.line(match found.lines.iter().any(|line| results(line) > 0) {
+    let results = |line: &Line| {
+        line.result
+            .as_ref()
+            .map_or(0, |findings| findings.results.len())
+    };
+    report.line(match certificate.lines.iter().any(|line| results(line) > 0) {
         false => {
             "shown: apart from rounding, the code gives the robot's results at every state of the box.\n\
              rounding: the largest error, as a part of the largest value of that result, and in u: 2^-53 in f64, 2^-24 in f32."
@@ -123,37 +127,38 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
         report.line(format!("Scene `{scene}`."));
     }
     report.value("scene", scene);
-    let of_name = |own: &&Scene| Some(own.name.as_str()) == scene;
+    let of_name = |candidate: &&Scene| Some(candidate.name.as_str()) == scene;
     let base = match robot.scenes.iter().find(of_name) {
         Some(scene) => scene.base_coordinates(&robot.robot),
         None => robot.robot.base_coordinates(),
     };
-    if found.is_unlimited {
+    if certificate.is_unlimited {
         let rates =
             format!("Joints without limits: velocities and accelerations up to {RATE} (SI).");
         report.line(rates);
     }
-    if let Some((body, is_default)) = found.payloads {
+    if let Some((body, is_default)) = certificate.payloads {
         let default = ["", " (no range is given)"][usize::from(is_default)];
         report.line(format!("Payloads: {body}{default}."));
     }
-    for (link, body) in &found.bodies {
+    for (link, body) in &certificate.bodies {
         report.line(format!("Bodies of link {link}: {body}."));
     }
     let mut table = Table::new("module|function|rounding|units|states|bounded|why|passed");
     let mut module = "";
-    for line in &found.lines {
+    for line in &certificate.lines {
         if line.module != module {
             module = &line.module;
             report.line(module);
         }
         let words = broken(&words(line), WIDTH - 38).join(&format!("\n{}", " ".repeat(38)));
         report.line(format!("  {:<35} {words}", line.name));
-        let own = line.result.as_ref().ok();
-        let worst = own.and_then(worst);
-        if let Some(own) = own.filter(|own| !own.results.is_empty()) {
+        let findings = line.result.as_ref().ok();
+        let worst = findings.and_then(worst);
+        if let Some(details) = findings.filter(|details| !details.results.is_empty()) {
             let results = Table::new(RESULTS).with(
-                own.results
+                details
+                    .results
                     .iter()
                     .map(|result| row(result, &robot.robot, base)),
             );
@@ -163,20 +168,20 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
         table.row(cells![
             line.module.as_str(),
             line.name.as_str(),
-            Cell::json(worst.map(|own| own.rounding)),
-            Cell::json(worst.map(|own| own.units)),
-            Cell::json(worst.map(|own| own.states)),
-            Cell::json(own.map(Findings::is_bounded)),
+            Cell::json(worst.map(|cost| cost.rounding)),
+            Cell::json(worst.map(|cost| cost.units)),
+            Cell::json(worst.map(|cost| cost.states)),
+            Cell::json(findings.map(Findings::is_bounded)),
             Cell::json(line.result.as_ref().err().map(ToString::to_string)),
-            Cell::json(own.is_some()),
+            Cell::json(findings.is_some()),
         ]);
     }
     report.value("file", name.to_string());
     report.value("functions", table.json());
-    report.value("passed", found.passes(args.strict));
+    report.value("passed", certificate.passes(args.strict));
     let mut done = Done::from(report);
-    if !found.passes(args.strict) {
-        let why = match found.passes(false) {
+    if !certificate.passes(args.strict) {
+        let why = match certificate.passes(false) {
             true => format!(
                 "error: --strict is set, and some functions of {name} are measured, not shown"
             ),
@@ -189,11 +194,11 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
 
 /// Both scalars in Rust have one claim.
 pub(crate) fn claim_of(file: &Path) -> PathBuf {
-    let own = file.with_extension("claim.json");
+    let claim = file.with_extension("claim.json");
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
     match stem.strip_suffix("_f32") {
-        Some(base) if !own.exists() => file.with_file_name(format!("{base}.claim.json")),
-        _ => own,
+        Some(base) if !claim.exists() => file.with_file_name(format!("{base}.claim.json")),
+        _ => claim,
     }
 }
 
@@ -223,9 +228,13 @@ fn words(line: &Line) -> String {
                 (None, bounded) => format!("shown; {}", bounded.unwrap_or_default()),
                 (Some(measured), None) => format!("measured, not shown; {measured}"),
                 (Some(measured), Some(bounded)) => {
-                    let names = shown.costs.iter().filter(|own| own.is_bounded);
-                    let names: Vec<&str> = names.map(|own| own.name.as_str()).collect();
-                    let names = names.join(", ");
+                    let names = shown
+                        .costs
+                        .iter()
+                        .filter(|cost| cost.is_bounded)
+                        .map(|cost| cost.name.as_str())
+                        .collect::<Vec<&str>>()
+                        .join(", ");
                     format!("measured, not shown; {measured}; of {names} {bounded}")
                 }
             }
@@ -244,7 +253,7 @@ fn worst(shown: &Findings) -> Option<&Cost> {
 /// The file names another robot, or other options for its chain.
 fn origin(args: &CertifyArgs, source: &str, robot: &Source) -> Result<Option<String>, Failure> {
     let file = &args.file;
-    let (own, hash) = (&robot.robot, input_hash(&robot.robot));
+    let (arm, hash) = (&robot.robot, input_hash(&robot.robot));
     let is_own = |input: &str| input.len() >= 16 && hash.starts_with(input);
     let Some((name, input)) = named(source).filter(|(_, input)| !is_own(input)) else {
         return Ok(None);
@@ -261,18 +270,18 @@ fn origin(args: &CertifyArgs, source: &str, robot: &Source) -> Result<Option<Str
             robot.path.display()
         )));
     }
-    let found = format!(
+    let mismatch = format!(
         "`{}` is of robot `{name}`, input {input:.16}; `{}` is robot `{}`, input {hash:.16}",
         file.display(),
         robot.path.display(),
-        own.name
+        arm.name
     );
-    match *name == own.name {
+    match *name == arm.name {
         true => Ok(Some(format!(
-            "note: {found}: the robot file was edited since"
+            "note: {mismatch}: the robot file was edited since"
         ))),
         false => Err(Failure::Check(format!(
-            "error: {found}\n  = help: give --robot the robot file that it was generated from"
+            "error: {mismatch}\n  = help: give --robot the robot file that it was generated from"
         ))),
     }
 }

@@ -28,8 +28,8 @@ pub fn report(
 ) -> Report {
     let mut report = Report::of(robot, request.scene.as_ref());
     report.table("functions", "", operations(generated, detail));
-    let lanes = Table::new("function|lanes|each|shared");
-    let lanes = lanes.with(generated.functions.iter().filter_map(lanes_of));
+    let lanes = Table::new("function|lanes|each|shared")
+        .with(generated.functions.iter().filter_map(lanes_of));
     let title = "limbs as lanes of loops: operations of each lane, and those that lanes share";
     report.table("lanes", title, lanes);
     let heads = "function|scalar|trig_mul|trig_add|angles|error";
@@ -39,12 +39,16 @@ pub fn report(
     if detail == Detail::Whole {
         whole(&mut report, robot, request, generated);
     }
-    for own in &generated.functions {
-        if let (Some(admitted), true) = (&own.admitted, detail != Detail::Counts) {
-            tolerance(&mut report, own.function, admitted, generated.ended);
+    for function in &generated.functions {
+        if let (Some(admitted), true) = (&function.admitted, detail != Detail::Counts) {
+            tolerance(&mut report, function.function, admitted, generated.ended);
         }
     }
-    let proved = match generated.functions.iter().any(|own| own.admitted.is_some()) {
+    let proved = match generated
+        .functions
+        .iter()
+        .any(|function| function.admitted.is_some())
+    {
         true => "proved before anything was left out, and shown to stay within the tolerance",
         false => "proved equal to the equations of motion",
     };
@@ -66,10 +70,10 @@ fn operations(generated: &GeneratedCode, detail: Detail) -> Table {
     let mut table = Table::keyed(&format!("function|{COUNTS}|{more}"));
     let scalar = generated.emitted.first().map(|emitted| emitted.scalar);
     for function in &generated.functions {
-        let own = scalar.map_or(function.counts(), |scalar| function.counts_in(scalar));
+        let operations = scalar.map_or(function.counts(), |scalar| function.counts_in(scalar));
         let plan = if function.planned { ", plan" } else { "" };
         let mut row = cells![function.function.to_string()];
-        row.extend(counts(&own));
+        row.extend(counts(&operations));
         row.extend(cells![
             function.program.dag.depth(),
             calls(generated, function.function),
@@ -84,19 +88,24 @@ fn operations(generated: &GeneratedCode, detail: Detail) -> Table {
 
 fn lanes_of(function: &GeneratedFunction) -> Option<Vec<Cell>> {
     let program = &function.program;
-    let all = program.dag.operations().count();
+    let total = program.dag.operations().count();
     let loops = program.loops.iter();
-    let inside: usize = loops.map(|own| own.rows * own.lanes).sum();
+    let inside: usize = loops
+        .map(|lane_loop| lane_loop.rows * lane_loop.lanes)
+        .sum();
     let joined = |number: fn(&Loop) -> usize| {
-        let numbers = program.loops.iter().map(|own| number(own).to_string());
+        let numbers = program
+            .loops
+            .iter()
+            .map(|lane_loop| number(lane_loop).to_string());
         numbers.collect::<Vec<String>>().join(" + ")
     };
     (inside > 0).then(|| {
         cells![
             function.function.to_string(),
-            joined(|own| own.lanes),
-            joined(|own| own.rows),
-            all - inside,
+            joined(|lane_loop| lane_loop.lanes),
+            joined(|lane_loop| lane_loop.rows),
+            total - inside,
         ]
     })
 }
@@ -121,11 +130,14 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
         report.line(format!("\n{refused}"));
     }
     // What a tolerance admits has its bounds.
-    let has_tolerance = generated.functions.iter().any(|own| own.admitted.is_some());
-    if let Some(own) = request.setup(robot).ok().filter(|_| !has_tolerance) {
+    let has_tolerance = generated
+        .functions
+        .iter()
+        .any(|function| function.admitted.is_some());
+    if let Some(setup) = request.setup(robot).ok().filter(|_| !has_tolerance) {
         let states = affordable_states(robot.joints.len());
-        let drawn = own.states(states, SEED);
-        let bench = Bench::new(own);
+        let drawn = setup.states(states, SEED);
+        let bench = Bench::new(setup);
         let rows = generated.emitted.iter().map(|emitted| {
             let worst = bench.measure(&Code::emitted(emitted), &drawn, &drawn);
             let [vector, entry] = largest(&worst).map(Cell::units);
@@ -140,13 +152,16 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
         report.table("rounding", title, table);
     }
     let mut stages = Table::new(&format!("function|stage|{COUNTS}"));
-    for own in &generated.functions {
+    for function in &generated.functions {
         // What the tolerance left of it is what is emitted.
-        let last = own.admitted.is_some().then(|| ("tolerance", own.counts()));
-        let passes = own.passes.iter().map(|pass| (pass.name, pass.counts));
-        for (stage, found) in passes.chain(last) {
-            let mut row = cells![own.function.to_string(), stage];
-            row.extend(counts(&found));
+        let last = function
+            .admitted
+            .is_some()
+            .then(|| ("tolerance", function.counts()));
+        let passes = function.passes.iter().map(|pass| (pass.name, pass.counts));
+        for (stage, operations) in passes.chain(last) {
+            let mut row = cells![function.function.to_string(), stage];
+            row.extend(counts(&operations));
             stages.row(row);
         }
     }
@@ -155,10 +170,10 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
 }
 
 fn tolerance(report: &mut Report, function: Function, admitted: &VariantSet, ended: bool) {
-    for own in &admitted.variants {
-        let scalar = own.scalar;
+    for variant in &admitted.variants {
+        let scalar = variant.scalar;
         let title = format!("{function} in {scalar}, shown");
-        let table = Table::new(BOUNDS).with(bounds(own));
+        let table = Table::new(BOUNDS).with(bounds(variant));
         report.table(&format!("shown/{function}/{scalar}"), title, table);
     }
     if !admitted.is_other() {
@@ -176,22 +191,22 @@ pub const BOUNDS: &str = "output|T|real|rounding|E";
 /// Returns the bounds of a variant, result by result, relative to T.
 pub fn bounds(variant: &Variant) -> impl Iterator<Item = Vec<Cell>> {
     let pairs = variant.bounds.iter().zip(&variant.scales);
-    pairs.enumerate().map(|(index, (own, &scale))| {
+    pairs.enumerate().map(|(index, (bound, &scale))| {
         let cell = |x: f64| Cell::of(bound_of(x, 4), x);
         cells![
             variant.emitted.entry(index),
             Cell::of(bound_of(scale, 5), scale),
-            cell(own.real),
-            cell(own.rounding),
-            cell(own.total()),
+            cell(bound.real),
+            cell(bound.rounding),
+            cell(bound.total()),
         ]
     })
 }
 
 fn refused(function: &GeneratedFunction) -> Option<String> {
     let refused = function.refused.filter(|_| function.admitted.is_none())?;
-    let own = function.counts().operations();
-    let fewer = own.saturating_sub(refused.counts.operations());
+    let operations = function.counts().operations();
+    let fewer = operations.saturating_sub(refused.counts.operations());
     let [error, taken] = [refused.error, refused.taken].map(|u| format!("{u:.0}"));
     // The limit holds for every result; the largest error may be another's.
     let price = match error == taken {

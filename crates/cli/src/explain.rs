@@ -72,7 +72,10 @@ pub fn explain(robot: &Robot, request: &Request) -> Result<Vec<Explanation>, Gen
     let mut explanations: Vec<Explanation> = Vec::new();
     let mut programs = Vec::new();
     for &function in &request.functions {
-        if explanations.iter().any(|own| own.function == function) {
+        if explanations
+            .iter()
+            .any(|explanation| explanation.function == function)
+        {
             continue;
         }
         let (rows, program) = steps::exact(&job, function)?;
@@ -111,8 +114,8 @@ impl Explanation {
                 sizes,
                 vanishing: vec![false; function.outputs(sizes)],
                 run: match &row.code {
-                    Code::Formula(own) => {
-                        Box::new(|state| formula(setup, &arm, *own, function, state))
+                    Code::Formula(formulation) => {
+                        Box::new(|state| formula(setup, &arm, *formulation, function, state))
                     }
                     Code::Program(program) => {
                         let text = program.in_doubles();
@@ -209,9 +212,9 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
          of a vector relative to its largest entry, of an entry relative to its own largest value"
     ));
     report.value("states", STATES);
-    for own in &explained {
-        let name = own.function.to_string();
-        report.table(&format!("functions/{name}"), &name, steps_of(own));
+    for explanation in &explained {
+        let name = explanation.function.to_string();
+        report.table(&format!("functions/{name}"), &name, steps_of(explanation));
     }
     if request.scene.is_none() && robot.floating.is_none() {
         let heads = "formulation=Table 3, torques|mul|add|mul as written|add as written";
@@ -251,15 +254,20 @@ fn targets(args: &ExplainArgs, context: &Context) -> Result<Option<[Target; 2]>,
     ]))
 }
 
-fn steps_of(own: &Explanation) -> Table {
+fn steps_of(explanation: &Explanation) -> Table {
     let mut table = Table::new(&format!("step|.key|{COUNTS}|vector|entry"));
-    for (index, (row, rounding)) in own.rows.iter().zip(own.rounding(STATES)).enumerate() {
+    for (index, (row, rounding)) in explanation
+        .rows
+        .iter()
+        .zip(explanation.rounding(STATES))
+        .enumerate()
+    {
         let is_emitted = matches!(row.code, Code::Emitted(..));
         let mut title = row.title().to_owned();
         if is_emitted {
             title += &format!(", in {}", row.scalar());
         }
-        if is_emitted || index + 1 == own.rows.len() {
+        if is_emitted || index + 1 == explanation.rows.len() {
             title += ": generated";
         }
         let mut cells = cells![title, Cell::json(row.step)];

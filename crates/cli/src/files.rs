@@ -89,7 +89,8 @@ impl<'c> Files<'c> {
             Place::Standard => {}
             Place::Stream(stream) => enter(stream).map_err(|error| refused(path, error))?,
             Place::File(file) => {
-                let is_in = |all: &[Target]| all.iter().any(|other| other.place == target.place);
+                let is_in =
+                    |targets: &[Target]| targets.iter().any(|other| other.place == target.place);
                 let why = if is_in(&self.inputs) {
                     Some("this run reads it\n  = help: give another name")
                 } else if is_in(&self.targets) {
@@ -139,8 +140,8 @@ pub fn write(outputs: &[(Target, String)]) -> Result<(), Failure> {
         if let Place::File(file) = &target.place {
             let part = fs::create_dir_all(folder(file))
                 .and_then(|()| unfinished(folder(file)))
-                .and_then(|mut part| part.write_all(text.as_bytes()).map(|()| part));
-            let part = part.map_err(|error| refused(&target.name, error))?;
+                .and_then(|mut part| part.write_all(text.as_bytes()).map(|()| part))
+                .map_err(|error| refused(&target.name, error))?;
             parts.push((target, file, part));
         }
     }
@@ -166,8 +167,8 @@ pub fn write(outputs: &[(Target, String)]) -> Result<(), Failure> {
 /// Refuses a path with the extension of another format.
 pub fn ends_in(path: Option<&Path>, ending: &str) -> Result<(), Failure> {
     let other = path.filter(|path| {
-        let found = path.extension();
-        found.is_some_and(|found| !found.eq_ignore_ascii_case(ending))
+        let extension = path.extension();
+        extension.is_some_and(|suffix| !suffix.eq_ignore_ascii_case(ending))
     });
     let Some(path) = other else {
         return Ok(());
@@ -214,8 +215,8 @@ fn target(path: &Path) -> Result<Target, String> {
     }
     let is_open = OPEN.iter().any(|open| path.starts_with(open));
     match fs::metadata(path) {
-        Ok(found) if found.is_dir() => Err(FOLDER.into()),
-        Ok(found) if found.is_file() && !is_open => {
+        Ok(metadata) if metadata.is_dir() => Err(FOLDER.into()),
+        Ok(metadata) if metadata.is_file() && !is_open => {
             let file = fs::canonicalize(path).map_err(|error| error.to_string())?;
             of(Place::File(file))
         }

@@ -100,8 +100,9 @@ impl FormulaArgs {
 }
 
 fn word_of(layout: &Layout) -> &'static str {
-    let mut all = Layout::all().into_iter();
-    all.find(|(_, other)| other == layout)
+    let mut layouts = Layout::all().into_iter();
+    layouts
+        .find(|(_, other)| other == layout)
         .map_or("", |(word, _)| word)
 }
 
@@ -110,7 +111,7 @@ fn word_of(layout: &Layout) -> &'static str {
 fn is_regular(path: &Path) -> bool {
     let is_other = || {
         path.metadata()
-            .is_ok_and(|found| !found.is_file() && !found.is_dir())
+            .is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir())
     };
     path != Path::new("-") && !is_other()
 }

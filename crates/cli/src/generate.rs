@@ -35,7 +35,9 @@ pub struct GenerateArgs {
 
 pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
     let language = language(args);
-    let scalars = language.as_ref().map_or(&[][..], |own| own.scalars());
+    let scalars = language
+        .as_ref()
+        .map_or(&[][..], |language| language.scalars());
     let source = Source::open(context, &args.task.robot, &args.task.chain)?;
     if !source.is_model {
         say_notes(context, &source.robot);
@@ -53,7 +55,7 @@ pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
     let mut announced = None;
     if let Some(target) = plan_target {
         let kept = keep(&source.robot, &request, &generated, kept);
-        for (function, scalar) in kept.own {
+        for (function, scalar) in kept.functions {
             context.say(&format!(
                 "the plan's program for `{function}` in {scalar} stays: the search, ended early, found none that is cheaper"
             ));
@@ -112,8 +114,9 @@ fn targets(
     let code = code(args, &mut files, request)?;
     let file = code.first().and_then(Target::file);
     let claim = file.and(args.output.as_ref());
-    let claim = claim.map(|file| files.add(&file.with_extension("claim.json")));
-    let claim = claim.transpose()?;
+    let claim = claim
+        .map(|file| files.add(&file.with_extension("claim.json")))
+        .transpose()?;
     let plan = args.save_plan.then(|| files.add(&path)).transpose()?;
     Ok((code, [claim, plan]))
 }

@@ -111,12 +111,12 @@ fn state(keys: &BTreeMap<String, Numbers>, robot: &Robot) -> (GivenState, Vec<St
     let state = JointState::new(|argument| {
         let length = argument.length(sizes);
         if argument == Argument::Gravity && robot.floating.is_some() {
-            let own = robot.gravity.each_ref().map(f64::nearest_rational);
-            return values(GRAVITY, length).unwrap_or_else(|| own.to_vec());
+            let gravity = robot.gravity.each_ref().map(f64::nearest_rational);
+            return values(GRAVITY, length).unwrap_or_else(|| gravity.to_vec());
         }
-        let given = argument.given().and_then(|key| values(key, length));
+        let entries = argument.given().and_then(|key| values(key, length));
         let is_motion = Argument::JOINTS[..3].contains(&argument);
-        given.unwrap_or_else(|| vec![0.0; if is_motion { length } else { 0 }])
+        entries.unwrap_or_else(|| vec![0.0; if is_motion { length } else { 0 }])
     });
     let mut known = BTreeMap::new();
     let quantities = results().chain(keys.keys().filter_map(|key| at_frame(key)));
@@ -127,7 +127,10 @@ fn state(keys: &BTreeMap<String, Numbers>, robot: &Robot) -> (GivenState, Vec<St
         wrong.push("`q` is missing".into());
     }
     for (quantity, key) in known.keys().filter_map(|q| Some((q, q.facts().given?))) {
-        let needed = quantity.arguments().iter().filter_map(|own| own.given());
+        let needed = quantity
+            .arguments()
+            .iter()
+            .filter_map(|argument| argument.given());
         for missing in needed.filter(|need| *need != "q" && !keys.contains_key(*need)) {
             wrong.push(format!("`{missing}` is missing, which `{key}` depends on"));
         }
@@ -158,18 +161,18 @@ fn state(keys: &BTreeMap<String, Numbers>, robot: &Robot) -> (GivenState, Vec<St
 }
 
 fn results() -> impl Iterator<Item = (&'static str, Quantity)> {
-    let all = Quantity::ALL.iter();
-    all.filter_map(|&quantity| Some((quantity.facts().given?, quantity)))
+    let quantities = Quantity::ALL.iter();
+    quantities.filter_map(|&quantity| Some((quantity.facts().given?, quantity)))
 }
 
 /// Returns the quantity of a key with a frame: `jacobian@camera:local`.
 fn at_frame(key: &str) -> Option<(&'static str, Quantity)> {
     let (name, view) = key.split_once('@')?;
-    let (_, quantity) = results().find(|(own, _)| *own == name)?;
+    let (_, quantity) = results().find(|(word, _)| *word == name)?;
     let function = Function::parse(&format!("{}@{view}", quantity.function())).ok()?;
     let quantity = *function.quantities().first()?;
-    let own = quantity.facts().given.filter(|own| *own == key)?;
-    Some((own, quantity))
+    let full_key = quantity.facts().given.filter(|word| *word == key)?;
+    Some((full_key, quantity))
 }
 
 /// One quantity of one function, compared at every state that gives it.
@@ -192,8 +195,8 @@ pub struct Comparison {
 
 /// Returns the quantities to compare with given states: of h_ikm, the load h that they give.
 pub fn quantities(function: Function) -> impl Iterator<Item = Quantity> {
-    let all = function.quantities().iter();
-    all.map(|quantity| quantity.as_given(&[], &[]).0)
+    let quantities = function.quantities().iter();
+    quantities.map(|quantity| quantity.as_given(&[], &[]).0)
 }
 
 /// Runs the code of a runtime's robot at every state; sines are libm's.
@@ -203,29 +206,29 @@ pub fn compare(
     robot: &Robot,
     states: &[GivenState],
 ) -> Vec<Comparison> {
-    let own = emitted.with_libm();
+    let code = emitted.with_libm();
     let function = emitted.function;
     let sizes = Sizes::of(robot);
-    let mut all: BTreeMap<Quantity, Comparison> = BTreeMap::new();
-    for (index, given) in states.iter().enumerate() {
+    let mut comparisons: BTreeMap<Quantity, Comparison> = BTreeMap::new();
+    for (index, state) in states.iter().enumerate() {
         // A state need not have what only some functions read.
         let mut arguments = function.arguments().into_iter();
-        if arguments.any(|argument| given.state.entries(argument).len() != argument.length(sizes)) {
+        if arguments.any(|argument| state.state.entries(argument).len() != argument.length(sizes)) {
             continue;
         }
-        let results = own.run(&given.state);
-        let granted = runtime.granted(function, &given.state);
+        let results = code.run(&state.state);
+        let granted = runtime.granted(function, &state.state);
         let mut start = 0;
         for &returned in function.quantities() {
             let values = &results[start..start + returned.len(emitted.sizes)];
             start += returned.len(emitted.sizes);
-            let (quantity, values) = returned.as_given(values, &given.state.qd);
-            let Some(known) = given.known.get(&quantity) else {
+            let (quantity, values) = returned.as_given(values, &state.state.qd);
+            let Some(known) = state.known.get(&quantity) else {
                 continue;
             };
             let (entry, error) = worst(&values, known);
             let error = error / granted.factor(returned);
-            let compared = all.entry(quantity).or_insert_with(|| Comparison {
+            let compared = comparisons.entry(quantity).or_insert_with(|| Comparison {
                 function,
                 quantity,
                 states: 0,
@@ -248,7 +251,7 @@ pub fn compare(
             }
         }
     }
-    all.into_values().collect()
+    comparisons.into_values().collect()
 }
 
 fn place(quantity: Quantity, entry: usize, robot: &Robot) -> String {
@@ -289,18 +292,18 @@ pub(crate) fn describe(
 ) {
     let heads = "function|result|states|error|bound|.disagreeing|.worst|verdict=";
     let mut table = Table::new(heads);
-    for own in compared {
-        let quantity = own.quantity;
-        let agrees = own.disagreeing == 0;
+    for comparison in compared {
+        let quantity = comparison.quantity;
+        let agrees = comparison.disagreeing == 0;
         let verdict = if agrees { "ok" } else { "DISAGREES" };
         table.row(cells![
-            own.function.to_string(),
+            comparison.function.to_string(),
             quantity.facts().given.unwrap_or_else(|| quantity.symbol()),
-            own.states,
-            Cell::power(own.error, 1),
+            comparison.states,
+            Cell::power(comparison.error, 1),
             Cell::power(BOUND, 1),
-            own.disagreeing,
-            own.worst.as_str(),
+            comparison.disagreeing,
+            comparison.worst.as_str(),
             verdict,
         ]);
     }
@@ -309,25 +312,38 @@ pub(crate) fn describe(
     done.report.table("given", title, table);
     let known = states.iter().flat_map(|state| state.known.keys().copied());
     let mut missed: BTreeSet<Quantity> = known.collect();
-    missed.retain(|quantity| !compared.iter().any(|own| own.quantity == *quantity));
-    let missed: Vec<&str> = missed.iter().filter_map(|own| own.facts().given).collect();
+    missed.retain(|quantity| {
+        !compared
+            .iter()
+            .any(|comparison| comparison.quantity == *quantity)
+    });
+    let missed: Vec<&str> = missed
+        .iter()
+        .filter_map(|quantity| quantity.facts().given)
+        .collect();
     if !missed.is_empty() {
         let why = "not compared, since no function of --outputs returns it";
         done.report.line(format!("{why}: {}", missed.join(", ")));
     }
-    let mut wrong: Vec<&Comparison> = compared.iter().filter(|own| own.disagreeing > 0).collect();
+    let mut wrong: Vec<&Comparison> = compared
+        .iter()
+        .filter(|comparison| comparison.disagreeing > 0)
+        .collect();
     // Several functions return the same quantity: it is named once.
-    wrong.sort_by_key(|own| own.quantity);
-    wrong.dedup_by_key(|own| own.quantity);
+    wrong.sort_by_key(|comparison| comparison.quantity);
+    wrong.dedup_by_key(|comparison| comparison.quantity);
     if wrong.is_empty() {
         return;
     }
     let mut text = format!("error: {file}: the robot disagrees with the states");
-    for own in wrong {
-        let (worst, off, all) = (&own.worst, own.disagreeing, own.states);
-        text += &format!("\n  {worst}; {off} of {all} states disagree");
+    for comparison in wrong {
+        let (worst, off, total) = (&comparison.worst, comparison.disagreeing, comparison.states);
+        text += &format!("\n  {worst}; {off} of {total} states disagree");
     }
-    let worst = compared.iter().map(|own| own.error).fold(0.0, f64::max);
+    let worst = compared
+        .iter()
+        .map(|comparison| comparison.error)
+        .fold(0.0, f64::max);
     done.failed.push(match worst < FEW_DIGITS {
         true => format!(
             "{text}\n  = help: all values agree to {:.1} digits: were they written with fewer than 17, \

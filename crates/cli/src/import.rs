@@ -97,7 +97,7 @@ pub(crate) fn run(args: &ImportArgs, context: &Context) -> Outcome {
     };
     say(args, context, &made, &source);
     let mut done = Done::from(match made.as_slice() {
-        [own] if !args.all => one(own, path, &source),
+        [import] if !args.all => one(import, path, &source),
         _ => all(&made, shared, path, &source),
     });
     done.is_aside = true;

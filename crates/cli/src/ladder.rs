@@ -45,7 +45,7 @@ impl Point {
 
     /// Counts its operations, those of its sines included.
     pub fn counts(&self) -> Counts {
-        let kernels = self.variant.sines.iter().map(|own| &own.kernel);
+        let kernels = self.variant.sines.iter().map(|sine| &sine.kernel);
         self.variant.emitted.counts().with_kernels(kernels)
     }
 
@@ -78,10 +78,10 @@ pub fn mark(points: &mut [Point]) {
         let is_wide = point.variant.scalar == ScalarType::F64;
         ([usize::from(is_wide), point.cost()], point.bound)
     };
-    let all: Vec<([usize; 2], f64)> = points.iter().map(cost).collect();
+    let costs: Vec<([usize; 2], f64)> = points.iter().map(cost).collect();
     for (index, point) in points.iter_mut().enumerate() {
-        let (mine, error) = all[index];
-        point.dominated = all.iter().enumerate().any(|(other, &(theirs, e))| {
+        let (mine, error) = costs[index];
+        point.dominated = costs.iter().enumerate().any(|(other, &(theirs, e))| {
             let no_worse = theirs.iter().zip(&mine).all(|(a, b)| a <= b) && e <= error;
             let same = theirs == mine && e == error;
             no_worse && (!same || other < index)
@@ -124,10 +124,10 @@ impl<'a> Ladder<'a> {
             let fine = budget.unedited(&[*scalar], &budget.all_allowed(2.0 * most));
             Ok(fine.unwrap_or(rough).variants)
         };
-        let found = ScalarType::ALL.iter().map(shown);
-        let found: Vec<Result<Vec<Variant>, ToleranceError>> = found.collect();
-        if let Some(Err(why)) = found.iter().rfind(|own| own.is_err())
-            && found.iter().all(Result::is_err)
+        let variants: Vec<Result<Vec<Variant>, ToleranceError>> =
+            ScalarType::ALL.iter().map(shown).collect();
+        if let Some(Err(why)) = variants.iter().rfind(|result| result.is_err())
+            && variants.iter().all(Result::is_err)
         {
             return Err(why.clone());
         }
@@ -135,7 +135,7 @@ impl<'a> Ladder<'a> {
             samples,
             budget,
             effort: SearchEffort::of(effort),
-            exact: found.into_iter().flatten().flatten().collect(),
+            exact: variants.into_iter().flatten().flatten().collect(),
         })
     }
 
@@ -168,7 +168,7 @@ impl<'a> Ladder<'a> {
             false => self.variants(tolerance, before),
         };
         begin(&format!("attempts to refute {tolerance:e}"));
-        let points = each(&variants, |own| self.point(tolerance, own));
+        let points = each(&variants, |variant| self.point(tolerance, variant));
         points.into_iter().collect()
     }
 
@@ -176,53 +176,65 @@ impl<'a> Ladder<'a> {
     fn variants(&self, tolerance: f64, before: Option<&Point>) -> Vec<Variant> {
         let budget = self.budget;
         let allowed = budget.all_allowed(tolerance);
-        let able = self.exact.iter().filter(|own| own.worst() <= tolerance);
-        let able: Vec<&Variant> = able.collect();
-        let alike = able.iter().all(|own| own.worst() <= SHARE * tolerance);
+        let able: Vec<&Variant> = self
+            .exact
+            .iter()
+            .filter(|variant| variant.worst() <= tolerance)
+            .collect();
+        let alike = able
+            .iter()
+            .all(|variant| variant.worst() <= SHARE * tolerance);
         let groups: Vec<&[&Variant]> = match alike {
             true => vec![&able],
             false => able.chunks(1).collect(),
         };
-        let from = before.map(|point| point.variant.emitted.clone());
-        let from = from.filter(|program| program != budget.exact);
-        let from: Vec<Program> = from.into_iter().collect();
-        let mut all = Vec::new();
+        let from: Vec<Program> = before
+            .map(|point| point.variant.emitted.clone())
+            .filter(|program| program != budget.exact)
+            .into_iter()
+            .collect();
+        let mut variants = Vec::new();
         for group in groups.into_iter().filter(|group| !group.is_empty()) {
             let exact = VariantSet {
                 exact: budget.exact.clone(),
                 program: budget.exact.clone(),
-                variants: group.iter().map(|own| (*own).clone()).collect(),
+                variants: group.iter().map(|variant| (*variant).clone()).collect(),
             };
             let watch = Default::default();
-            let found = budget.choose(&from, exact.clone(), &allowed, &self.effort, watch);
-            let found = found.unwrap_or(exact);
-            for variant in found.variants {
-                let polynomials = budget.with_polynomials(&found.program, &variant, &allowed);
-                all.push(variant);
-                all.extend(polynomials.ok().filter(|own| !own.sines.is_empty()));
+            let choice = budget
+                .choose(&from, exact.clone(), &allowed, &self.effort, watch)
+                .unwrap_or(exact);
+            for variant in choice.variants {
+                let polynomials = budget.with_polynomials(&choice.program, &variant, &allowed);
+                variants.push(variant);
+                variants.extend(
+                    polynomials
+                        .ok()
+                        .filter(|candidate| !candidate.sines.is_empty()),
+                );
             }
         }
-        all
+        variants
     }
 
     fn point(&self, tolerance: f64, variant: &Variant) -> Result<Point, TextError> {
         let climbs = if self.samples == 0 { 0 } else { CLIMBS };
-        let found = attempt(self.budget.setup, variant, self.samples, climbs, 1)?;
-        let largest = |own: Vec<f64>| own.into_iter().fold(0.0, f64::max);
-        let violation = found.violation.map(|(index, state)| {
+        let attempt = attempt(self.budget.setup, variant, self.samples, climbs, 1)?;
+        let largest = |errors: Vec<f64>| errors.into_iter().fold(0.0, f64::max);
+        let violation = attempt.violation.map(|(index, state)| {
             format!(
                 "{} errs by more than its E of {:e}, as at {state:?}",
                 variant.emitted.entry(index),
                 variant.bounds[index].total()
             )
         });
-        let rounding = variant.bounds.iter().map(|own| own.rounding);
+        let rounding = variant.bounds.iter().map(|bound| bound.rounding);
         Ok(Point {
             tolerance,
             bound: variant.worst(),
             rounding: rounding.fold(0.0, f64::max),
             variant: variant.clone(),
-            observed: found.observed.map(largest),
+            observed: attempt.observed.map(largest),
             dominated: false,
             violation,
         })

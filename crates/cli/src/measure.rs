@@ -43,13 +43,13 @@ impl Code<'_> {
     /// Takes an emitted function, with the sines of libm in the place of polynomials: how far these
     /// are from sines is measured apart.
     pub fn emitted(emitted: &RunnableCode) -> Code<'static> {
-        let own = emitted.with_libm();
+        let code = emitted.with_libm();
         Code {
-            function: own.function,
-            scalar: own.scalar,
-            sizes: own.sizes,
-            vanishing: own.vanishing().collect(),
-            run: Box::new(move |state| own.run(state)),
+            function: code.function,
+            scalar: code.scalar,
+            sizes: code.sizes,
+            vanishing: code.vanishing().collect(),
+            run: Box::new(move |state| code.run(state)),
         }
     }
 }
@@ -77,8 +77,11 @@ pub struct Worst {
 
 /// Returns the largest [`Worst::vector`] and [`Worst::entry`] of a function's quantities, in u.
 pub fn largest(worst: &[Worst]) -> [f64; 2] {
-    [|own: &Worst| own.vector, |own: &Worst| own.entry]
-        .map(|of| worst.iter().map(of).fold(0.0, f64::max))
+    [
+        |measurement: &Worst| measurement.vector,
+        |measurement: &Worst| measurement.entry,
+    ]
+    .map(|of| worst.iter().map(of).fold(0.0, f64::max))
 }
 
 /// States with the true values of a function there, for code in one scalar.
@@ -108,9 +111,12 @@ impl Samples {
 impl Bench {
     /// Prepares the measurement of a robot's functions.
     pub fn new(robot: Setup) -> Bench {
-        let sizes = robot.robot().joints.iter();
-        let sizes = sizes.flat_map(|joint| [&joint.mass, &joint.a, &joint.d]);
-        let sizes = sizes.map(|size| f64::nearest_rational(size).abs());
+        let sizes = robot
+            .robot()
+            .joints
+            .iter()
+            .flat_map(|joint| [&joint.mass, &joint.a, &joint.d])
+            .map(|size| f64::nearest_rational(size).abs());
         let largest = sizes.fold(1.0, f64::max);
         Bench {
             reference: Reference::new(&robot),
@@ -145,8 +151,11 @@ impl Bench {
         scales: &[JointState],
     ) -> Samples {
         // A state that a scalar cannot hold is another state.
-        let states = states.iter().map(|state| state.in_scalar(scalar));
-        let states: Vec<JointState> = states.filter(JointState::is_finite).collect();
+        let states: Vec<JointState> = states
+            .iter()
+            .map(|state| state.in_scalar(scalar))
+            .filter(JointState::is_finite)
+            .collect();
         let mut sizes: Vec<f64> = Vec::new();
         for state in scales {
             let values = self.runtime.run(function, state);
@@ -178,7 +187,7 @@ impl Bench {
     pub fn compare(&self, code: &Code<'_>, samples: &Samples) -> Vec<Worst> {
         let (function, scalar) = (code.function, code.scalar);
         let states = &samples.states;
-        let found: Vec<Vec<f64>> = states.iter().map(|state| (code.run)(state)).collect();
+        let results: Vec<Vec<f64>> = states.iter().map(|state| (code.run)(state)).collect();
         let mut start = 0;
         let worst = |&quantity: &Quantity| {
             let range = start..start + quantity.len(code.sizes);
@@ -193,13 +202,13 @@ impl Bench {
                 state: states.first().cloned().unwrap_or_default(),
                 overflows: false,
             };
-            let truths = samples.truths.iter().zip(&found);
+            let truths = samples.truths.iter().zip(&results);
             let runs = states.iter().zip(&samples.granted).zip(truths);
-            for ((state, granted), (truth, found)) in runs {
-                worst.overflows |= found[range.clone()].iter().any(|x| !x.is_finite());
+            for ((state, granted), (truth, result)) in runs {
+                worst.overflows |= result[range.clone()].iter().any(|x| !x.is_finite());
                 let condition = granted.factor(quantity);
                 let unit = condition * scalar.unit_roundoff();
-                let errors = self.errors(code, range.clone(), truth, found, &samples.sizes);
+                let errors = self.errors(code, range.clone(), truth, result, &samples.sizes);
                 let [vector, entry] = errors.map(|error| relative(error, unit));
                 worst.entry = worst.entry.max(entry);
                 if vector > worst.vector {
@@ -217,7 +226,7 @@ impl Bench {
         code: &Code<'_>,
         range: Range<usize>,
         truth: &[TrueValue],
-        found: &[f64],
+        result: &[f64],
         sizes: &[f64],
     ) -> [f64; 2] {
         let least = match code.scalar {
@@ -228,15 +237,15 @@ impl Bench {
         let (mut error, mut size, mut entry) = (0.0f64, LEAST_PART * largest, 0.0f64);
         for i in range {
             let off = match code.vanishing[i] {
-                true => found[i].abs(),
-                false => (truth[i].error(found[i]) - self.underflow * least).max(0.0),
+                true => result[i].abs(),
+                false => (truth[i].error(result[i]) - self.underflow * least).max(0.0),
             };
             // Gravity does not reach a vertical axis: what is computed there is dust.
-            let own = match sizes[i] > DUST * largest {
+            let scale = match sizes[i] > DUST * largest {
                 true => sizes[i],
                 false => largest,
             };
-            entry = entry.max(relative(off, own));
+            entry = entry.max(relative(off, scale));
             (error, size) = (error.max(off), size.max(truth[i].size()));
         }
         [relative(error, size), entry]

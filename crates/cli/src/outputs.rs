@@ -13,20 +13,24 @@ pub(crate) fn run() -> Outcome {
     let mut report = Report::default();
     let mut functions = Table::keyed("function|takes|returns|unit|meaning|results");
     for function in Function::ALL {
-        let arguments = function.arguments().into_iter().map(Argument::name);
-        let arguments: Vec<&str> = arguments.collect();
+        let arguments: Vec<&str> = function
+            .arguments()
+            .into_iter()
+            .map(Argument::name)
+            .collect();
         let quantities = function.quantities().iter();
-        let results: Vec<[String; 3]> = quantities.map(|&own| result(own)).collect();
+        let results: Vec<[String; 3]> = quantities.map(|&quantity| result(quantity)).collect();
         let of_each = |text: fn(&[String; 3]) -> String| results.iter().map(text);
         let json = results
             .iter()
             .map(|[symbol, shape, unit]| json!({ "symbol": symbol, "shape": shape, "unit": unit }));
         let returned = of_each(|[symbol, shape, _]| format!("{symbol} [{shape}]"));
-        let units: Vec<&str> = results.iter().map(|own| own[2].as_str()).collect();
+        let units: Vec<&str> = results.iter().map(|result| result[2].as_str()).collect();
         let (name, taken) = (function.name(), arguments.join(", "));
         report.line(format!("{name}({taken})"));
-        let described = of_each(|[symbol, shape, unit]| format!("{symbol} [{shape}] in {unit}"));
-        let described = described.collect::<Vec<_>>().join("; ");
+        let described = of_each(|[symbol, shape, unit]| format!("{symbol} [{shape}] in {unit}"))
+            .collect::<Vec<_>>()
+            .join("; ");
         for text in [&*described, function.summary()] {
             for line in broken(text, WIDTH - 4) {
                 report.line(format!("    {line}"));
@@ -43,10 +47,14 @@ pub(crate) fn run() -> Outcome {
     }
     report.value("functions", functions.json());
     let mut arguments = Table::keyed("argument|symbol|meaning");
-    for own in Argument::ALL {
+    for argument in Argument::ALL {
         let mut functions = Function::ALL.into_iter();
-        if functions.any(|function| function.arguments().contains(&own)) {
-            arguments.row(cells![own.name(), own.symbol(), own.meaning()]);
+        if functions.any(|function| function.arguments().contains(&argument)) {
+            arguments.row(cells![
+                argument.name(),
+                argument.symbol(),
+                argument.meaning()
+            ]);
         }
     }
     report.line(

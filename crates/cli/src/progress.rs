@@ -27,18 +27,18 @@ struct SearchProgress {
 
 /// Watches the searches of a request; Ctrl-C ends thorough ones.
 pub fn watch(request: &mut Request) -> Session {
-    let seen = Arc::new(SearchProgress {
+    let progress = Arc::new(SearchProgress {
         functions: Function::in_order(&request.functions),
         stop: AtomicBool::new(false),
         over: AtomicBool::new(false),
     });
     if request.effort == Effort::Thorough {
-        let heard = seen.clone();
+        let heard = progress.clone();
         // If no handler can be set, Ctrl-C ends the process as usual.
         let _ = ctrlc::set_handler(move || heard.interrupt());
     }
-    request.watch = Watch::new(seen.clone());
-    Session(seen)
+    request.watch = Watch::new(progress.clone());
+    Session(progress)
 }
 
 impl SearchProgress {

@@ -46,7 +46,7 @@ pub(crate) fn run(args: &RenewArgs, context: &Context) -> Outcome {
     for file in &files {
         match renewed(context, file) {
             // Both scalars have one claim.
-            Ok(own) => own.into_iter().for_each(|new| {
+            Ok(renewals) => renewals.into_iter().for_each(|new| {
                 if !texts.iter().any(|other: &New| other.path == new.path) {
                     texts.push(new);
                 }
@@ -96,20 +96,20 @@ pub(crate) fn run(args: &RenewArgs, context: &Context) -> Outcome {
 }
 
 fn found(named: &[PathBuf]) -> Result<Vec<StampedFile>, Failure> {
-    let mut all = Vec::new();
+    let mut files = Vec::new();
     for path in named {
-        let own = stamped(path, text(path, MAX_BYTES)?).ok_or_else(|| {
+        let file = stamped(path, text(path, MAX_BYTES)?).ok_or_else(|| {
             Failure::Input(format!(
                 "error: `{}` lacks the first lines of a file that this version of dalembert generates\n  = help: \
                  `dalembert generate ROBOT.toml -o {0}` writes such a file",
                 path.display()
             ))
         });
-        all.push(own?);
+        files.push(file?);
     }
     if named.is_empty() {
-        walk(Path::new("."), &mut all)?;
-        if all.is_empty() {
+        walk(Path::new("."), &mut files)?;
+        if files.is_empty() {
             return Err(Failure::Input(
                 "error: there is no generated file in this folder or below it\n  = help: `dalembert \
                  generate ROBOT.toml -o FILE` writes one"
@@ -117,7 +117,7 @@ fn found(named: &[PathBuf]) -> Result<Vec<StampedFile>, Failure> {
             ));
         }
     }
-    Ok(all)
+    Ok(files)
 }
 
 fn stamped(path: &Path, text: String) -> Option<StampedFile> {
@@ -131,7 +131,7 @@ fn stamped(path: &Path, text: String) -> Option<StampedFile> {
 }
 
 /// Leaves out hidden folders, build folders and links.
-fn walk(folder: &Path, all: &mut Vec<StampedFile>) -> Result<(), Failure> {
+fn walk(folder: &Path, files: &mut Vec<StampedFile>) -> Result<(), Failure> {
     let fail = |error| Failure::Input(format!("error: `{}`: {error}", folder.display()));
     let mut entries: Vec<fs::DirEntry> = fs::read_dir(folder).map_err(fail)?.flatten().collect();
     entries.sort_by_key(fs::DirEntry::file_name);
@@ -142,13 +142,13 @@ fn walk(folder: &Path, all: &mut Vec<StampedFile>) -> Result<(), Failure> {
             continue;
         };
         if kind.is_dir() && !name.starts_with('.') && name != "target" && name != "node_modules" {
-            walk(&path, all)?;
+            walk(&path, files)?;
         }
         if kind.is_file() && Language::of(&path).is_ok() {
             // An unreadable file counts as not generated.
             let text = first_bytes(&path, MAX_BYTES).unwrap_or_default();
             let path = path.strip_prefix(".").unwrap_or(&path);
-            all.extend(stamped(path, String::from_utf8_lossy(&text).into_owned()));
+            files.extend(stamped(path, String::from_utf8_lossy(&text).into_owned()));
         }
     }
     Ok(())
@@ -165,15 +165,19 @@ fn renewed(context: &Context, file: &StampedFile) -> Result<Vec<New>, Failure> {
     let mut request = source.request(&file.stamp.asked, file.language.scalars())?;
     request.language = file.language;
     let generated = source.generate(context, &mut request)?;
-    let code = generated.files(&request, &file.stamp.robot, &source.text);
-    let code = code.into_iter().next().unwrap_or_default();
+    let code = generated
+        .files(&request, &file.stamp.robot, &source.text)
+        .into_iter()
+        .next()
+        .unwrap_or_default();
     let mut new = vec![New {
         path: file.path.clone(),
         differs: difference(&file.text, &code),
         text: code,
     }];
-    let claim = claim(&source.robot, &source.robot_file, &request, &generated);
-    let claim = claim.map_err(Failure::input)?.write();
+    let claim = claim(&source.robot, &source.robot_file, &request, &generated)
+        .map_err(Failure::input)?
+        .write();
     for (path, text) in [
         (claim_of(&file.path), Ok(claim)),
         (file.path.with_extension(EXPECTED), expected(&source.robot)),

@@ -241,8 +241,10 @@ impl Table {
 
     pub fn json(&self) -> Value {
         let object = |cells: &[Cell], columns: &[Column]| -> Value {
-            let pairs = columns.iter().zip(cells);
-            let pairs = pairs.map(|(column, cell)| (column.key.clone(), cell.1.clone()));
+            let pairs = columns
+                .iter()
+                .zip(cells)
+                .map(|(column, cell)| (column.key.clone(), cell.1.clone()));
             Value::Object(pairs.collect())
         };
         let rows = self.rows.iter();
@@ -269,8 +271,10 @@ impl Table {
         let keys = self.columns.iter();
         let heads = keys.map(|column| column.key.clone()).collect();
         let rows = self.rows.iter().map(|row| row.iter().map(cell).collect());
-        let lines = [heads].into_iter().chain(rows);
-        let lines = lines.map(|line: Vec<String>| line.join(",") + "\n");
+        let lines = [heads]
+            .into_iter()
+            .chain(rows)
+            .map(|line: Vec<String>| line.join(",") + "\n");
         lines.collect()
     }
 }
@@ -289,7 +293,9 @@ impl Display for Table {
             let is_left = place == 0 || !cells().any(|cell| cell.1.is_number());
             let before = width(&lines[0]) + 2;
             let room = self.width.saturating_sub(before).max(LEAST);
-            let is_last = self.columns[place + 1..].iter().all(|own| own.is_hidden);
+            let is_last = self.columns[place + 1..]
+                .iter()
+                .all(|column| column.is_hidden);
             if is_last && is_left && wide > room {
                 let next = format!("\n{}", " ".repeat(before));
                 for (line, text) in lines.iter_mut().zip(texts()) {
@@ -339,7 +345,7 @@ pub const COUNTS: &str = "mul|add|fma|div|sqrt|sincos|trig_mul|trig_add";
 
 /// Returns the cells of operation counts.
 pub fn counts(counts: &Counts) -> Vec<Cell> {
-    let all = [
+    let numbers = [
         counts.mul,
         counts.add,
         counts.fma,
@@ -349,7 +355,7 @@ pub fn counts(counts: &Counts) -> Vec<Cell> {
         counts.trig_mul,
         counts.trig_add,
     ];
-    all.into_iter().map(Cell::from).collect()
+    numbers.into_iter().map(Cell::from).collect()
 }
 
 /// Writes `, scene pick` behind a robot, if there is a scene.

@@ -45,8 +45,9 @@ pub(crate) fn run(args: &ShowArgs, context: &Context) -> Outcome {
     let is_drawn = args.output.is_some() || !context.json;
     ends_in(args.output.as_deref(), "svg")?;
     let mut files = Files::new(context, &[&args.robot]);
-    let target = is_drawn.then(|| files.output(args.output.as_deref()));
-    let target = target.transpose()?;
+    let target = is_drawn
+        .then(|| files.output(args.output.as_deref()))
+        .transpose()?;
     let at = position(args, robot)?;
     for (index, (text, q)) in args.at.iter().zip(&at).enumerate() {
         if let Some(warning) = doubtful(robot, index, text, *q) {
@@ -86,8 +87,11 @@ fn poses(robot: &Robot, at: &[f64]) -> Result<Report, WrongLength> {
 /// A number without a unit is in radians, but may have been meant in degrees.
 fn doubtful(robot: &Robot, index: usize, text: &str, q: f64) -> Option<String> {
     let joint = robot.joints.get(index)?;
-    let limits = joint.limits.position.as_ref();
-    let limits = limits.map(|ends| ends.each_ref().map(Position::to_f64));
+    let limits = joint
+        .limits
+        .position
+        .as_ref()
+        .map(|ends| ends.each_ref().map(Position::to_f64));
     let turns = joint.kind == JointKind::Revolute;
     let what = match limits {
         Some([low, high]) if q < low || q > high => {

@@ -34,8 +34,8 @@ impl Source {
     /// Opens a robot and prints its warnings, and what the arm has otherwise than the model that it
     /// is a chain of.
     pub fn open(context: &Context, path: &Path, chain: &ChainArgs) -> Result<Source, Failure> {
-        let opened = open(path, &chain.choose(defaults(path)));
-        let opened = opened.map_err(|error| unopened(path, error))?;
+        let opened =
+            open(path, &chain.choose(defaults(path))).map_err(|error| unopened(path, error))?;
         let is_model = opened.imported.is_some();
         for note in opened.notes() {
             // A model has many notes; `import` prints them.
@@ -63,8 +63,8 @@ impl Source {
     /// Parses options to a request. Without a scalar option it asks for `scalars`; it has the plan
     /// beside the robot file unless the options turn plans off; a model has none.
     pub fn request(&self, asked: &Asked, scalars: &[ScalarType]) -> Result<Request, Failure> {
-        let request = Request::parse(asked, scalars, &self.robot, &self.outputs, &self.scenes);
-        let mut request = request.map_err(|problems| Failure::Input(problems_of(&problems)))?;
+        let mut request = Request::parse(asked, scalars, &self.robot, &self.outputs, &self.scenes)
+            .map_err(|problems| Failure::Input(problems_of(&problems)))?;
         request.chain = self.chain.pairs();
         if !request.has_no_plan && !self.is_model {
             request.plan = plan_file::beside(&self.path).map_err(Failure::input)?;

@@ -58,8 +58,8 @@ impl Row {
     /// Returns the name of the step for people.
     pub fn title(&self) -> &'static str {
         let mut steps = STEPS.into_iter();
-        let own = steps.find(|(step, _)| *step == self.step);
-        own.map_or(self.step, |(_, title)| title)
+        let entry = steps.find(|(step, _)| *step == self.step);
+        entry.map_or(self.step, |(_, title)| title)
     }
 
     /// Returns the scalar that the code runs in.
@@ -92,9 +92,8 @@ pub(super) fn exact(
         renewed: None,
         ..job.request.clone()
     };
-    let found = search(&job.with(&anew), function)?;
-    let tuned = found.tuned.as_ref();
-    let tuned = tuned.ok_or_else(|| unexplained(function))?;
+    let result = search(&job.with(&anew), function)?;
+    let tuned = result.tuned.as_ref().ok_or_else(|| unexplained(function))?;
     let mut steps = Steps {
         job,
         function,
@@ -105,7 +104,7 @@ pub(super) fn exact(
     }
     steps.newton_euler();
     steps.chain(tuned);
-    let program = steps.searched(&found)?;
+    let program = steps.searched(&result)?;
     Ok((steps.rows, program))
 }
 
@@ -150,9 +149,9 @@ impl Steps<'_> {
         let goes_on = |_: [usize; 2], _: &Dag| !watch.is_over();
         let limits = |operations| request.effort.limits(operations);
         // Whatever it costs in digits: that is what the row is to show.
-        if let Some(found) = search_graphs(graphs, &[], &limits, &|_| true, &goes_on) {
-            self.graph("lagrange_euler_fingerprints", &found.start);
-            self.graph("lagrange_euler_search", &found.graph);
+        if let Some(result) = search_graphs(graphs, &[], &limits, &|_| true, &goes_on) {
+            self.graph("lagrange_euler_fingerprints", &result.start);
+            self.graph("lagrange_euler_search", &result.graph);
         }
     }
 
@@ -187,8 +186,8 @@ impl Steps<'_> {
         }
     }
 
-    fn searched(&mut self, found: &SearchResult) -> Result<Program, GenerateError> {
-        let graph = &found.searched.graph;
+    fn searched(&mut self, result: &SearchResult) -> Result<Program, GenerateError> {
+        let graph = &result.searched.graph;
         let mut last = self.job.setup.task(self.function).program(graph);
         self.program("search", last.clone());
         if let Some(entry) = replay(self.job, self.job.request.plan.as_ref(), self.function)? {

@@ -63,15 +63,21 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
     let tolerances = tolerances(args, context);
     // Before the work: a folder that cannot be is no news an hour later.
     let mut files = Files::new(context, &[&args.robot]);
-    let targets = args.output.as_ref().map(|folder| {
-        let [csv, svg] = [CSV, SVG].map(|name| files.add_in(folder, name));
-        Ok::<[Target; 2], Failure>([csv?, svg?])
-    });
-    let targets = targets.transpose()?;
+    let targets = args
+        .output
+        .as_ref()
+        .map(|folder| {
+            let [csv, svg] = [CSV, SVG].map(|name| files.add_in(folder, name));
+            Ok::<[Target; 2], Failure>([csv?, svg?])
+        })
+        .transpose()?;
     let setup = request.setup(&source.robot).map_err(GenerateError::from)?;
     let functions = source.generate(context, &mut request)?.functions;
-    let exact = functions.into_iter().next().map(|own| own.program);
-    let mut exact = exact.ok_or_else(|| Failure::from(GenerateError::empty()))?;
+    let mut exact = functions
+        .into_iter()
+        .next()
+        .map(|function| function.program)
+        .ok_or_else(|| Failure::from(GenerateError::empty()))?;
     let relative_to = relative_to(args, scene.as_ref());
     let climb = |exact: &Program| climb(args, &request, &setup, exact, relative_to, &tolerances);
     let mut points = climb(&exact)?;
@@ -98,7 +104,7 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
             (svg, sealed(Comment::Xml, "dalembert tradeoff", &chart)),
         ];
         for point in &points {
-            let own = &point.variant;
+            let variant = &point.variant;
             let name = format!("variants/{}", point.name());
             let mut add = |ending: &str| files.add_in(folder, &format!("{name}.{ending}"));
             let [code, claim] = [add("rs")?, add("claim.json")?];
@@ -109,8 +115,8 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
                 point.tolerance
             );
             done.files
-                .push((code, sealed(Comment::Line, &writer, &own.text)));
-            let text = claim_of(&source.robot, &source.robot_file, &setup, own).write();
+                .push((code, sealed(Comment::Line, &writer, &variant.text)));
+            let text = claim_of(&source.robot, &source.robot_file, &setup, variant).write();
             done.files.push((claim, text));
         }
         done.notes.push(format!("wrote {}", folder.display()));
@@ -168,25 +174,24 @@ fn climb(
     let budget = Budget::new(setup, exact, None, relative_to).map_err(refused)?;
     // Every tolerance and the exact program: searched for, then falsified.
     terminal::bar().set_length(2 * (1 + tolerances.len() as u64));
-    let ladder = Ladder::new(args.samples as usize, request.effort, &budget);
-    let ladder = ladder.map_err(refused)?;
+    let ladder = Ladder::new(args.samples as usize, request.effort, &budget).map_err(refused)?;
     let points = ladder.climb(tolerances, &terminal::step);
     points.map_err(|error| Failure::Check(format!("error: {error}")))
 }
 
 fn better(setup: &Setup, exact: &Program, points: &[Point]) -> Option<Program> {
     let programs = points.iter().map(|point| &point.variant.emitted);
-    let fewer = |own: &&Program| own.counts().operations() < exact.counts().operations();
+    let fewer = |program: &&Program| program.counts().operations() < exact.counts().operations();
     let mut fewer: Vec<&Program> = programs.filter(fewer).collect();
-    fewer.sort_by_key(|own| own.counts().operations());
+    fewer.sort_by_key(|program| program.counts().operations());
     let mut fewer = fewer.into_iter();
-    fewer.find(|own| prove(setup, own).is_ok()).cloned()
+    fewer.find(|program| prove(setup, program).is_ok()).cloned()
 }
 
 fn tolerances(args: &TradeoffArgs, context: &Context) -> Vec<f64> {
     let mut tolerances = match args.tolerances.as_slice() {
         [] => TOLERANCES.to_vec(),
-        given => given.to_vec(),
+        list => list.to_vec(),
     };
     if let Some(large) = tolerances.iter().find(|t| **t >= 1.0) {
         context.say(&format!(
@@ -199,39 +204,40 @@ fn tolerances(args: &TradeoffArgs, context: &Context) -> Vec<f64> {
 }
 
 fn relative_to(args: &TradeoffArgs, scene: Option<&Scene>) -> Scale {
-    let own = scene.and_then(|scene| scene.tolerance.as_ref());
-    let own = own.map(|tolerance| tolerance.relative_to);
-    args.relative_to.or(own).unwrap_or(Scale::Actuator)
+    let scene_scale = scene
+        .and_then(|scene| scene.tolerance.as_ref())
+        .map(|tolerance| tolerance.relative_to);
+    args.relative_to.or(scene_scale).unwrap_or(Scale::Actuator)
 }
 
 fn table(points: &[Point]) -> Table {
     let mut table = Table::new(
         "tolerance|scalar|sincos by=sines|mul|add|sincos|trig_mul|trig_add|bound|observed|rounding|front",
     );
-    for own in points {
-        let counts = own.counts();
+    for point in points {
+        let counts = point.counts();
         // What was not observed is no zero.
-        let seen = |seen: Option<f64>| match seen {
-            Some(seen) => Cell::power(seen, 2),
+        let cell = |observation: Option<f64>| match observation {
+            Some(error) => Cell::power(error, 2),
             None => Cell::of("–", Value::Null),
         };
-        let sines = match own.variant.sines.is_empty() {
+        let sines = match point.variant.sines.is_empty() {
             true => Cell::from("libm"),
             false => Cell::of("poly", "polynomials"),
         };
         table.row(cells![
-            Cell::of(format!("{:e}", own.tolerance), own.tolerance),
-            own.variant.scalar.name(),
+            Cell::of(format!("{:e}", point.tolerance), point.tolerance),
+            point.variant.scalar.name(),
             sines,
             counts.mul,
             counts.add,
             counts.sincos,
             counts.trig_mul,
             counts.trig_add,
-            Cell::power(own.bound, 2),
-            seen(own.observed),
-            Cell::power(own.rounding, 2),
-            if own.dominated { "" } else { "yes" },
+            Cell::power(point.bound, 2),
+            cell(point.observed),
+            Cell::power(point.rounding, 2),
+            if point.dominated { "" } else { "yes" },
         ]);
     }
     table
@@ -242,12 +248,12 @@ fn drawn(title: &str, relative_to: Scale, points: &[Point]) -> String {
         Scale::Actuator => "the actuators' limits",
         Scale::Range => "the largest torques",
     };
-    let dots = points.iter().map(|own| Dot {
-        kind: own.kind(),
-        cost: own.cost() as f64,
-        bound: own.bound,
-        observed: own.observed,
-        dominated: own.dominated,
+    let dots = points.iter().map(|point| Dot {
+        kind: point.kind(),
+        cost: point.cost() as f64,
+        bound: point.bound,
+        observed: point.observed,
+        dominated: point.dominated,
     });
     chart::svg(title, scale, &dots.collect::<Vec<Dot>>())
 }

@@ -47,33 +47,39 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
     let source = Source::open(context, &args.task.robot, &args.task.chain)?;
     let robot = &source.robot;
     let mut request = source.request(&args.task.options.0, &ScalarType::ALL)?;
-    let given = args.given.as_deref();
-    let given = given.map(|file| given_states(file, &source, &request));
-    let given = given.transpose()?;
+    let file_states = args
+        .given
+        .as_deref()
+        .map(|file| given_states(file, &source, &request))
+        .transpose()?;
     // What cannot be proved is not generated: this ends with the reason.
     let generated = source.generate(context, &mut request)?;
     let mut done = Done::from(Report::of(robot, request.scene.as_ref()));
     let mut proofs = Table::new("function=|proof=");
-    for own in &generated.functions {
-        proofs.row(cells![own.function.to_string(), own.proof.to_string()]);
+    for function in &generated.functions {
+        proofs.row(cells![
+            function.function.to_string(),
+            function.proof.to_string()
+        ]);
     }
     done.report.table("proofs", "", proofs);
     let setup = request.setup(robot).map_err(GenerateError::from)?;
     let states = setup.states(args.states, SEED);
     let claimed = claims(&setup, &generated, &mut done)?;
     let bench = Bench::new(setup);
-    if let Some((file, states)) = args.given.as_ref().zip(given) {
+    if let Some((file, states)) = args.given.as_ref().zip(file_states) {
         // A state rounded to f32 is another state.
         let emitted = generated.emitted.iter();
-        let double = emitted.filter(|own| own.scalar == ScalarType::F64);
-        let compared = double.flat_map(|emitted| {
-            given::compare(emitted, bench.runtime(), bench.setup().robot(), &states)
-        });
-        let compared: Vec<Comparison> = compared.collect();
+        let double = emitted.filter(|code| code.scalar == ScalarType::F64);
+        let compared: Vec<Comparison> = double
+            .flat_map(|emitted| {
+                given::compare(emitted, bench.runtime(), bench.setup().robot(), &states)
+            })
+            .collect();
         given::describe(&file.display().to_string(), &states, &compared, &mut done);
     }
     // What a tolerance left out is no rounding: its bound is E.
-    let is_exact = |own: &&RunnableCode| !claimed.contains(&(own.function, own.scalar));
+    let is_exact = |code: &&RunnableCode| !claimed.contains(&(code.function, code.scalar));
     let exact = generated.emitted.iter().filter(is_exact);
     let mut rows = extremes::inside(&bench, exact, &states);
     let mut unmeasured = Vec::new();
@@ -114,13 +120,17 @@ fn given_states(
     let shown = file.display();
     let fail = |why: String| Failure::Input(format!("error: {shown}: {why}"));
     let setup = request.setup(&source.robot).map_err(GenerateError::from)?;
-    let states = given::read(&text(file, MAX_STATES_BYTES)?, setup.robot());
-    let states = states.map_err(fail)?;
-    let known = states.iter().flat_map(|state| state.known.keys().copied());
-    let known: BTreeSet<Quantity> = known.collect();
+    let states = given::read(&text(file, MAX_STATES_BYTES)?, setup.robot()).map_err(fail)?;
+    let known: BTreeSet<Quantity> = states
+        .iter()
+        .flat_map(|state| state.known.keys().copied())
+        .collect();
     let functions = request.functions.iter().copied();
     let returned: BTreeSet<Quantity> = functions.flat_map(given::quantities).collect();
-    let keys: Vec<&str> = known.iter().filter_map(|own| own.facts().given).collect();
+    let keys: Vec<&str> = known
+        .iter()
+        .filter_map(|quantity| quantity.facts().given)
+        .collect();
     let why = if keys.is_empty() {
         "no state has any of tau, D, h, c".to_owned()
     } else if known.is_disjoint(&returned) {
@@ -142,12 +152,12 @@ fn claims(
     let mut claimed = Vec::new();
     let functions = generated.functions.iter();
     let admitted = functions.filter_map(|function| function.admitted.as_ref());
-    for own in admitted.flat_map(|admitted| &admitted.variants) {
-        let found = attempt(setup, own, STATES, CLIMBS, SEED)
+    for variant in admitted.flat_map(|admitted| &admitted.variants) {
+        let attempt = attempt(setup, variant, STATES, CLIMBS, SEED)
             .map_err(|error| Failure::Check(format!("error: {error}")))?;
-        let (function, scalar) = (own.emitted.function, own.scalar);
+        let (function, scalar) = (variant.emitted.function, variant.scalar);
         let mut table = Table::new(&format!("{BOUNDS}|observed"));
-        for (mut row, observed) in bounds(own).zip(found.observed.iter().flatten()) {
+        for (mut row, observed) in bounds(variant).zip(attempt.observed.iter().flatten()) {
             row.push(Cell::power(*observed, 3));
             table.row(row);
         }
@@ -155,7 +165,7 @@ fn claims(
         let title =
             format!("{function} in {scalar}, shown, and the largest errors that were found");
         done.report.table(&key, title, table);
-        if found.violation.is_some() {
+        if attempt.violation.is_some() {
             done.failed.push(format!(
                 "error: the bound of `{function}` in {scalar} is exceeded: a defect of this program"
             ));
@@ -220,9 +230,9 @@ fn rounding(states: usize, rows: &[Row], done: &mut Done) {
     let is_failed = |row: &&Row| row.verdict == Verdict::Failed;
     let failed = rows.iter().filter(is_failed).count();
     if failed > 0 {
-        let all = rows.len();
+        let total = rows.len();
         done.failed.push(format!(
-            "error: rounding costs more than the bound in {failed} of {all} rows"
+            "error: rounding costs more than the bound in {failed} of {total} rows"
         ));
     }
 }
@@ -232,21 +242,22 @@ fn sines(generated: &GeneratedCode, states: &[JointState], done: &mut Done) {
     let mut failed = 0;
     for emitted in &generated.emitted {
         let mut functions = generated.functions.iter();
-        let Some(function) = functions.find(|own| own.function == emitted.function) else {
+        let Some(function) = functions.find(|function| function.function == emitted.function)
+        else {
             continue;
         };
         let proved = function.sines(emitted.scalar).iter();
-        for ((joint, seen), own) in emitted.sines(states).into_iter().zip(proved) {
+        for ((joint, deviation), kernel) in emitted.sines(states).into_iter().zip(proved) {
             // The sine that it is held against has an ulp of its own.
-            let proved = own.errors.worst() + f64::EPSILON;
-            failed += usize::from(seen > proved);
+            let proved = kernel.errors.worst() + f64::EPSILON;
+            failed += usize::from(deviation > proved);
             table.row(cells![
                 emitted.function.to_string(),
                 emitted.scalar.name(),
                 format!("q{}", joint + 1),
-                Cell::power(seen, 1),
+                Cell::power(deviation, 1),
                 Cell::of(bound_of(proved, 2), proved),
-                if seen <= proved { "ok" } else { "FAILED" },
+                if deviation <= proved { "ok" } else { "FAILED" },
             ]);
         }
     }

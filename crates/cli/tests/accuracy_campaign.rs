@@ -18,11 +18,13 @@ const STATES: usize = 30;
 /// The worst error of a quantity in units of u, and how many robots had it.
 type Worst = BTreeMap<(Quantity, ScalarType), (f64, usize)>;
 
-/// Runs `each` outputs per robot in turn, so that each output meets robots of every length.
-fn campaign(places: Range<usize>, each: usize, longest: usize) -> Worst {
+/// Runs `count` outputs per robot in turn, so that each output meets robots of every length.
+fn campaign(places: Range<usize>, count: usize, longest: usize) -> Worst {
     let mut worst = Worst::new();
-    let all = Function::ALL.into_iter();
-    let outputs: Vec<Function> = all.filter(|own| own.takes_fixed_base()).collect();
+    let functions = Function::ALL.into_iter();
+    let outputs: Vec<Function> = functions
+        .filter(|function| function.takes_fixed_base())
+        .collect();
     let mut next = 0;
     for (place, (seed, robot, _)) in robots(places.end, 0xacc0).enumerate() {
         let n = robot.joints.len();
@@ -30,12 +32,12 @@ fn campaign(places: Range<usize>, each: usize, longest: usize) -> Worst {
             continue;
         }
         if !places.contains(&place) {
-            next += each;
+            next += count;
             continue;
         }
         let bench = Bench::new(Setup::whole(&robot));
         let states = seeded(&robot, STATES, SEED ^ seed);
-        for _ in 0..each {
+        for _ in 0..count {
             let function = outputs[next % outputs.len()];
             next += 1;
             let request = Request::new(&[function]);
@@ -49,9 +51,9 @@ fn campaign(places: Range<usize>, each: usize, longest: usize) -> Worst {
             };
             for emitted in &generated.emitted {
                 let scalar = emitted.scalar;
-                for found in bench.measure(&Code::emitted(emitted), &states, &states) {
-                    let (quantity, error) = (found.quantity, found.vector);
-                    assert!(error <= VECTOR, "{what}, {scalar}: {found:?}");
+                for measurement in bench.measure(&Code::emitted(emitted), &states, &states) {
+                    let (quantity, error) = (measurement.quantity, measurement.vector);
+                    assert!(error <= VECTOR, "{what}, {scalar}: {measurement:?}");
                     let (most, robots) = worst.entry((quantity, scalar)).or_default();
                     *most = most.max(error);
                     *robots += 1;

@@ -26,8 +26,8 @@ fn is_within_the_bound(robot: &Robot, emitted: &RunnableCode, states: usize) {
     let bench = Bench::new(Setup::whole(robot));
     for state in seeded(robot, states, 1) {
         let alone = [state];
-        for found in bench.measure(&Code::emitted(emitted), &alone, &alone) {
-            assert!(found.vector <= VECTOR, "{found:?}");
+        for measurement in bench.measure(&Code::emitted(emitted), &alone, &alone) {
+            assert!(measurement.vector <= VECTOR, "{measurement:?}");
         }
     }
 }

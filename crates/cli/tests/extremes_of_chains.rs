@@ -68,8 +68,11 @@ fn categories_meet_their_criteria(scalar: ScalarType, longest: usize) {
     let mut failures = Vec::new();
     let cases = read(scalar);
     assert_eq!(cases.len(), 114);
-    let firsts = cases.iter().map(|case| &case.id);
-    let firsts: Vec<&String> = firsts.filter(|id| id.ends_with("_00")).collect();
+    let firsts: Vec<&String> = cases
+        .iter()
+        .map(|case| &case.id)
+        .filter(|id| id.ends_with("_00"))
+        .collect();
     let is_tried = |case: &&Extreme| {
         let joints = case.robot.joints.len();
         let place = firsts.iter().position(|first| **first == case.id);
@@ -82,43 +85,45 @@ fn categories_meet_their_criteria(scalar: ScalarType, longest: usize) {
     };
     for case in cases.iter().filter(is_tried) {
         let (robot, state) = (&case.robot, &case.state);
-        let known = robots.iter().position(|(known, ..)| known == robot);
-        let known = known.unwrap_or_else(|| {
-            let bench = Bench::new(Setup::whole(robot));
-            robots.push((robot.clone(), bench, emitted(robot, scalar, longest)));
-            robots.len() - 1
-        });
+        let known = robots
+            .iter()
+            .position(|(known, ..)| known == robot)
+            .unwrap_or_else(|| {
+                let bench = Bench::new(Setup::whole(robot));
+                robots.push((robot.clone(), bench, emitted(robot, scalar, longest)));
+                robots.len() - 1
+            });
         let (_, bench, emitted) = &robots[known];
         let scales = drawn_like(robot, state);
-        for own in emitted {
-            let code = Code::emitted(own);
+        for program in emitted {
+            let code = Code::emitted(program);
             // The error of a vector is relative to its size at this state.
             let alone = [state.clone()];
-            for found in bench.measure(&code, &alone, &alone) {
+            for measurement in bench.measure(&code, &alone, &alone) {
                 // Out of the scalar's range on purpose.
                 if case.category.starts_with("f32overflow") && scalar == ScalarType::F32 {
-                    let truth = bench.truth(own.function, state);
+                    let truth = bench.truth(program.function, state);
                     let largest = f64::from(f32::MAX);
                     let beyond = truth.iter().any(|x| x.magnitude() > largest);
                     // No result may be finite where the truth is out of range.
-                    assert!(!beyond || found.overflows, "{}", case.id);
+                    assert!(!beyond || measurement.overflows, "{}", case.id);
                     continue;
                 }
                 let held = held(&case.category);
-                let is_vector = match found.quantity {
+                let is_vector = match measurement.quantity {
                     Quantity::Torque => held != BoundKind::Entries,
                     // D is large somewhere in every state; h and c may vanish.
                     quantity => quantity == Quantity::Inertia,
                 };
                 let mut entry = 0.0;
-                if found.quantity == Quantity::Torque {
+                if measurement.quantity == Quantity::Torque {
                     entry = bench.measure(&code, &alone, &scales)[0].entry;
                     let worst = worst.entry(case.category.clone()).or_default();
-                    *worst = [worst[0].max(found.vector), worst[1].max(entry)];
+                    *worst = [worst[0].max(measurement.vector), worst[1].max(entry)];
                 }
                 let is_off = entry > ENTRY && held != BoundKind::Vector;
-                if is_off || is_vector && found.vector > VECTOR {
-                    failures.push(format!("{} {scalar} {found:?} {entry}", case.id));
+                if is_off || is_vector && measurement.vector > VECTOR {
+                    failures.push(format!("{} {scalar} {measurement:?} {entry}", case.id));
                 }
             }
         }
@@ -188,8 +193,9 @@ fn robot(json: &Value, scalar: ScalarType) -> Robot {
 }
 
 fn right_angle(pair: (f64, f64)) -> Angle {
-    let turns = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)];
-    let turns = turns.iter().position(|known| *known == pair);
+    let turns = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)]
+        .iter()
+        .position(|known| *known == pair);
     Angle::right_angles(turns.expect("a right angle") as i64)
 }
 
@@ -214,7 +220,7 @@ fn drawn_like(robot: &Robot, state: &JointState) -> Vec<JointState> {
         let kinds = robot.joints.iter().map(|joint| joint.kind);
         let pairs: Vec<(JointKind, f64)> = kinds.zip(values.iter().copied()).collect();
         let most = |kind| {
-            let same = pairs.iter().filter(|(own, _)| *own == kind);
+            let same = pairs.iter().filter(|(joint_kind, _)| *joint_kind == kind);
             same.fold(0.0f64, |most, (_, x)| most.max(x.abs()))
         };
         let draw = |(kind, _): &(JointKind, f64)| most(*kind) * (2.0 * random.unit() - 1.0);

@@ -15,7 +15,10 @@ const STATES: usize = 10;
 
 fn all_good(rows: &[Row]) {
     let mut verdicts = rows.iter().map(|row| row.verdict);
-    assert!(verdicts.all(|own| own == Verdict::Good), "{rows:#?}");
+    assert!(
+        verdicts.all(|verdict| verdict == Verdict::Good),
+        "{rows:#?}"
+    );
 }
 
 #[test]
@@ -26,9 +29,9 @@ fn planted_faults_are_found() {
         let generated = generate(other, &request).unwrap();
         let bench = Bench::new(Setup::whole(&robot));
         let states = seeded(&robot, STATES, 1);
-        let found = bench.measure(&Code::emitted(&generated.emitted[0]), &states, &states);
-        assert_eq!(found.len(), 1);
-        found[0].vector
+        let measurements = bench.measure(&Code::emitted(&generated.emitted[0]), &states, &states);
+        assert_eq!(measurements.len(), 1);
+        measurements[0].vector
     };
     let right = error(&robot);
     assert!(right < 20.0, "{right}");
@@ -181,7 +184,8 @@ fn what_is_lost_next_to_singular_is_the_condition() {
     let rows = divided(&robot, &request, STATES).unwrap();
     all_good(&rows);
     let worst = rows.iter().flat_map(|row| &row.worst);
-    let lost = worst.map(|worst| worst.vector * worst.condition);
-    let lost = lost.fold(0.0, f64::max);
+    let lost = worst
+        .map(|worst| worst.vector * worst.condition)
+        .fold(0.0, f64::max);
     assert!(lost > VECTOR, "{lost} u: nothing was near singular");
 }

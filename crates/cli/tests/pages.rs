@@ -75,8 +75,9 @@ fn ran(command: &str, inside: &Path, result_alone: bool) -> Vec<String> {
     let [out, err] = [output.stdout, output.stderr].map(|b| String::from_utf8(b).unwrap());
     let text = if result_alone { out } else { err + &out };
     // Replaces the paths of this machine.
-    let text = text.replace(&inside.display().to_string(), "$HERE");
-    let text = text.replace(&root().display().to_string(), "$ROOT");
+    let text = text
+        .replace(&inside.display().to_string(), "$HERE")
+        .replace(&root().display().to_string(), "$ROOT");
     let mut lines = vec![format!("$ {command}")];
     lines.extend(text.lines().map(|line| line.trim_end().to_owned()));
     match output.status.code() {
@@ -96,14 +97,14 @@ fn checked(body: &[String], inside: &Path, result_alone: bool) -> Option<Vec<Str
             .iter()
             .take_while(|line| !line.starts_with("$ "))
             .count();
-        let found = ran(command, inside, result_alone);
+        let transcript = ran(command, inside, result_alone);
         let shown: Vec<&str> = more[..length].iter().map(|line| line.trim_end()).collect();
-        let printed: Vec<&str> = found[1..].iter().map(String::as_str).collect();
+        let printed: Vec<&str> = transcript[1..].iter().map(String::as_str).collect();
         match shows(&shown, &printed) {
             true => fixed.extend_from_slice(&rest[..=length]),
             false => {
                 differs = true;
-                fixed.extend(found);
+                fixed.extend(transcript);
             }
         }
         rest = &more[length..];
@@ -130,7 +131,10 @@ fn run_pages(pages: &[PathBuf], inside: &Path) {
                     fs::write(path, before + &body.join("\n") + "\n").unwrap();
                 }
                 ("console", what) => {
-                    changes.extend(checked(body, inside, what == "result").map(|own| (range, own)));
+                    changes.extend(
+                        checked(body, inside, what == "result")
+                            .map(|replacement| (range, replacement)),
+                    );
                 }
                 _ => {}
             }
@@ -138,8 +142,8 @@ fn run_pages(pages: &[PathBuf], inside: &Path) {
         if !changes.is_empty() {
             differing.push(format!("{} was changed: see what", page.display()));
         }
-        for (range, found) in changes.into_iter().rev() {
-            lines.splice(range, found);
+        for (range, replacement) in changes.into_iter().rev() {
+            lines.splice(range, replacement);
             fs::write(page, lines.join("\n") + "\n").unwrap();
         }
     }

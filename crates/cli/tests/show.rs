@@ -15,7 +15,7 @@ fn bodies_stay_on_the_paper() {
         let rest = &text[start..];
         rest[..rest.find(after).unwrap()].parse().unwrap()
     };
-    let mut seen = 0;
+    let mut count = 0;
     for line in drawn.lines().filter(|line| line.contains("<ellipse")) {
         let [a, b] = [number(line, "rx=\"", '"'), number(line, "ry=\"", '"')];
         let x = number(line, "translate(", ' ');
@@ -26,9 +26,9 @@ fn bodies_stay_on_the_paper() {
         let left = if x < 440.0 { 0.0 } else { 440.0 };
         assert!(x - across >= left && x + across <= left + 440.0, "{line}");
         assert!(y - along >= 64.0 && y + along <= 504.0, "{line}");
-        seen += 1;
+        count += 1;
     }
-    assert_eq!(seen, 4);
+    assert_eq!(count, 4);
 }
 
 /// A base that floats has no pose and no axes of its own to draw: it is one body more, and its joints

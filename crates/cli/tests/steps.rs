@@ -11,8 +11,8 @@ use dalembert_model::scene::Scale;
 use crate::robots as support;
 
 fn of(name: &str, function: Function) -> Explanation {
-    let mut all = explain(&support::robot(name), &Request::new(&[function])).unwrap();
-    all.remove(0)
+    let mut explanations = explain(&support::robot(name), &Request::new(&[function])).unwrap();
+    explanations.remove(0)
 }
 
 fn operations(explanation: &Explanation, step: &str) -> usize {
@@ -87,16 +87,21 @@ fn the_last_row_is_what_is_generated() {
         let generated = generate(&reading.robot, &request).unwrap();
         assert_eq!(explained.len(), functions.len());
         for explanation in explained {
-            let mut all = generated.functions.iter();
-            let function = all.find(|f| f.function == explanation.function).unwrap();
+            let mut candidates = generated.functions.iter();
+            let function = candidates
+                .find(|f| f.function == explanation.function)
+                .unwrap();
             let last = explanation.rows.last().unwrap();
             let Code::Emitted(text, of) = &last.code else {
                 panic!("{:?}", last.step)
             };
             assert_eq!(*of, scalar, "{}", function.function);
             assert_eq!(last.counts, function.counts_in(scalar));
-            let mut emitted = generated.emitted.iter();
-            let emitted = emitted.find(|e| e.function == function.function).unwrap();
+            let emitted = generated
+                .emitted
+                .iter()
+                .find(|e| e.function == function.function)
+                .unwrap();
             assert_eq!((**text).clone(), emitted.text);
         }
     }

@@ -68,26 +68,30 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     println!("a log is kept in {} bytes", files[0].to_bytes().len());
 
-    let mut all = Accumulator::new(&model);
+    let mut sum = Accumulator::new(&model);
     for file in &files {
-        all.merge(file)?;
+        sum.merge(file)?;
     }
-    let found = fit(&model, &all)?;
+    let fit = fit(&model, &sum)?;
     println!("\n{:>12} {:>12}  parameter", "value", "std. error");
     for k in 0..model.columns().len() {
-        let [value, error] = [found.parameters[k], found.standard_errors[k]];
+        let [value, error] = [fit.parameters[k], fit.standard_errors[k]];
         println!("{value:12.5} {error:12.5}  {}", model.name(k));
     }
-    for one in &found.unexcited {
+    for one in &fit.unexcited {
         println!("not excited: {one}");
     }
     println!("\nresiduals of logs that were left out, N·m: before -> after");
     for (k, file) in cross_validation(&model, &files)?.iter().enumerate() {
-        let each = file.before.iter().zip(&file.after);
-        let each: Vec<String> = each.map(|(b, a)| format!("{b:.2} -> {a:.2}")).collect();
-        println!("log {k}: {}", each.join(", "));
+        let residuals: Vec<String> = file
+            .before
+            .iter()
+            .zip(&file.after)
+            .map(|(b, a)| format!("{b:.2} -> {a:.2}"))
+            .collect();
+        println!("log {k}: {}", residuals.join(", "));
     }
-    let bodies = consistent(&model, &found)?;
+    let bodies = consistent(&model, &fit)?;
     println!(
         "\nconsistent bodies: {:.2} standard errors from the free parameters altogether",
         bodies.distance

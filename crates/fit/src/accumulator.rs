@@ -37,12 +37,12 @@ impl Row<'_> {
     /// Returns the entries of row k over all columns of the model, z_i last.
     pub(crate) fn spread(&self, k: usize, columns: usize) -> Vec<f64> {
         let width = self.columns.len() + 1;
-        let own = &self.factor[k * width..(k + 1) * width];
+        let entries = &self.factor[k * width..(k + 1) * width];
         let mut row = vec![0.0; columns + 1];
-        for (column, value) in self.columns.iter().zip(own) {
+        for (column, value) in self.columns.iter().zip(entries) {
             row[*column] = *value;
         }
-        row[columns] = own[width - 1];
+        row[columns] = entries[width - 1];
         row
     }
 
@@ -134,12 +134,15 @@ impl Accumulator {
                 Some(joint) => rates.iter().map(|qd| model.coulomb(joint, qd)).collect(),
                 None => Vec::new(),
             };
-            let entries = row.iter().map(|k| match model.columns()[*k] {
-                Column::Base(k) => &y[column(y, i * base + k)],
-                Column::Coulomb(_) => &coulomb[..],
-                Column::Offset(_) => &ones[..],
-            });
-            let entries: Vec<&[f64]> = entries.chain([&tau[column(tau, i)]]).collect();
+            let entries: Vec<&[f64]> = row
+                .iter()
+                .map(|k| match model.columns()[*k] {
+                    Column::Base(k) => &y[column(y, i * base + k)],
+                    Column::Coulomb(_) => &coulomb[..],
+                    Column::Offset(_) => &ones[..],
+                })
+                .chain([&tau[column(tau, i)]])
+                .collect();
             triangle.push_columns(&entries);
         }
         self.states += states as u64;
@@ -154,8 +157,8 @@ impl Accumulator {
         if self.fingerprint != other.fingerprint || self.rows != other.rows {
             return Err(Error::OtherModel);
         }
-        for (own, other) in self.triangles.iter_mut().zip(&other.triangles) {
-            own.merge(other);
+        for (triangle, other) in self.triangles.iter_mut().zip(&other.triangles) {
+            triangle.merge(other);
         }
         self.states += other.states;
         Ok(())
@@ -175,17 +178,17 @@ impl Accumulator {
                 needed: 0,
             });
         }
-        let each = self.factors().into_iter().map(|row| {
+        let residuals = self.factors().into_iter().map(|row| {
             let width = row.columns.len() + 1;
             let mut total = row.rest();
             for r in row.factor.chunks(width).take(width - 1) {
-                let own = row.columns.iter().zip(r);
-                let sum: f64 = own.map(|(k, r)| r * parameters[*k]).sum();
+                let pairs = row.columns.iter().zip(r);
+                let sum: f64 = pairs.map(|(k, r)| r * parameters[*k]).sum();
                 total += (sum - r[width - 1]).powi(2);
             }
             libm::sqrt(total / self.states as f64)
         });
-        Ok(each.collect())
+        Ok(residuals.collect())
     }
 
     pub(crate) fn matches(&self, model: &Model) -> Result<(), Error> {
@@ -221,8 +224,9 @@ impl Accumulator {
     /// [`Error::Bytes`] and, of another robot or other options, [`Error::OtherModel`].
     pub fn from_bytes(model: &Model, bytes: &[u8]) -> Result<Accumulator, Error> {
         let mut read = Accumulator::new(model);
-        let rest = bytes.strip_prefix(MAGIC.as_slice());
-        let rest = rest.ok_or(Error::Bytes("they do not begin with DLBFIT"))?;
+        let rest = bytes
+            .strip_prefix(MAGIC.as_slice())
+            .ok_or(Error::Bytes("they do not begin with DLBFIT"))?;
         let short = Error::Bytes("they end too early");
         let (version, rest) = rest.split_first_chunk().ok_or(short.clone())?;
         if u16::from_le_bytes(*version) != VERSION {

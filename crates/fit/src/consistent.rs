@@ -188,16 +188,16 @@ fn newton(
     strength: f64,
 ) -> Result<Vec<f64>, Error> {
     let count = theta.len();
-    let mut all = Triangle::new(count + 1);
+    let mut triangle = Triangle::new(count + 1);
     for (row, wanted) in metric.chunks(count).zip(wanted) {
         let rest = wanted - dot(row, theta);
-        all.push(row.iter().copied().chain([rest]));
+        triangle.push(row.iter().copied().chain([rest]));
     }
     let root = libm::sqrt(strength);
     for row in barrier.rows(theta).ok_or(Error::NotConverged)? {
-        all.push(row.iter().map(|x| root * x));
+        triangle.push(row.iter().map(|x| root * x));
     }
-    let (r, z) = split(&all.reduced(), count);
+    let (r, z) = split(&triangle.reduced(), count);
     let along = back_substitute(&r, &z);
     let is_finite = along.iter().all(|x| x.is_finite());
     is_finite.then_some(along).ok_or(Error::NotConverged)
@@ -207,7 +207,11 @@ fn unknowns(model: &Model) -> Vec<Unknown> {
     let of_body = |body| (0..10).map(move |k| Unknown::Body(body, k));
     let bodies = 0..model.joints() + model.first_link();
     let mut unknowns: Vec<Unknown> = bodies.flat_map(of_body).collect();
-    for (unknown, _) in model.columns().iter().flat_map(|own| terms(model, *own)) {
+    for (unknown, _) in model
+        .columns()
+        .iter()
+        .flat_map(|column| terms(model, *column))
+    {
         if !unknowns.contains(&unknown) {
             unknowns.push(unknown);
         }
@@ -235,8 +239,8 @@ fn map(model: &Model, unknowns: &[Unknown]) -> Vec<Vec<f64>> {
     let rows = model.columns().iter().map(|column| {
         let terms = terms(model, *column);
         let entry = |of: &Unknown| {
-            let own = terms.iter().filter(|(unknown, _)| unknown == of);
-            own.map(|(_, factor)| factor).sum()
+            let factors = terms.iter().filter(|(unknown, _)| unknown == of);
+            factors.map(|(_, factor)| factor).sum()
         };
         unknowns.iter().map(entry).collect()
     });

@@ -32,7 +32,7 @@ pub fn cross_validation(model: &Model, files: &[Accumulator]) -> Result<Vec<File
         after.push(sum);
     }
     let mut before = Accumulator::new(model);
-    let each = files.iter().map(|file| {
+    let residuals = files.iter().map(|file| {
         let mut others = before.clone();
         if let Some(rest) = after.pop() {
             others.merge(&rest)?;
@@ -44,7 +44,7 @@ pub fn cross_validation(model: &Model, files: &[Accumulator]) -> Result<Vec<File
             after: file.residual(model, &fit.parameters)?,
         })
     });
-    each.collect()
+    residuals.collect()
 }
 
 /// A log that the other logs' parameters do not explain, though its own do.
@@ -57,7 +57,7 @@ pub struct Disagreement {
     /// That joint's residual with parameters from the other logs, root mean square.
     pub others: f64,
     /// The residual with parameters from the log itself.
-    pub own: f64,
+    pub self_fit: f64,
 }
 
 /// A log disagrees where the others' parameters leave more than so many times what its own do.
@@ -65,40 +65,40 @@ const DISAGREES: f64 = 2.0;
 
 const MOST: usize = 8;
 
-/// Finds up to eight logs that disagree with the others, the worst first; `found` is their
+/// Finds up to eight logs that disagree with the others, the worst first; `validation` is their
 /// [`cross_validation`]. Each is left out before the next search, since its states are in the
 /// parameters that judge the rest. If two are left, both are returned.
 pub fn disagreeing(
     model: &Model,
     files: &[Accumulator],
-    found: &[FileResidual],
+    validation: &[FileResidual],
 ) -> Result<Vec<Disagreement>, Error> {
     // A log too short for parameters of its own is not judged.
-    let own: Vec<_> = files.iter().map(|file| fit(model, file).ok()).collect();
+    let fits: Vec<_> = files.iter().map(|file| fit(model, file).ok()).collect();
     let mut rest: Vec<usize> = (0..files.len()).collect();
-    let (mut residuals, mut found) = (found.to_vec(), Vec::new());
+    let (mut residuals, mut disagreements) = (validation.to_vec(), Vec::new());
     loop {
         let joints = rest.iter().zip(&residuals).flat_map(|(&file, residual)| {
-            let own = own[file].iter().flat_map(|fit| &fit.after);
-            let pairs = residual.after.iter().zip(own).enumerate();
-            pairs.map(move |(joint, (&others, &own))| Disagreement {
+            let fit_residuals = fits[file].iter().flat_map(|fit| &fit.after);
+            let pairs = residual.after.iter().zip(fit_residuals).enumerate();
+            pairs.map(move |(joint, (&others, &fit_residual))| Disagreement {
                 file,
                 joint,
                 others,
-                own,
+                self_fit: fit_residual,
             })
         });
         let mut worst: Vec<Disagreement> = joints.filter(|one| one.size() > DISAGREES).collect();
         worst.sort_by(|a, b| b.size().total_cmp(&a.size()));
         let Some(&one) = worst.first() else {
-            return Ok(found);
+            return Ok(disagreements);
         };
-        found.push(one);
+        disagreements.push(one);
         if rest.len() == 2 {
-            found.extend(worst.into_iter().find(|other| other.file != one.file));
+            disagreements.extend(worst.into_iter().find(|other| other.file != one.file));
         }
-        if rest.len() == 2 || found.len() == MOST {
-            return Ok(found);
+        if rest.len() == 2 || disagreements.len() == MOST {
+            return Ok(disagreements);
         }
         rest.retain(|file| *file != one.file);
         let kept: Vec<Accumulator> = rest.iter().map(|file| files[*file].clone()).collect();
@@ -108,6 +108,6 @@ pub fn disagreeing(
 
 impl Disagreement {
     fn size(&self) -> f64 {
-        self.others / self.own.max(f64::MIN_POSITIVE)
+        self.others / self.self_fit.max(f64::MIN_POSITIVE)
     }
 }

@@ -70,15 +70,15 @@ impl Differentiator {
         // A window under half a period is judged by its middle: until then gains fall with its
         // length.
         let longest = (0.25 / (period * frequency)).min(Differentiator::LONGEST as f64) as usize;
-        let mut found = None;
+        let mut best = None;
         for half in 3..=longest {
             let filter = Differentiator::new(period, half)?;
             if !filter.is_good(period, frequency) {
                 break;
             }
-            found = Some(filter);
+            best = Some(filter);
         }
-        match found {
+        match best {
             Some(filter) => Ok(filter),
             None => Err(Error::TooFast {
                 rate: 1.0 / period,

@@ -98,9 +98,9 @@ pub fn excite(
     starts.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut best: Option<(f64, Trajectory)> = None;
     for start in starts.into_iter().take(effort.descents) {
-        let found = search.descended(start, effort.steps)?;
-        if best.as_ref().is_none_or(|best| found.0 < best.0) {
-            best = Some(found);
+        let descent = search.descended(start, effort.steps)?;
+        if best.as_ref().is_none_or(|best| descent.0 < best.0) {
+            best = Some(descent);
         }
     }
     let Some((_, best)) = best else {

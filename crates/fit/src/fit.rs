@@ -61,18 +61,18 @@ pub fn fit(model: &Model, data: &Accumulator) -> Result<Fit, Error> {
     let (r, z) = split(&weighted(data, width, &scales).reduced(), width);
     let reference = Reference::new(model, &noise)?;
     let root = libm::sqrt(data.states() as f64);
-    let found = singular(&over(&r, &reference.r, width), width);
+    let decomposition = singular(&over(&r, &reference.r, width), width);
     let before = apply(&reference.r, model.parameters());
     let least = LEAST_EXCITATION * root;
     let mut y = vec![0.0; width];
     let mut variances = vec![0.0f64; width];
     let mut directions = Vec::new();
     for k in 0..width {
-        let (value, direction) = (found.values[k], &found.directions[k]);
+        let (value, direction) = (decomposition.values[k], &decomposition.directions[k]);
         let parameters = back_substitute(&reference.r, direction);
         let excited = value >= least;
         let along = match excited {
-            true => dot(&found.images[k], &z) / (value * value),
+            true => dot(&decomposition.images[k], &z) / (value * value),
             false => dot(direction, &before),
         };
         for (y, direction) in y.iter_mut().zip(direction) {
@@ -113,7 +113,7 @@ pub fn fit(model: &Model, data: &Accumulator) -> Result<Fit, Error> {
 }
 
 pub(crate) fn noise(data: &Accumulator) -> Result<Vec<f64>, Error> {
-    let each = data.factors().into_iter().enumerate().map(|(joint, row)| {
+    let noises = data.factors().into_iter().enumerate().map(|(joint, row)| {
         let columns = row.columns.len();
         let needed = columns as u64;
         if data.states() <= needed {
@@ -133,7 +133,7 @@ pub(crate) fn noise(data: &Accumulator) -> Result<Vec<f64>, Error> {
         // Torques that are all zero have none: any weight will do.
         Ok(if noise > 0.0 { noise } else { 1.0 })
     });
-    each.collect()
+    noises.collect()
 }
 
 /// Returns the rank of the columns, and the squares that R leaves of the torque. Columns that are
@@ -141,10 +141,10 @@ pub(crate) fn noise(data: &Accumulator) -> Result<Vec<f64>, Error> {
 /// whose part of the torque is as good as drawn: of those, nothing is taken for fitted.
 fn alone(r: &[f64], mut rest: Vec<f64>) -> (u64, f64) {
     let width = rest.len();
-    let found = singular(&unit_columns(r, width), width);
-    let largest = found.values.iter().fold(0.0f64, |a, b| a.max(*b));
+    let decomposition = singular(&unit_columns(r, width), width);
+    let largest = decomposition.values.iter().fold(0.0f64, |a, b| a.max(*b));
     let mut rank = 0;
-    for (value, image) in found.values.iter().zip(found.images) {
+    for (value, image) in decomposition.values.iter().zip(decomposition.images) {
         if *value > DEPENDENT * largest {
             let unit: Vec<f64> = image.iter().map(|x| x / value).collect();
             remove(&mut rest, &unit);
@@ -160,29 +160,32 @@ fn keep_file(model: &Model, directions: &[Vec<f64>], norms: &[f64], parameters: 
     let scaled = |values: &[f64]| -> Vec<f64> {
         values.iter().zip(norms).map(|(x, norm)| x * norm).collect()
     };
-    let change = parameters.iter().zip(model.parameters());
-    let change: Vec<f64> = change.map(|(own, file)| own - file).collect();
+    let change: Vec<f64> = parameters
+        .iter()
+        .zip(model.parameters())
+        .map(|(parameter, file)| parameter - file)
+        .collect();
     let mut change = scaled(&change);
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(directions.len());
     for direction in directions {
-        let mut own = scaled(direction);
+        let mut vector = scaled(direction);
         // Twice is enough (Giraud, Langou and Rozložník 2005).
         for _ in 0..2 {
             for other in &basis {
-                remove(&mut own, other);
+                remove(&mut vector, other);
             }
         }
-        let size = libm::sqrt(dot(&own, &own));
+        let size = libm::sqrt(dot(&vector, &vector));
         if size > 0.0 {
-            own.iter_mut().for_each(|x| *x /= size);
-            remove(&mut change, &own);
-            basis.push(own);
+            vector.iter_mut().for_each(|x| *x /= size);
+            remove(&mut change, &vector);
+            basis.push(vector);
         }
     }
     let file = model.parameters().iter().zip(norms);
-    for ((own, (file, norm)), change) in parameters.iter_mut().zip(file).zip(change) {
+    for ((parameter, (file, norm)), change) in parameters.iter_mut().zip(file).zip(change) {
         if *norm > 0.0 {
-            *own = file + change / norm;
+            *parameter = file + change / norm;
         }
     }
 }

@@ -56,7 +56,7 @@ impl Trajectory {
     /// Bounds how far each joint gets from its middle, its velocity and its acceleration.
     pub fn bounds(&self) -> Vec<[f64; 3]> {
         let joints = self.cosines.iter().zip(&self.sines);
-        let each = joints.map(|(cosines, sines)| {
+        let joint_bounds = joints.map(|(cosines, sines)| {
             let mut bounds = [0.0; 3];
             for (l, (a, b)) in cosines.iter().zip(sines).enumerate() {
                 let size = libm::hypot(*a, *b);
@@ -67,7 +67,7 @@ impl Trajectory {
             }
             bounds
         });
-        each.collect()
+        joint_bounds.collect()
     }
 
     /// Returns a smooth bound of the part of its limits that each joint takes, with its derivative
@@ -76,8 +76,8 @@ impl Trajectory {
     /// % more. Twice the motion has twice the bound.
     pub(crate) fn used(&self, limits: &[Limits]) -> Vec<(f64, Vec<f64>)> {
         const SHARP: i32 = 16;
-        let each = self.bounds().into_iter().zip(limits).enumerate();
-        let each = each.map(|(i, (bounds, of))| {
+        let pairs = self.bounds().into_iter().zip(limits).enumerate();
+        let gradients = pairs.map(|(i, (bounds, of))| {
             let aside = self.middle[i] - of.middle();
             let limits = [of.reach(), of.velocity, of.acceleration];
             let parts = [
@@ -103,7 +103,7 @@ impl Trajectory {
             }
             (bound, slope)
         });
-        each.collect()
+        gradients.collect()
     }
 
     /// Makes it begin at rest, and scales each joint's motion until its [bound](Self::used) is one.
@@ -114,8 +114,8 @@ impl Trajectory {
             // Below the limits: at the very limit rounding may show more.
             let (middle, factor) = (limits[i].middle(), (1.0 - 1e-9) / bound);
             self.middle[i] = middle + factor * (self.middle[i] - middle);
-            let own = self.cosines[i].iter_mut().chain(&mut self.sines[i]);
-            own.for_each(|x| *x *= factor);
+            let harmonics = self.cosines[i].iter_mut().chain(&mut self.sines[i]);
+            harmonics.for_each(|x| *x *= factor);
         }
         self
     }

@@ -21,30 +21,32 @@ impl Limits {
         let or = |limit: &Option<Rational>, usual: f64| {
             limit.as_ref().map_or(usual, f64::nearest_rational)
         };
-        let each = robot.joints.iter().map(|joint| {
+        let joint_limits = robot.joints.iter().map(|joint| {
             let [reach, velocity, acceleration] = match joint.kind {
                 JointKind::Revolute => [core::f64::consts::PI, 2.0, 10.0],
                 JointKind::Prismatic => [0.5, 0.5, 2.0],
             };
-            let own = &joint.limits;
+            let limits = &joint.limits;
             Limits {
-                position: match &own.position {
+                position: match &limits.position {
                     Some(ends) => ends.each_ref().map(Position::to_f64),
                     None => [-reach, reach],
                 },
-                velocity: or(&own.velocity, velocity),
-                acceleration: or(&own.acceleration, acceleration),
+                velocity: or(&limits.velocity, velocity),
+                acceleration: or(&limits.acceleration, acceleration),
             }
         });
-        each.collect()
+        joint_limits.collect()
     }
 
     /// Reads the limits of each coordinate of a base that floats, which has no positions; none of a fixed
     /// base. Where the file has none: 1 m/s, 2 rad/s, 5 m/s², 10 rad/s².
     pub fn of_base(robot: &Robot) -> Vec<Limits> {
         let base = robot.floating.as_ref().map(|base| {
-            let number = |all: &Option<[Rational; 6]>, k: usize, usual: [f64; 2]| {
-                let limit = all.as_ref().map(|all| f64::nearest_rational(&all[k]));
+            let number = |limits: &Option<[Rational; 6]>, k: usize, usual: [f64; 2]| {
+                let limit = limits
+                    .as_ref()
+                    .map(|ratios| f64::nearest_rational(&ratios[k]));
                 limit.unwrap_or(usual[usize::from(k >= 3)])
             };
             [0, 1, 2, 3, 4, 5].map(|k| Limits {
@@ -57,8 +59,8 @@ impl Limits {
     }
 
     pub(crate) fn moves(&self) -> bool {
-        let all = [self.reach(), self.velocity, self.acceleration];
-        all.iter().all(|limit| *limit > 0.0 && limit.is_finite())
+        let limits = [self.reach(), self.velocity, self.acceleration];
+        limits.iter().all(|limit| *limit > 0.0 && limit.is_finite())
     }
 
     /// Returns the middle of the range of positions.

@@ -87,8 +87,9 @@ impl Model {
         )?;
         let (n, rows) = (robot.joints.len(), robot.coordinates());
         let scene = Setup::whole(&candidates(&robot, rotors));
-        let base = scene.base(Quantity::BaseRegressor);
-        let base = base.map_err(|why| Error::NoBaseParameters(why.to_string()))?;
+        let base = scene
+            .base(Quantity::BaseRegressor)
+            .map_err(|why| Error::NoBaseParameters(why.to_string()))?;
         let arm = Arm::from_robot(&robot, &mut Exact::clone).fold_base();
         let mut skeleton = Skeleton::with_columns(&arm, &[], &base.columns);
         // The columns are all that is computed: the links' own bodies are not regrouped.
@@ -97,7 +98,7 @@ impl Model {
         }
         skeleton.base = skeleton.base.map(|_| Body::zero());
         let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
-        let each = |terms: &Vec<(Parameter, Exact)>| {
+        let combination = |terms: &Vec<(Parameter, Exact)>| {
             terms.iter().map(|(of, x)| (*of, f64::nearest(x))).collect()
         };
         let mut columns: Vec<Column> = (0..base.columns.len()).map(Column::Base).collect();
@@ -111,7 +112,7 @@ impl Model {
             rotors,
             limits,
             base_limits: Limits::of_base(&robot),
-            combinations: base.combinations.iter().map(each).collect(),
+            combinations: base.combinations.iter().map(combination).collect(),
             chain: chain.map(f64::nearest),
             widths: robot.joints.iter().map(width).collect(),
             robot,
@@ -172,9 +173,9 @@ impl Model {
 
     /// Draws a state within limits so many times as wide; gravity has any direction.
     pub(crate) fn state(&self, factor: f64, random: &mut Random) -> [Vec<f64>; 3] {
-        let mut draw = |all: &[Limits], of: &dyn Fn(&Limits) -> [f64; 2]| -> Vec<f64> {
+        let mut draw = |limits: &[Limits], of: &dyn Fn(&Limits) -> [f64; 2]| -> Vec<f64> {
             let drawn = |[middle, largest]: [f64; 2]| middle + within(random, largest);
-            all.iter().map(of).map(drawn).collect()
+            limits.iter().map(of).map(drawn).collect()
         };
         let mut q = draw(&self.limits, &|of| [of.middle(), of.reach()]);
         if self.robot.floating.is_some() {
@@ -184,9 +185,9 @@ impl Model {
             let most = libm::sqrt(gravity.iter().map(|x| x * x).sum());
             q.extend(along.iter().map(|x| x * most / length));
         }
-        let all = [&self.base_limits[..], &self.limits].concat();
-        let qd = draw(&all, &|of| [0.0, factor * of.velocity]);
-        let qdd = draw(&all, &|of| [0.0, factor * of.acceleration]);
+        let limits = [&self.base_limits[..], &self.limits].concat();
+        let qd = draw(&limits, &|of| [0.0, factor * of.velocity]);
+        let qdd = draw(&limits, &|of| [0.0, factor * of.acceleration]);
         [q, qd, qdd]
     }
 
@@ -226,8 +227,9 @@ impl Model {
             Column::Coulomb(joint) => format!("coulomb{}", joint + 1),
             Column::Offset(joint) => format!("offset{}", joint + 1),
             Column::Base(base) => {
-                let terms = self.combinations[base].iter();
-                let terms = terms.map(|(of, factor)| (of.to_string(), *factor));
+                let terms = self.combinations[base]
+                    .iter()
+                    .map(|(of, factor)| (of.to_string(), *factor));
                 sum(&Vec::from_iter(terms), |x| x.to_string())
             }
         }
@@ -265,6 +267,6 @@ pub(crate) fn sum(terms: &[(String, f64)], number: impl Fn(f64) -> String) -> St
 }
 
 pub(crate) fn place(parameter: LinkParameter) -> usize {
-    let all = LinkParameter::ALL.iter();
-    all.take_while(|other| **other != parameter).count()
+    let parameters = LinkParameter::ALL.iter();
+    parameters.take_while(|other| **other != parameter).count()
 }

@@ -42,11 +42,11 @@ impl Reference {
 }
 
 pub(crate) fn weighted(accumulator: &Accumulator, columns: usize, scales: &[f64]) -> Triangle {
-    let mut all = Triangle::new(columns + 1);
+    let mut triangle = Triangle::new(columns + 1);
     for (row, scale) in accumulator.factors().iter().zip(scales) {
         for k in 0..row.columns.len() {
-            all.push(row.spread(k, columns).iter().map(|x| x * scale));
+            triangle.push(row.spread(k, columns).iter().map(|x| x * scale));
         }
     }
-    all
+    triangle
 }

@@ -28,12 +28,15 @@ use crate::model::Model;
 pub fn identified(model: &Model, bodies: &Bodies) -> Result<Robot, Error> {
     let mut robot = model.robot().clone();
     if let (Some(base), Some(link)) = (&mut robot.floating, bodies.links.first()) {
-        let found = body(link, 0)?;
-        (base.mass, base.com, base.inertia) = (found.mass, found.com, found.inertia);
+        let base_body = body(link, 0)?;
+        (base.mass, base.com, base.inertia) = (base_body.mass, base_body.com, base_body.inertia);
     }
     for (i, joint) in robot.joints.iter_mut().enumerate() {
-        let link = bodies.links.get(model.first_link() + i);
-        let link = link.copied().unwrap_or_default();
+        let link = bodies
+            .links
+            .get(model.first_link() + i)
+            .copied()
+            .unwrap_or_default();
         joint.set_own_body(body(&link, i)?);
         joint.armature = rounded("armature", i, bodies.armature[i], 12)?;
         joint.viscous = rounded("viscous", i, bodies.viscous[i], 12)?;
@@ -80,8 +83,8 @@ fn body(link: &[f64; 10], index: usize) -> Result<Body, Error> {
     let origin = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
     let square: f64 = com.iter().map(|x| x * x).sum();
     let about = |i: usize, k: usize| {
-        let own = if i == k { square } else { 0.0 };
-        origin[i][k] - mass * (own - com[i] * com[k])
+        let trace = if i == k { square } else { 0.0 };
+        origin[i][k] - mass * (trace - com[i] * com[k])
     };
     let parts = [0.0, 1e-15, 1e-13, 1e-11, 1e-9].map(|part| (16, part));
     for (digits, part) in [(12, 0.0)].into_iter().chain(parts) {
@@ -115,8 +118,8 @@ fn rounded(
     value: f64,
     digits: usize,
 ) -> Result<Rational, Error> {
-    let found = parse_decimal(&format!("{value:.digits$e}"));
-    found.map_err(|_| Error::Value {
+    let number = parse_decimal(&format!("{value:.digits$e}"));
+    number.map_err(|_| Error::Value {
         argument,
         index,
         found: value,

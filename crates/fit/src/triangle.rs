@@ -140,25 +140,25 @@ impl WithSimd for Reflection<'_> {
 #[inline(always)]
 fn reflect(columns: usize, r: &mut [f64], block: &mut [Rows]) {
     for j in 0..columns {
-        let (own, rest) = block.split_at_mut(j + 1);
-        let own = &own[j].0;
+        let (front, rest) = block.split_at_mut(j + 1);
+        let tail = &front[j].0;
         let row = &mut r[j * columns + j..(j + 1) * columns];
-        let square = dot(own, own);
+        let square = dot(tail, tail);
         if square == 0.0 {
             continue;
         }
         let size = libm::sqrt(row[0] * row[0] + square);
         let head = row[0] + if row[0] > 0.0 { size } else { -size };
         row[0] -= head;
-        // H = 1 − 2 v vᵀ / vᵀv with v = (head, own).
+        // H = 1 − 2 v vᵀ / vᵀv with v = (head, tail).
         let scale = 2.0 / (head * head + square);
         for k in 0..columns - j - 1 {
             let (entry, column) = (&mut row[k + 1], &mut rest[k].0);
-            let weight = scale * (head * *entry + dot(own, column));
+            let weight = scale * (head * *entry + dot(tail, column));
             *entry -= weight * head;
             let mut i = 0;
             while i < ROWS {
-                column[i] -= weight * own[i];
+                column[i] -= weight * tail[i];
                 i += 1;
             }
         }

@@ -94,12 +94,12 @@ pub(crate) fn separated(mut directions: Vec<Vec<f64>>, norms: &[f64]) -> Vec<Vec
         }
         let (row, column, _) = pivot;
         directions.swap(done, row);
-        let own = directions[done].clone();
+        let pivot_row = directions[done].clone();
         for (i, direction) in directions.iter_mut().enumerate() {
-            if i != done && own[column] != 0.0 {
-                let factor = direction[column] / own[column];
-                for (x, own) in direction.iter_mut().zip(&own) {
-                    *x -= factor * own;
+            if i != done && pivot_row[column] != 0.0 {
+                let factor = direction[column] / pivot_row[column];
+                for (x, entry) in direction.iter_mut().zip(&pivot_row) {
+                    *x -= factor * entry;
                 }
                 direction[column] = 0.0;
             }
@@ -128,17 +128,21 @@ impl Weights<'_> {
         let unit = |direction: &Vec<f64>| norm(&self.reference.r, direction);
         let units: Vec<f64> = directions.iter().map(unit).collect();
         let motions = self.motions(directions, &units)?;
-        let each = directions.iter().zip(units).zip(motions);
-        let each = each.map(|((direction, unit), motion)| {
-            let combination = self.leading(direction);
-            UnexcitedDirection {
-                name: named(self.model, &combination),
-                motion,
-                combination,
-                excitation: norm(r, direction) / (root * unit),
-            }
-        });
-        Ok(each.collect())
+        let descriptions =
+            directions
+                .iter()
+                .zip(units)
+                .zip(motions)
+                .map(|((direction, unit), motion)| {
+                    let combination = self.leading(direction);
+                    UnexcitedDirection {
+                        name: named(self.model, &combination),
+                        motion,
+                        combination,
+                        excitation: norm(r, direction) / (root * unit),
+                    }
+                });
+        Ok(descriptions.collect())
     }
 
     fn leading(&self, direction: &[f64]) -> Vec<(usize, f64)> {

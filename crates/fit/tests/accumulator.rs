@@ -11,21 +11,21 @@ fn in_parts(
     parts: usize,
     batch: usize,
 ) -> Accumulator {
-    let mut all = Accumulator::new(model);
+    let mut total = Accumulator::new(model);
     for part in both.chunks(both.len().div_ceil(parts)) {
-        let mut own = Accumulator::new(model);
+        let mut subtotal = Accumulator::new(model);
         for batch in part.chunks(batch) {
             let mut partial = Accumulator::new(model);
             for (state, tau) in batch {
                 partial.add_rows(model, &state.y, tau).unwrap();
             }
-            own.merge(&partial).unwrap();
+            subtotal.merge(&partial).unwrap();
         }
         // As it travels between machines.
-        let read = Accumulator::from_bytes(model, &own.to_bytes()).unwrap();
-        all.merge(&read).unwrap();
+        let read = Accumulator::from_bytes(model, &subtotal.to_bytes()).unwrap();
+        total.merge(&read).unwrap();
     }
-    all
+    total
 }
 
 fn distance(a: &[f64], b: &[f64]) -> f64 {
@@ -80,19 +80,22 @@ fn residuals_need_no_second_look() {
     let (model, right) = arm("puma560");
     let states = states(&model, 300, 3);
     let data = accumulated(&model, &states, &right, Some(4));
-    let found = data.residual(&model, model.parameters()).unwrap();
+    let residuals = data.residual(&model, model.parameters()).unwrap();
     let mut random = Random::new(4);
     let mut squares = [0.0; 6];
     for state in &states {
-        let [tau, own] = [&right[..], model.parameters()].map(|p| torques(&state.y, p));
+        let [tau, model_tau] = [&right[..], model.parameters()].map(|p| torques(&state.y, p));
         for (i, square) in squares.iter_mut().enumerate() {
             let noise = crate::support::noise(i) * normal(&mut random);
-            *square += (tau[i] + noise - own[i]).powi(2);
+            *square += (tau[i] + noise - model_tau[i]).powi(2);
         }
     }
-    for (found, square) in found.iter().zip(squares) {
+    for (residual, square) in residuals.iter().zip(squares) {
         let wanted = (square / 300.0).sqrt();
-        assert!((found - wanted).abs() < 1e-11 * wanted, "{found} {wanted}");
+        assert!(
+            (residual - wanted).abs() < 1e-11 * wanted,
+            "{residual} {wanted}"
+        );
     }
 }
 
@@ -148,13 +151,13 @@ fn columns_give_what_rows_give() {
     for count in [1, 7, 64, 129, 300] {
         let mut columns = Accumulator::new(&model);
         for part in states.chunks(count) {
-            let each = |entry: &dyn Fn(&State, usize) -> f64, entries: usize| -> Vec<f64> {
+            let columns_of = |entry: &dyn Fn(&State, usize) -> f64, entries: usize| -> Vec<f64> {
                 let of = |e: usize| part.iter().map(move |state| entry(state, e));
                 (0..entries).flat_map(of).collect()
             };
-            let y = each(&|state, e| state.y[e / base * width + e % base], n * base);
-            let qd = each(&|state, i| state.qd[i], n);
-            let tau = each(&|state, i| state.qdd[i], n);
+            let y = columns_of(&|state, e| state.y[e / base * width + e % base], n * base);
+            let qd = columns_of(&|state, i| state.qd[i], n);
+            let tau = columns_of(&|state, i| state.qdd[i], n);
             let added = columns.add_columns(&model, &y, &qd, &tau, part.len());
             added.unwrap();
         }

@@ -51,15 +51,20 @@ fn drives_stop_at_zero() {
         for name in &lost {
             assert!(stopped.contains(name), "{name}: {stopped:?}");
         }
-        for (place, own) in bodies.armature.iter().enumerate() {
+        for (place, armature) in bodies.armature.iter().enumerate() {
             let is_lost = lost.contains(&format!("armature{}", place + 1));
-            assert!(if is_lost { *own == 0.0 } else { *own >= 0.0 });
+            assert!(if is_lost {
+                *armature == 0.0
+            } else {
+                *armature >= 0.0
+            });
         }
-        assert!(bodies.coulomb.iter().all(|own| *own == 0.0));
+        assert!(bodies.coulomb.iter().all(|coulomb| *coulomb == 0.0));
         let text = write(&identified(&model, &bodies).unwrap());
         let again = Model::new(&parse(&text).unwrap().robot).unwrap();
-        let said = data.residual(&model, &bodies.file_parameters(&model));
-        let said = said.unwrap();
+        let said = data
+            .residual(&model, &bodies.file_parameters(&model))
+            .unwrap();
         let left = data.residual(&model, again.parameters()).unwrap();
         for (said, left) in said.iter().zip(left) {
             assert!((said - left).abs() < 1e-6 * left, "{name}: {said} {left}");
@@ -138,7 +143,9 @@ fn bodies_of_noisy_data_exist() {
         for other in [&right[..], model.parameters()] {
             assert!(nearest < distance(other));
             let both = bodies.parameters.iter().zip(other);
-            let moved: Vec<f64> = both.map(|(own, x)| own + 1e-4 * (x - own)).collect();
+            let moved: Vec<f64> = both
+                .map(|(parameter, x)| parameter + 1e-4 * (x - parameter))
+                .collect();
             let farther = distance(&moved) - nearest;
             assert!(farther > -1e-6, "{name}: {farther}");
         }

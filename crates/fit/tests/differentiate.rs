@@ -12,8 +12,8 @@ fn quartics_are_differentiated_exactly() {
     let samples: Vec<f64> = (0..60).map(|k| q(f64::from(k) * 0.01)).collect();
     let [position, velocity, acceleration] = differentiate(&filter, &samples).unwrap();
     assert_eq!(position.len(), 60 - 2 * filter.half());
-    let all = position.iter().zip(&velocity).zip(&acceleration);
-    for (k, ((position, velocity), acceleration)) in all.enumerate() {
+    let derivatives = position.iter().zip(&velocity).zip(&acceleration);
+    for (k, ((position, velocity), acceleration)) in derivatives.enumerate() {
         let t = (k + filter.half()) as f64 * 0.01;
         let slope = -0.2 + 1.4 * t - 1.2 * t.powi(2) + 0.4 * t.powi(3);
         let bend = 1.4 - 2.4 * t + 1.2 * t.powi(2);
@@ -68,15 +68,14 @@ fn encoder_bias(seeds: u64) -> [f64; 2] {
         for ([q, qd, qdd], tau) in states.iter().zip(&log.tau[filter.half()..]) {
             data.add(&model, [q, qd, qdd], tau).unwrap();
         }
-        let found = fit(&model, &data).unwrap();
-        assert!(found.unexcited.is_empty());
-        for (joint, (after, noise)) in (1..).zip(found.after.iter().zip(&sigma)) {
+        let fit = fit(&model, &data).unwrap();
+        assert!(fit.unexcited.is_empty());
+        for (joint, (after, noise)) in (1..).zip(fit.after.iter().zip(&sigma)) {
             assert!((after / noise - 1.0).abs() < 0.05, "joint {joint}: {after}");
         }
-        let errors = found.parameters.iter().zip(&right);
-        let errors = errors.zip(&found.standard_errors);
-        for (away, ((found, right), error)) in away.iter_mut().zip(errors) {
-            *away += (found - right) / error / seeds as f64;
+        let errors = fit.parameters.iter().zip(&right).zip(&fit.standard_errors);
+        for (away, ((parameter, right), error)) in away.iter_mut().zip(errors) {
+            *away += (parameter - right) / error / seeds as f64;
         }
     }
     let square: f64 = away.iter().map(|x| x * x).sum();

@@ -20,15 +20,15 @@ fn excited(arms: &[&str]) {
         let model = model(&guess(&truth(name)));
         let sigma: Vec<f64> = (0..model.joints()).map(noise).collect();
         let (_, drawn) = excite(&model, &sigma, 10.0, &effort(300, 1, 0)).unwrap();
-        let (found, condition) = excite(&model, &sigma, 10.0, &effort(50, 1, 40)).unwrap();
+        let (trajectory, condition) = excite(&model, &sigma, 10.0, &effort(50, 1, 40)).unwrap();
         println!("{name}: condition {condition:.1}, the best of 300 random ones {drawn:.1}");
         assert!(condition < 0.8 * drawn, "{name}: {condition} {drawn}");
         for time in [0.0, 10.0] {
-            let [_, qd, qdd] = found.at(time);
+            let [_, qd, qdd] = trajectory.at(time);
             assert!(qd.iter().chain(&qdd).all(|x| x.abs() < 1e-9));
         }
         for k in 0..500 {
-            let [q, qd, qdd] = found.at(f64::from(k) * 0.02);
+            let [q, qd, qdd] = trajectory.at(f64::from(k) * 0.02);
             for (i, limits) in model.limits().iter().enumerate() {
                 let [low, high] = limits.position;
                 assert!(q[i] >= low && q[i] <= high);

@@ -40,8 +40,9 @@ fn guess() -> Robot {
 fn state(model: &Model, random: &mut Random) -> [Vec<f64>; 3] {
     let most = [2.0, 3.0, 10.0];
     let lengths = model.lengths().into_iter().zip(most);
-    let mut all = lengths.map(|(length, most)| (0..length).map(|_| within(random, most)).collect());
-    [(); 3].map(|()| all.next().unwrap_or_else(Vec::new))
+    let mut vectors =
+        lengths.map(|(length, most)| (0..length).map(|_| within(random, most)).collect());
+    [(); 3].map(|()| vectors.next().unwrap_or_else(Vec::new))
 }
 
 #[test]
@@ -57,8 +58,8 @@ fn parameters_of_the_file_give_its_torques() {
         let vector = |values: &[f64]| DVector::from_column_slice(values);
         let wanted = reference.inverse_dynamics(&vector(&q[..4]), &vector(&qd), &vector(&qdd));
         let y = model.regressor(&q, &qd, &qdd).unwrap();
-        for (wanted, found) in wanted.unwrap().iter().zip(torques(&y, model.parameters())) {
-            near(found, *wanted, 1e-10, "two legs");
+        for (wanted, torque) in wanted.unwrap().iter().zip(torques(&y, model.parameters())) {
+            near(torque, *wanted, 1e-10, "two legs");
         }
     }
     let short = model
@@ -94,8 +95,8 @@ fn the_base_and_the_links_are_identified() {
         near(exact.parameters[k], *wanted, 1e-8, &model.name(k));
     }
     let data = logged(&model, right.parameters(), NOISE, 8);
-    let found = fit(&model, &data).unwrap();
-    let bodies = consistent(&model, &found).unwrap();
+    let fit = fit(&model, &data).unwrap();
+    let bodies = consistent(&model, &fit).unwrap();
     assert_eq!(bodies.links.len(), 5);
     let text = write(&identified(&model, &bodies).unwrap());
     let again = crate::support::model(&parse(&text).unwrap().robot);
@@ -132,8 +133,8 @@ fn what_needs_the_base_to_move_is_told() {
         let tau = torques(&y, model.parameters());
         data.add(&model, [&q, &qd, &qdd], &tau).unwrap();
     }
-    let found = fit(&model, &data).unwrap();
-    let motions: Vec<Motion> = found
+    let fit = fit(&model, &data).unwrap();
+    let motions: Vec<Motion> = fit
         .unexcited
         .iter()
         .map(|direction| direction.motion)

@@ -21,14 +21,14 @@ fn a_file_that_was_edited_stays() {
     }
     let text = fs::read_to_string(&path).unwrap();
     assert!(parse(&text).is_ok(), "{text}");
-    for (own, why) in [
+    for (contents, why) in [
         (text.clone() + "# mine\n", "edited"),
         (write(&robot), "no identification"),
     ] {
-        fs::write(&path, &own).unwrap();
+        fs::write(&path, &contents).unwrap();
         let error = save(&path, &robot).unwrap_err().to_string();
         assert!(error.contains(why), "{error}");
-        assert_eq!(fs::read_to_string(&path).unwrap(), own);
+        assert_eq!(fs::read_to_string(&path).unwrap(), contents);
     }
     fs::write(&path, "").unwrap();
     save(&path, &robot).unwrap();
@@ -67,26 +67,26 @@ fn logs_that_were_left_out_are_predicted() {
         accumulated(&model, &states, parameters, Some(50 + file))
     };
     let files: Vec<_> = (0..4).map(|file| logged(file, &right)).collect();
-    let found = cross_validation(&model, &files).unwrap();
-    assert_eq!(found.len(), 4);
-    for file in &found {
+    let residuals = cross_validation(&model, &files).unwrap();
+    assert_eq!(residuals.len(), 4);
+    for file in &residuals {
         for (i, after) in file.after.iter().enumerate() {
             let part = after / noise(i);
             assert!((0.8..1.2).contains(&part), "{part}");
             assert!(file.before[i] > 2.0 * after);
         }
     }
-    assert_eq!(disagreeing(&model, &files, &found), Ok(Vec::new()));
+    assert_eq!(disagreeing(&model, &files, &residuals), Ok(Vec::new()));
     // The third arm carries something that the others do not.
     let mut other = files.clone();
     let carrying: Vec<f64> = right.iter().map(|x| 1.2 * x).collect();
     other[2] = logged(2, &carrying);
-    let found = cross_validation(&model, &other).unwrap();
-    let named = disagreeing(&model, &other, &found).unwrap();
+    let other_residuals = cross_validation(&model, &other).unwrap();
+    let named = disagreeing(&model, &other, &other_residuals).unwrap();
     assert_eq!(named.iter().map(|one| one.file).collect::<Vec<_>>(), [2]);
-    assert!(named[0].others > 2.0 * named[0].own, "{named:?}");
-    let found = cross_validation(&model, &other[1..3]).unwrap();
-    let named = disagreeing(&model, &other[1..3], &found).unwrap();
+    assert!(named[0].others > 2.0 * named[0].self_fit, "{named:?}");
+    let pair_residuals = cross_validation(&model, &other[1..3]).unwrap();
+    let named = disagreeing(&model, &other[1..3], &pair_residuals).unwrap();
     assert_eq!(named.len(), 2, "of two, either may be wrong");
     let one = cross_validation(&model, &files[..1]);
     assert_eq!(one, Err(Error::OneFile));

@@ -21,9 +21,9 @@ fn parameters_of_the_file_give_its_torques() {
             let vector = |values: &[f64]| DVector::from_column_slice(values);
             let [q, qd, qdd] = [&state.q, &state.qd, &state.qdd].map(|x| vector(x));
             let wanted = reference.inverse_dynamics(&q, &qd, &qdd).unwrap();
-            let found = torques(&state.y, model.parameters());
-            for (wanted, found) in wanted.iter().zip(found) {
-                near(found, *wanted, 1e-10, name);
+            let tau = torques(&state.y, model.parameters());
+            for (wanted, torque) in wanted.iter().zip(tau) {
+                near(torque, *wanted, 1e-10, name);
             }
         }
     }
@@ -64,12 +64,12 @@ fn wrong_input_is_told() {
     let six = [0.0; 6];
     let short = model.regressor(&six, &six[1..], &six).unwrap_err();
     assert_eq!(short.to_string(), "`qd` has 5 values instead of 6");
-    let found = model.regressor(&six, &six, &[0.0, f64::NAN, 0.0, 0.0, 0.0, 0.0]);
+    let result = model.regressor(&six, &six, &[0.0, f64::NAN, 0.0, 0.0, 0.0, 0.0]);
     let Err(Error::Value {
         argument, index, ..
-    }) = found
+    }) = result
     else {
-        panic!("{found:?}")
+        panic!("{result:?}")
     };
     assert_eq!((argument, index), ("qdd", 1));
     let mut still = file("puma560");

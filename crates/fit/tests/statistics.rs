@@ -8,19 +8,19 @@ use crate::support::{ARMS, accumulated, arm, near, states};
 fn coverage(name: &str, seeds: u64, count: usize) -> [f64; 2] {
     let (model, right) = arm(name);
     let states = states(&model, count, 7);
-    let [mut inside, mut all, mut squares] = [0.0; 3];
+    let [mut inside, mut total, mut squares] = [0.0; 3];
     for seed in 0..seeds {
         let data = accumulated(&model, &states, &right, Some(1000 + seed));
-        let found = fit(&model, &data).unwrap();
-        assert!(found.unexcited.is_empty());
-        for (k, error) in found.standard_errors.iter().enumerate() {
-            let away = (found.parameters[k] - right[k]) / error;
+        let fit = fit(&model, &data).unwrap();
+        assert!(fit.unexcited.is_empty());
+        for (k, error) in fit.standard_errors.iter().enumerate() {
+            let away = (fit.parameters[k] - right[k]) / error;
             inside += f64::from(u8::from(away.abs() <= 3.0));
             squares += away * away;
-            all += 1.0;
+            total += 1.0;
         }
     }
-    [inside / all, (squares / all).sqrt()]
+    [inside / total, (squares / total).sqrt()]
 }
 
 fn covered(seeds: u64, count: usize, bar: f64) {
@@ -48,11 +48,11 @@ fn noise_is_each_joint_s_own() {
     let (model, right) = arm("puma560");
     let states = states(&model, 2000, 8);
     let data = accumulated(&model, &states, &right, Some(9));
-    let found = fit(&model, &data).unwrap();
-    for (i, noise) in found.noise.iter().enumerate() {
+    let fit = fit(&model, &data).unwrap();
+    for (i, noise) in fit.noise.iter().enumerate() {
         let wanted = crate::support::noise(i);
         assert!((noise / wanted - 1.0).abs() < 0.06, "{noise} {wanted}");
-        assert!(found.after[i] < 1.06 * wanted && found.before[i] > 1.5 * wanted);
+        assert!(fit.after[i] < 1.06 * wanted && fit.before[i] > 1.5 * wanted);
     }
 }
 
@@ -62,9 +62,9 @@ fn exact_torques_give_the_exact_parameters() {
         let (model, right) = arm(name);
         let states = states(&model, 400, 10);
         let data = accumulated(&model, &states, &right, None);
-        let found = fit(&model, &data).unwrap();
+        let fit = fit(&model, &data).unwrap();
         for (k, right) in right.iter().enumerate() {
-            near(found.parameters[k], *right, 1e-9, &model.name(k));
+            near(fit.parameters[k], *right, 1e-9, &model.name(k));
         }
     }
 }

@@ -29,8 +29,8 @@ fn log(name: &str) -> ([Vec<f64>; 4], usize) {
         let y = model.regressor(&q, &qd, &qdd).unwrap();
         let tau = torques(&y, &right);
         for i in 0..n {
-            for (column, own) in log.iter_mut().zip([&q, &qd, &qdd]) {
-                column[i * ROWS + row] = own[i];
+            for (column, quantity) in log.iter_mut().zip([&q, &qd, &qdd]) {
+                column[i * ROWS + row] = quantity[i];
             }
             log[3][i * ROWS + row] = tau[i] + 0.1 * noise(i) * normal(&mut random);
         }
@@ -41,8 +41,9 @@ fn log(name: &str) -> ([Vec<f64>; 4], usize) {
 fn named(name: &str) {
     let (right, n) = log(name);
     let model = model(&guess(&truth(name)));
-    let found = |log: &[Vec<f64>; 4]| suspect(&model, log.each_ref().map(|x| &x[..])).unwrap();
-    assert_eq!(found(&right), None, "{name}");
+    let suspicion_of =
+        |log: &[Vec<f64>; 4]| suspect(&model, log.each_ref().map(|x| &x[..])).unwrap();
+    assert_eq!(suspicion_of(&right), None, "{name}");
     let swap = |log: &mut Vec<f64>, i: usize, j: usize| {
         (0..ROWS).for_each(|row| log.swap(i * ROWS + row, j * ROWS + row));
     };
@@ -60,10 +61,10 @@ fn named(name: &str) {
         (&joints, Change::Joints(0, 1)),
         (&late, Change::Late(16)),
     ] {
-        let found = found(log).expect("a suspicion");
-        assert_eq!(found.change, wanted, "{name}");
-        let most = f64::min(0.25 * found.before, 0.1);
-        assert!(found.after < most, "{name}: {found:?}");
+        let suspicion = suspicion_of(log).expect("a suspicion");
+        assert_eq!(suspicion.change, wanted, "{name}");
+        let most = f64::min(0.25 * suspicion.before, 0.1);
+        assert!(suspicion.after < most, "{name}: {suspicion:?}");
     }
 }
 

@@ -65,12 +65,12 @@ fn a_joint_that_never_moved_is_named() {
     let (model, right) = arm("puma560");
     let mut data = Accumulator::new(&model);
     add(&mut data, &model, &only(&model, |i| i != 4, true), &right);
-    let found = fit(&model, &data).unwrap();
-    assert!(!found.unexcited.is_empty());
-    for one in &found.unexcited {
+    let fit = fit(&model, &data).unwrap();
+    assert!(!fit.unexcited.is_empty());
+    for one in &fit.unexcited {
         let said = one.to_string();
         assert!(said.contains("joint 5"), "{said}");
     }
-    let mut names = found.unexcited.iter().map(|one| &one.name);
+    let mut names = fit.unexcited.iter().map(|one| &one.name);
     assert!(names.any(|name| name.contains("viscous5")));
 }

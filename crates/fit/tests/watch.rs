@@ -87,8 +87,11 @@ fn false_alarms(logs: u64, seconds: f64) -> usize {
     let others_of = |seed: u64| -> usize {
         let log = scene.record(&collisions, seconds, seed);
         let said = watched(&scene, &log, 2.0 * level);
-        let alarms = said.iter().filter(|said| said.1.is_some());
-        let alarms: Vec<f64> = alarms.map(|said| said.0).collect();
+        let alarms: Vec<f64> = said
+            .iter()
+            .filter(|said| said.1.is_some())
+            .map(|said| said.0)
+            .collect();
         for one in &collisions {
             let is_found = alarms.iter().any(|time| near(one, *time));
             assert!(is_found, "missed {one:?}: {alarms:?}");
@@ -97,8 +100,8 @@ fn false_alarms(logs: u64, seconds: f64) -> usize {
     };
     let others: usize = std::thread::scope(|scope| {
         let halves = [0, 1].map(|half| {
-            let own = (half..logs).step_by(2).map(&others_of);
-            scope.spawn(move || own.sum::<usize>())
+            let counts = (half..logs).step_by(2).map(&others_of);
+            scope.spawn(move || counts.sum::<usize>())
         });
         halves.map(|half| half.join().unwrap()).iter().sum()
     });

@@ -73,9 +73,9 @@ impl Shape {
                 Some(_) => {
                     let many = rest.iter().take_while(|of| is_number(of)).count();
                     if many < n {
-                        let found = rest.get(many).map_or("nothing".into(), ToString::to_string);
+                        let kind = rest.get(many).map_or("nothing".into(), ToString::to_string);
                         let name = format!("{name}{}", many + 1);
-                        return plan_err!("`{name}` is {found}, a number was expected; {expected}");
+                        return plan_err!("`{name}` is {kind}, a number was expected; {expected}");
                     }
                     coerced.extend(std::iter::repeat_n(DataType::Float64, n));
                     rest = &rest[n..];

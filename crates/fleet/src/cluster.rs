@@ -80,11 +80,15 @@ pub async fn executor(config: ExecutorProcessConfig, functions: Functions) -> Re
     let scheduler = format!("{}:{}", config.scheduler_host, config.scheduler_port);
     reach(&scheduler).await?;
     let mut registry = BallistaFunctionRegistry::default();
-    let scalars = functions.scalars.into_iter();
-    let scalars = scalars.map(|of| (of.name().to_owned(), of));
+    let scalars = functions
+        .scalars
+        .into_iter()
+        .map(|of| (of.name().to_owned(), of));
     registry.scalar_functions.extend(scalars);
-    let aggregates = functions.aggregates.into_iter();
-    let aggregates = aggregates.map(|of| (of.name().to_owned(), of));
+    let aggregates = functions
+        .aggregates
+        .into_iter()
+        .map(|of| (of.name().to_owned(), of));
     registry.aggregate_functions.extend(aggregates);
     let config = ExecutorProcessConfig {
         grpc_port: config.port + 1,

@@ -62,12 +62,12 @@ pub async fn run(arguments: Arguments, going: &Going) -> Result<Report, Error> {
 }
 
 fn table<const N: usize>(head: [&str; N], rows: Vec<[String; N]>) -> String {
-    let mut all = vec![head.map(str::to_owned)];
-    all.extend(rows);
-    let width = |k: usize| all.iter().map(|row| row[k].chars().count()).max();
+    let mut table = vec![head.map(str::to_owned)];
+    table.extend(rows);
+    let width = |k: usize| table.iter().map(|row| row[k].chars().count()).max();
     let widths: Vec<usize> = (0..N).map(|k| width(k).unwrap_or(0)).collect();
     let mut text = String::new();
-    for row in &all {
+    for row in &table {
         let cell = |(k, (cell, width)): (usize, (&String, &usize))| match k {
             0 => format!("{cell:width$}"),
             _ => format!("{cell:>width$}"),

@@ -47,8 +47,8 @@ pub trait Dynamics: fmt::Debug + Send + Sync + 'static {
     ) -> Result<(), Error> {
         into.resize(measured.len(), 0.0);
         self.inverse_dynamics(States { count, q, qd, qdd }, into)?;
-        for (own, measured) in into.iter_mut().zip(measured) {
-            *own = measured - *own;
+        for (residual, measured) in into.iter_mut().zip(measured) {
+            *residual = measured - *residual;
         }
         Ok(())
     }
@@ -186,16 +186,16 @@ fn load(urdf: &dalembert_import::Options, output: Output) -> Load {
 
 fn code(arm: &Arm) -> Result<&Native, Error> {
     let mut functions = arm.functions().iter();
-    let found = functions.find(|f| f.scalar() == Scalar::F64);
-    let found = found.map(|f| f.native());
-    found.ok_or_else(|| Error::new("the generator returned no function"))
+    let native = functions
+        .find(|f| f.scalar() == Scalar::F64)
+        .map(|f| f.native());
+    native.ok_or_else(|| Error::new("the generator returned no function"))
 }
 
 fn fitted(model: Model) -> Result<(Model, Arm), Error> {
     let text = write(&model.generator_robot());
     let load = load(&Default::default(), Output::Regressor);
-    let arm = Arm::parse(&text, "the robot with its drives", None, &load);
-    let arm = arm.map_err(Error::new)?;
+    let arm = Arm::parse(&text, "the robot with its drives", None, &load).map_err(Error::new)?;
     code(&arm)?.prepare_columns().map_err(Error::new)?;
     Ok((model, arm))
 }

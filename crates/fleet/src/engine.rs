@@ -58,8 +58,9 @@ impl Engine {
         limits: Limits,
     ) -> Result<Engine, Error> {
         let pool = Arc::new(GreedyMemoryPool::new(limits.memory as usize));
-        let runtime = RuntimeEnvBuilder::new().with_memory_pool(pool);
-        let runtime = runtime.build_arc()?;
+        let runtime = RuntimeEnvBuilder::new()
+            .with_memory_pool(pool)
+            .build_arc()?;
         let context = SessionContext::new_with_config_rt(config(limits.partitions), runtime);
         Ok(Engine {
             functions: register(&context, name, robot),
@@ -125,31 +126,31 @@ impl Engine {
             true => self.limits.partitions,
             false => (room as usize).clamp(1, self.limits.partitions),
         };
-        let all = stream::iter(logs).map(|log| {
+        let runs = stream::iter(logs).map(|log| {
             let partitions = match self.is_cluster {
                 true => self.limits.partitions,
                 // One large log is read in parts, many are read beside each other.
                 false => at_once.div_ceil(logs.len().max(1)),
             };
             async move {
-                let found = self.one(aggregate, with_time, log, partitions).await;
-                (log, found)
+                let result = self.one(aggregate, with_time, log, partitions).await;
+                (log, result)
             }
         });
-        let mut all = std::pin::pin!(all.buffered(at_once));
-        let mut found = Vec::with_capacity(logs.len());
-        while let Some((log, bytes)) = going.unless_ended(async { Ok(all.next().await) }).await? {
+        let mut queue = std::pin::pin!(runs.buffered(at_once));
+        let mut results = Vec::with_capacity(logs.len());
+        while let Some((log, bytes)) = going.unless_ended(async { Ok(queue.next().await) }).await? {
             done(log);
-            let own = log.clone();
-            found.push(match bytes {
+            let owned_log = log.clone();
+            results.push(match bytes {
                 Ok(bytes) => Ok(bytes),
-                Err(why) => match going.blocking(move |_| Ok(locate(&own))).await? {
+                Err(why) => match going.blocking(move |_| Ok(locate(&owned_log))).await? {
                     Some(bad) => Err(bad),
                     None => return Err(why.at(log.name.display())),
                 },
             });
         }
-        Ok(found)
+        Ok(results)
     }
 
     async fn one(
@@ -180,8 +181,8 @@ impl Engine {
             match source {
                 Some(Source::List(name)) => arguments.push(ident(name)),
                 Some(Source::Columns(names)) => {
-                    let each = names.iter().zip(factors);
-                    arguments.extend(each.map(|(name, factor)| scaled(ident(name), *factor)));
+                    let columns = names.iter().zip(factors);
+                    arguments.extend(columns.map(|(name, factor)| scaled(ident(name), *factor)));
                 }
                 Some(Source::Ragged(_)) | None => {
                     return Err(Error::new("it was not converted"));

@@ -57,7 +57,7 @@ impl From<DataFusionError> for Error {
 }
 
 impl From<Error> for DataFusionError {
-    fn from(own: Error) -> DataFusionError {
-        DataFusionError::External(Box::new(own))
+    fn from(error: Error) -> DataFusionError {
+        DataFusionError::External(Box::new(error))
     }
 }

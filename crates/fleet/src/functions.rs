@@ -102,11 +102,11 @@ impl ScalarUDFImpl for Scalar {
         Ok(list(self.function.shape.joints))
     }
 
-    fn invoke_with_args(&self, given: ScalarFunctionArgs) -> Result<ColumnarValue> {
-        let mut kinds = given.args.iter();
+    fn invoke_with_args(&self, args: ScalarFunctionArgs) -> Result<ColumnarValue> {
+        let mut kinds = args.args.iter();
         let is_constant = kinds.all(|of| matches!(of, ColumnarValue::Scalar(_)));
         let Function { robot, shape, .. } = &self.function;
-        let arguments = shape.read(&ColumnarValue::values_to_arrays(&given.args)?);
+        let arguments = shape.read(&ColumnarValue::values_to_arrays(&args.args)?);
         let n = shape.joints;
         let mut values = vec![0.0; n * arguments.rows];
         let mut results = Vec::new();

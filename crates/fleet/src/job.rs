@@ -85,13 +85,13 @@ pub fn threads(asked: Option<usize>) -> usize {
 impl RobotArgs {
     /// Loads the robot; with `fit` the regressor too.
     pub async fn load(&self, fit: bool, going: &Going) -> Result<Arc<Loaded>, Error> {
-        let own = self.clone();
-        let urdf = own.chain.choose(Default::default());
+        let args = self.clone();
+        let urdf = args.chain.choose(Default::default());
         let open = match self.without_rotors {
             true => Loaded::without_rotors,
             false => Loaded::open,
         };
-        let work = going.blocking(move |_| open(&own.robot, &urdf, fit));
+        let work = going.blocking(move |_| open(&args.robot, &urdf, fit));
         let robot = going.unless_ended(work).await?;
         for note in robot.notes() {
             eprintln!("{}", note.trim_end());
@@ -102,12 +102,21 @@ impl RobotArgs {
     /// Returns the name of the robot's functions: whoever has another file has other names, and
     /// a query is refused instead of answered by another robot.
     pub fn function_name(&self, robot: &Loaded) -> String {
-        let stem = self.robot.file_stem().unwrap_or_default().to_string_lossy();
-        let stem = stem.to_ascii_lowercase();
-        let stem = stem.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
-        let hash = robot.robot().input_hash();
-        let hash = hash.iter().take(4).map(|byte| format!("{byte:02x}"));
-        format!("{stem}_{}", hash.collect::<String>())
+        let stem = self
+            .robot
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .to_ascii_lowercase()
+            .replace(|c: char| !c.is_ascii_alphanumeric(), "_");
+        let hash = robot
+            .robot()
+            .input_hash()
+            .iter()
+            .take(4)
+            .map(|byte| format!("{byte:02x}"))
+            .collect::<String>();
+        format!("{stem}_{hash}")
     }
 }
 
@@ -142,7 +151,7 @@ impl Job {
         let progress = Arc::new(Progress::of(robot.evaluated()));
         let work = args.work.clone().unwrap_or_else(std::env::temp_dir);
         let scratch = Scratch::within(&work)?;
-        let each = stream::iter(files.into_iter().enumerate()).map(|(place, path)| {
+        let inspections = stream::iter(files.into_iter().enumerate()).map(|(place, path)| {
             let (columns, to) = (columns.clone(), scratch.file(&format!("{place}.parquet")));
             going.blocking(move |going| {
                 let log = inspect(&path, &columns, going).and_then(|log| match log.converts() {
@@ -152,8 +161,8 @@ impl Job {
                 Ok(log.map_err(|why| why.at(path.display())))
             })
         });
-        let found: Vec<Result<_, Error>> = each.buffered(threads).collect().await;
-        let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let results: Vec<Result<_, Error>> = inspections.buffered(threads).collect().await;
+        let logs = results.into_iter().collect::<Result<Vec<_>, _>>()?;
         let (memory, partitions) = (args.memory, threads);
         let limits = Limits { memory, partitions };
         let name = args.robot.function_name(&robot);
@@ -175,7 +184,7 @@ impl Job {
             threads,
             _scratch: scratch,
         };
-        job.logs = job.good(found)?;
+        job.logs = job.good(logs)?;
         job.progress.expect(job.rows());
         Ok(job)
     }
@@ -193,17 +202,19 @@ impl Job {
     }
 
     /// Returns the findings about good files; names the bad ones.
-    pub fn good<T>(&self, found: Vec<Result<T, Error>>) -> Result<Vec<T>, Error> {
-        let all = found.len();
+    pub fn good<T>(&self, results: Vec<Result<T, Error>>) -> Result<Vec<T>, Error> {
+        let total = results.len();
         let skipped = if self.skip_bad { "left out: " } else { "" };
         let tell = |bad: &Error| eprintln!("{skipped}{bad}");
-        let good = found.into_iter().flat_map(|one| one.inspect_err(tell));
-        let good: Vec<T> = good.collect();
-        let bad = all - good.len();
+        let good: Vec<T> = results
+            .into_iter()
+            .flat_map(|one| one.inspect_err(tell))
+            .collect();
+        let bad = total - good.len();
         match bad {
             0 => Ok(good),
             _ if !self.skip_bad => Err(Error::new(format!(
-                "{bad} of {all} files cannot be used, see above: mend them, or leave them out by \
+                "{bad} of {total} files cannot be used, see above: mend them, or leave them out by \
                  --skip-bad"
             ))),
             _ if good.is_empty() => Err(Error::new("no file can be used")),
@@ -221,18 +232,18 @@ impl Job {
                 progress.add(log.rows)
             }
         };
-        let all = self.engine.over(suffix, &self.logs, &self.going, done);
-        let found = all.await?;
-        self.keep(found)
+        let computation = self.engine.over(suffix, &self.logs, &self.going, done);
+        let results = computation.await?;
+        self.keep(results)
     }
 
     /// Keeps the logs that something was found of; returns what it is.
-    pub fn keep<T>(&mut self, found: Vec<Result<T, Error>>) -> Result<Vec<T>, Error> {
-        let is_good: Vec<bool> = found.iter().map(Result::is_ok).collect();
-        let found = self.good(found)?;
+    pub fn keep<T>(&mut self, results: Vec<Result<T, Error>>) -> Result<Vec<T>, Error> {
+        let is_good: Vec<bool> = results.iter().map(Result::is_ok).collect();
+        let values = self.good(results)?;
         let mut is_good = is_good.into_iter();
         self.logs.retain(|_| is_good.next().unwrap_or(false));
-        Ok(found)
+        Ok(values)
     }
 
     /// Calls with each log and its place on this machine's threads; returns the results in order.
@@ -241,11 +252,11 @@ impl Job {
         work: impl Fn(usize, &Log, &Going) -> Result<T, Error> + Clone + Send + 'static,
     ) -> Result<Vec<T>, Error> {
         let logs = self.logs.clone().into_iter().enumerate();
-        let each = stream::iter(logs).map(|(place, log)| {
+        let tasks = stream::iter(logs).map(|(place, log)| {
             let work = work.clone();
             self.going.blocking(move |going| work(place, &log, going))
         });
-        let found: Vec<Result<T, Error>> = each.buffered(self.threads).collect().await;
-        found.into_iter().collect()
+        let results: Vec<Result<T, Error>> = tasks.buffered(self.threads).collect().await;
+        results.into_iter().collect()
     }
 }

@@ -32,29 +32,29 @@ use crate::progress::Going;
 
 /// Returns the files of patterns, in order and each once.
 pub fn expand(patterns: &[String]) -> Result<Vec<PathBuf>, Error> {
-    let mut all = Vec::new();
+    let mut paths = Vec::new();
     for pattern in patterns {
         // A file may be called what looks like a pattern.
         if Path::new(pattern).is_file() {
-            all.push(PathBuf::from(pattern));
+            paths.push(PathBuf::from(pattern));
             continue;
         }
-        let before = all.len();
+        let before = paths.len();
         for path in glob::glob(pattern).map_err(|why| Error::new(why).at(pattern))? {
             let path = path.map_err(Error::new)?;
             if path.is_file() {
-                all.push(path);
+                paths.push(path);
             }
         }
-        if all.len() == before {
+        if paths.len() == before {
             return Err(Error::new(format!(
                 "no file is called `{pattern}`: quote patterns as 'logs/**/*.parquet'"
             )));
         }
     }
-    all.sort();
-    all.dedup();
-    Ok(all)
+    paths.sort();
+    paths.dedup();
+    Ok(paths)
 }
 
 /// True if a file is a recording of ROS 2, by its name.

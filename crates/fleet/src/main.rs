@@ -21,7 +21,7 @@ fn main() -> ExitCode {
         Err(why) => return failed(&why.to_string()),
     };
     let (end, going) = Going::new();
-    let found = runtime.block_on(async {
+    let result = runtime.block_on(async {
         tokio::spawn(async move {
             if tokio::signal::ctrl_c().await.is_ok() {
                 // Whoever still waits hears of it.
@@ -34,7 +34,7 @@ fn main() -> ExitCode {
     });
     // A search that nobody waits for any more is not waited for.
     runtime.shutdown_timeout(Duration::from_millis(100));
-    match found {
+    match result {
         Ok(report) => match std::io::stdout().write_all(report.text.as_bytes()) {
             // A broken pipe: the reader has read enough.
             Err(why) if why.kind() != ErrorKind::BrokenPipe => failed(&why.to_string()),

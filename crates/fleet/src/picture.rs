@@ -12,7 +12,7 @@ const TOP: f64 = 24.0;
 pub struct Curves {
     name: String,
     rows: u64,
-    seen: u64,
+    next_row: u64,
     time: [f64; 2],
     /// For each joint: the least and the largest value of each column.
     ranges: Vec<Vec<[f64; 2]>>,
@@ -24,7 +24,7 @@ impl Curves {
         Curves {
             name: name.to_owned(),
             rows: rows.max(1),
-            seen: 0,
+            next_row: 0,
             time: [f64::NAN; 2],
             ranges: vec![vec![[f64::INFINITY, f64::NEG_INFINITY]; COLUMNS]; joints],
         }
@@ -40,14 +40,14 @@ impl Curves {
         }
         self.time[1] = *last;
         let joints = residuals.chunks_exact(time.len());
-        for (ranges, own) in self.ranges.iter_mut().zip(joints) {
-            for (s, value) in own.iter().enumerate() {
-                let place = (self.seen + s as u64) * COLUMNS as u64 / self.rows;
+        for (ranges, column) in self.ranges.iter_mut().zip(joints) {
+            for (s, value) in column.iter().enumerate() {
+                let place = (self.next_row + s as u64) * COLUMNS as u64 / self.rows;
                 let range = &mut ranges[(place as usize).min(COLUMNS - 1)];
                 *range = [range[0].min(*value), range[1].max(*value)];
             }
         }
-        self.seen += time.len() as u64;
+        self.next_row += time.len() as u64;
     }
 }
 
@@ -80,8 +80,11 @@ pub fn picture(logs: &[&Curves]) -> String {
 }
 
 fn strip(svg: &mut String, y: f64, joint: usize, ranges: &[[f64; 2]]) {
-    let filled = ranges.iter().enumerate();
-    let filled: Vec<_> = filled.filter(|(_, [least, most])| least <= most).collect();
+    let filled: Vec<_> = ranges
+        .iter()
+        .enumerate()
+        .filter(|(_, [least, most])| least <= most)
+        .collect();
     let sizes = filled.iter().map(|(_, [least, most])| most.max(-least));
     let largest = sizes.fold(0.0, f64::max);
     let middle = y + 0.5 * HEIGHT;

@@ -37,7 +37,7 @@ impl Going {
             }
         };
         tokio::select! {
-            found = work => found,
+            result = work => result,
             () = ended => Err(Error::new(INTERRUPTED)),
         }
     }
@@ -48,9 +48,9 @@ impl Going {
         work: impl FnOnce(&Going) -> Result<T, Error> + Send + 'static,
     ) -> Result<T, Error> {
         let going = self.clone();
-        let found = tokio::task::spawn_blocking(move || work(&going)).await;
+        let result = tokio::task::spawn_blocking(move || work(&going)).await;
         self.check()?;
-        found.map_err(Error::new)?
+        result.map_err(Error::new)?
     }
 
     /// Returns an error if it was ended.
@@ -104,12 +104,12 @@ impl Progress {
                 let _ = write!(std::io::stderr(), "\r\x1b[K{self}");
             }
         };
-        let found = tokio::select! {
-            found = work => found,
+        let output = tokio::select! {
+            output = work => output,
             () = show => unreachable!("it shows until it is dropped"),
         };
         let _ = writeln!(std::io::stderr(), "\r\x1b[K{self}");
-        found
+        output
     }
 }
 

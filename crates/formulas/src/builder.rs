@@ -88,8 +88,10 @@ impl<'a> Builder<'a> {
             return Err(FormulaError::Rows);
         }
         let chain = arm.chain(&arm.arm);
-        let of_file = arm.parameters.iter();
-        let of_file = of_file.map(|definition| (definition.symbol.clone(), definition.value));
+        let of_file = arm
+            .parameters
+            .iter()
+            .map(|definition| (definition.symbol.clone(), definition.value));
         let tables = vec![Table {
             parameters: of_file.collect(),
             definitions: Vec::new(),
@@ -134,9 +136,12 @@ impl<'a> Builder<'a> {
         }
         if self.request.style != Style::Numbers && self.arm.variables.len() <= FEW_JOINTS {
             let coefficients = self.in_file(chain)?;
-            let entries = coefficients.inertia.iter().flatten();
-            let entries = entries.chain(coefficients.christoffel.iter().flatten().flatten());
-            let mut entries = entries.chain(&coefficients.gravity);
+            let mut entries = coefficients
+                .inertia
+                .iter()
+                .flatten()
+                .chain(coefficients.christoffel.iter().flatten().flatten())
+                .chain(&coefficients.gravity);
             if entries.all(|entry| entry.terms().len() <= SMALL) {
                 return Ok((coefficients, OF_FILE, None));
             }
@@ -271,12 +276,14 @@ impl<'a> Builder<'a> {
         let sources = std::mem::take(&mut self.sources);
         let chain = self.arm.chain(&self.arm.arm);
         let mut rows = Rows::new(&chain, self.driven(&chain));
-        let sections = sources.iter().map(|source| match source.quantity {
-            Quantity::Torque => self.torques(source.table),
-            Quantity::KineticEnergy => self.kinetic_energy(source.table),
-            _ => self.section(source, &mut rows),
-        });
-        let mut sections: Vec<Section> = sections.collect();
+        let mut sections: Vec<Section> = sources
+            .iter()
+            .map(|source| match source.quantity {
+                Quantity::Torque => self.torques(source.table),
+                Quantity::KineticEnergy => self.kinetic_energy(source.table),
+                _ => self.section(source, &mut rows),
+            })
+            .collect();
         let definitions = rows.definitions();
         if !definitions.is_empty() {
             sections.insert(0, self.rows(definitions));
@@ -352,7 +359,8 @@ fn named(
     coefficients: &Coefficients<Polynomial>,
     quantity: Quantity,
 ) -> (Vec<Symbol>, Vec<Polynomial>) {
-    let all = coefficients_of(coefficients, quantity).into_iter();
-    all.map(|(indices, own)| (quantity.entry(&indices), own.clone()))
+    let entries = coefficients_of(coefficients, quantity).into_iter();
+    entries
+        .map(|(indices, polynomial)| (quantity.entry(&indices), polynomial.clone()))
         .unzip()
 }

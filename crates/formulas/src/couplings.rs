@@ -124,8 +124,8 @@ pub struct Couplings {
 pub(crate) fn entries<S>(coefficients: &Coefficients<S>) -> Vec<(Entry, &S)> {
     let quantities = [Quantity::Inertia, Quantity::Christoffel, Quantity::Gravity];
     let of = |quantity| {
-        let all = coefficients_of(coefficients, quantity).into_iter();
-        all.map(move |(indices, value)| (Entry { quantity, indices }, value))
+        let entries = coefficients_of(coefficients, quantity).into_iter();
+        entries.map(move |(indices, value)| (Entry { quantity, indices }, value))
     };
     quantities.into_iter().flat_map(of).collect()
 }
@@ -270,10 +270,10 @@ impl<'a> Finder<'a> {
             .coefficients(self.setup, &rotation, &rotation.chain)?;
         let rotations = entries(&rotation);
         let symbolic = entries(&in_parameters);
-        let all = entries(&in_numbers);
-        let total = all.len();
+        let entries = entries(&in_numbers);
+        let total = entries.len();
         let mut zeros = Vec::new();
-        for (place, (entry, _)) in all
+        for (place, (entry, _)) in entries
             .into_iter()
             .enumerate()
             .filter(|(_, (_, x))| x.is_zero())
@@ -382,8 +382,9 @@ impl<'a> Finder<'a> {
                     bodies: None,
                     seed,
                 });
-                let all = coefficients.iter().flat_map(entries);
-                all.filter(|(_, x)| is_zero(x))
+                let entries = coefficients.iter().flat_map(entries);
+                entries
+                    .filter(|(_, x)| is_zero(x))
                     .map(|(entry, _)| entry)
                     .collect()
             };
@@ -405,8 +406,8 @@ impl<'a> Finder<'a> {
                 bodies: Some(&bodies),
                 seed: SEEDS[1],
             });
-            let mut all = coefficients.iter().flat_map(entries);
-            all.any(|(other, x)| other == *entry && is_zero(x))
+            let mut entries = coefficients.iter().flat_map(entries);
+            entries.any(|(other, x)| other == *entry && is_zero(x))
         };
         holds(&self.facts).then(|| fewest(&self.facts, holds))
     }

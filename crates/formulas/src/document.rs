@@ -91,16 +91,17 @@ impl Formulas {
     pub fn symbols(&self) -> Vec<(String, Option<String>, f64)> {
         let legend = &self.legend;
         let of_file = legend.groups.iter().flat_map(|group| &group.entries);
-        let all = legend
+        let entries = legend
             .constants
             .iter()
             .chain(&legend.parameters)
             .chain(of_file);
-        all.map(|entry| {
-            let sum = (!entry.sum.is_empty()).then(|| written(&entry.sum));
-            (entry.symbol.code.clone(), sum, entry.value.to_f64())
-        })
-        .collect()
+        entries
+            .map(|entry| {
+                let sum = (!entry.sum.is_empty()).then(|| written(&entry.sum));
+                (entry.symbol.code.clone(), sum, entry.value.to_f64())
+            })
+            .collect()
     }
 
     /// Lists the variables that are not q_i, each with its definition: `θ3` is `q3 + pi/2`.
@@ -141,8 +142,10 @@ impl Formulas {
     fn remarks(&self) -> Vec<String> {
         let mut remarks = Vec::new();
         if !self.results.iter().copied().eq(0..self.results.len()) {
-            let counted = self.results.iter().enumerate();
-            let counted: Vec<String> = counted
+            let counted: Vec<String> = self
+                .results
+                .iter()
+                .enumerate()
                 .map(|(place, joint)| format!("{} is joint {}", place + 1, joint + 1))
                 .collect();
             remarks.push(format!(

@@ -192,14 +192,16 @@ pub fn grouped(common: Vec<Factor>, group: &[(&Shape, Number)], runs: &Runs) -> 
     let is_negative = first.is_negative();
     let size = |x: &Number| x.abs().residue();
     let same = group.iter().all(|(_, x)| size(x) == size(&first));
-    let inner = group.iter().map(|(shape, x)| {
-        let mut factors = shaped(shape, runs);
-        if !same && !size_is_one(x) {
-            factors.insert(0, Factor::Exact(x.abs()));
-        }
-        Term::new(x.is_negative() != is_negative, factors)
-    });
-    let mut inner: Vec<Term> = inner.collect();
+    let mut inner: Vec<Term> = group
+        .iter()
+        .map(|(shape, x)| {
+            let mut factors = shaped(shape, runs);
+            if !same && !size_is_one(x) {
+                factors.insert(0, Factor::Exact(x.abs()));
+            }
+            Term::new(x.is_negative() != is_negative, factors)
+        })
+        .collect();
     let mut factors = Vec::new();
     if same && !size_is_one(&first) {
         factors.push(Factor::Exact(first.abs()));

@@ -114,10 +114,11 @@ impl Legend {
             let mut entries = self.groups.iter().flat_map(|group| &group.entries);
             entries.any(|entry| kind(&entry.symbol.code) == **letters)
         };
-        let phrases = meanings
+        let phrases: Vec<&str> = meanings
             .into_iter()
-            .filter(|(letters, _)| letters.iter().any(occurs));
-        let phrases: Vec<&str> = phrases.map(|(_, phrase)| phrase).collect();
+            .filter(|(letters, _)| letters.iter().any(occurs))
+            .map(|(_, phrase)| phrase)
+            .collect();
         format!(
             "Entries of the robot file: in m, kg, kg m² and m/s²; {}",
             phrases.join("; ")

@@ -17,17 +17,18 @@ pub fn coefficients_of<S>(
     let n = coefficients.gravity.len();
     match quantity {
         Quantity::Gravity => {
-            let all = coefficients.gravity.iter().enumerate();
-            all.map(|(i, value)| (vec![i], value)).collect()
+            let entries = coefficients.gravity.iter().enumerate();
+            entries.map(|(i, value)| (vec![i], value)).collect()
         }
         Quantity::Inertia | Quantity::InertiaRotation | Quantity::InertiaTranslation => {
-            let all = pairs(n).map(|(i, k)| (vec![i, k], &coefficients.inertia[i][k]));
-            all.collect()
+            let entries = pairs(n).map(|(i, k)| (vec![i, k], &coefficients.inertia[i][k]));
+            entries.collect()
         }
         _ => {
-            let all = (0..n).flat_map(|i| pairs(n).map(move |(k, m)| [i, k, m]));
+            let triples = (0..n).flat_map(|i| pairs(n).map(move |(k, m)| [i, k, m]));
             let value = |[i, k, m]: [usize; 3]| &coefficients.christoffel[i][k][m];
-            all.map(|indices| (indices.to_vec(), value(indices)))
+            triples
+                .map(|indices| (indices.to_vec(), value(indices)))
                 .collect()
         }
     }

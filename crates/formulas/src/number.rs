@@ -320,9 +320,9 @@ mod tests {
             ((1, 1), "1", "1"),
             ((100, 1), "100", "100"),
         ];
-        for ((n, d), six, all) in cases {
+        for ((n, d), six, whole) in cases {
             assert_eq!(number(n, d).rounded(6), six);
-            assert_eq!(number(n, d).digits(), all);
+            assert_eq!(number(n, d).digits(), whole);
         }
     }
 

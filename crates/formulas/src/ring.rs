@@ -70,8 +70,8 @@ impl Symbols {
     /// Lists the lengths that occur, with their powers.
     pub fn lengths(self) -> impl Iterator<Item = (usize, u32)> {
         let power = move |index: usize| ((self.0 >> (2 * index)) & 3) as u32;
-        let all = (0..MAX_LENGTHS).map(move |index| (index, power(index)));
-        all.filter(|(_, power)| *power > 0)
+        let powers = (0..MAX_LENGTHS).map(move |index| (index, power(index)));
+        powers.filter(|(_, power)| *power > 0)
     }
 
     /// Returns the power of one symbol, and the product of the others.
@@ -355,8 +355,11 @@ mod tests {
             let SinCosPair { sin, cos } = Polynomial::turn(joint);
             one.add(&sin).add(&cos)
         };
-        let product =
-            |joints: usize| (0..joints).fold(one.clone(), |all, joint| all.mul(&factor(joint)));
+        let product = |joints: usize| {
+            (0..joints).fold(one.clone(), |polynomial, joint| {
+                polynomial.mul(&factor(joint))
+            })
+        };
         assert_eq!(product(9).terms().len(), 3usize.pow(9));
         let lost = product(10);
         assert!(lost.is_lost() && !lost.is_zero() && lost.to_constant().is_none());

@@ -86,9 +86,9 @@ impl Moments {
             };
             let is_number = |factor: &Factor| matches!(factor, Factor::Exact(_));
             let numbers = factors.iter().filter(|factor| is_number(factor)).cloned();
-            let mut all: Vec<Factor> = numbers.chain([factor.clone()]).collect();
-            all.extend(factors.iter().filter(|factor| !is_number(factor)).cloned());
-            weighed.push(Term::new(sign != *is_negative, all));
+            let mut product: Vec<Factor> = numbers.chain([factor.clone()]).collect();
+            product.extend(factors.iter().filter(|factor| !is_number(factor)).cloned());
+            weighed.push(Term::new(sign != *is_negative, product));
         }
         weighed
     }
@@ -128,16 +128,18 @@ impl<'a> Rows<'a> {
 
     /// Lists the names that were used: rows of the joints seen from each link, then products of them.
     pub fn definitions(self) -> Vec<(Symbol, Meaning)> {
-        let all = self.definitions.into_iter();
-        all.map(|((_, _, symbol), meaning)| (symbol, meaning))
+        let definitions = self.definitions.into_iter();
+        definitions
+            .map(|((_, _, symbol), meaning)| (symbol, meaning))
             .collect()
     }
 
     /// Returns the links that the joints of all these links move.
     fn moved(&self, joints: &[usize]) -> Vec<usize> {
         let moves = |s: usize, i: usize| self.chain.way(s).any(|link| link == i);
-        let all = 0..self.chain.links.len();
-        all.filter(|&s| joints.iter().all(|&i| moves(s, i)))
+        let links = 0..self.chain.links.len();
+        links
+            .filter(|&s| joints.iter().all(|&i| moves(s, i)))
             .collect()
     }
 
@@ -281,11 +283,11 @@ impl<'a> Rows<'a> {
             let g = self.named("g", &[s], gravity);
             let [w, v] = [self.turn(s, i), self.shift(s, i)];
             let none = |_: usize, _: usize, _: &Number| None;
-            let all = of.weighed(
+            let terms = of.weighed(
                 s,
                 moments(dot_products(&v, &g), cross_products(&g, &w), none),
             );
-            let negative = all.into_iter().map(|term| Term {
+            let negative = terms.into_iter().map(|term| Term {
                 is_negative: !term.is_negative,
                 ..term
             });

@@ -52,19 +52,22 @@ pub(crate) trait Format {
 
     /// Writes a product.
     fn term(&self, term: &Term) -> String {
-        let factors = term.factors.iter().map(|factor| match factor {
-            Factor::Number(number) => self.number(number),
-            Factor::Exact(number) => self.exact(number),
-            Factor::Symbol(symbol, 1) => self.symbol(symbol),
-            Factor::Symbol(symbol, power) => self.power(self.symbol(symbol), *power),
-            Factor::Wave(trig, 1) => self.wave(trig),
-            Factor::Wave(trig, power) => self.power(self.wave(trig), *power),
-            Factor::Sum(sum) => {
-                let [open, close] = Self::PARENTHESES;
-                format!("{open}{}{close}", self.plain_sum(sum))
-            }
-        });
-        let factors: Vec<String> = factors.collect();
+        let factors: Vec<String> = term
+            .factors
+            .iter()
+            .map(|factor| match factor {
+                Factor::Number(number) => self.number(number),
+                Factor::Exact(number) => self.exact(number),
+                Factor::Symbol(symbol, 1) => self.symbol(symbol),
+                Factor::Symbol(symbol, power) => self.power(self.symbol(symbol), *power),
+                Factor::Wave(trig, 1) => self.wave(trig),
+                Factor::Wave(trig, power) => self.power(self.wave(trig), *power),
+                Factor::Sum(sum) => {
+                    let [open, close] = Self::PARENTHESES;
+                    format!("{open}{}{close}", self.plain_sum(sum))
+                }
+            })
+            .collect();
         match factors.is_empty() {
             true => "1".to_owned(),
             false => factors.join(Self::TIMES),

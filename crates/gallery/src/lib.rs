@@ -110,8 +110,8 @@ impl Arm {
             OpenError::System(error) => format!("{}: {error}", self.file),
             OpenError::Wrong(text) => text,
         })?;
-        let picture = drawing::svg(&opened.reading.robot, &self.at);
-        let picture = picture.map_err(|why| format!("{}: {why}", self.name))?;
+        let picture = drawing::svg(&opened.reading.robot, &self.at)
+            .map_err(|why| format!("{}: {why}", self.name))?;
         let mut files = vec![(self.picture(), picture)];
         if opened.imported.is_some() {
             let [title, origin, licence] = [&self.title, &self.origin, &self.licence];

@@ -24,15 +24,18 @@ fn main() -> ExitCode {
 fn make() -> Result<(Vec<Entry>, Vec<File>), Box<dyn Error>> {
     let entries = entries()?;
     let page = ("README.md".into(), page(&entries)?);
-    let files = entries.iter().flat_map(|entry| entry.files.clone());
-    let files = files.chain([page]).collect();
+    let files = entries
+        .iter()
+        .flat_map(|entry| entry.files.clone())
+        .chain([page])
+        .collect();
     Ok((entries, files))
 }
 
 fn check() -> Result<(), Box<dyn Error>> {
     let (_, mut files) = make()?;
     files.retain(|(name, text)| {
-        !fs::read(folder().join(name)).is_ok_and(|found| found == text.as_bytes())
+        !fs::read(folder().join(name)).is_ok_and(|bytes| bytes == text.as_bytes())
     });
     for (name, _) in &files {
         eprintln!("gallery/{name} is not what the command makes");

@@ -53,16 +53,16 @@ fn every_file_belongs_to_an_arm_with_a_licence() {
         known.extend([arm.robot_file(), arm.picture(), arm.file.clone()]);
     }
     known.retain(|name| !name.starts_with("../"));
-    let mut found = Vec::new();
+    let mut files = Vec::new();
     for part in ["robots", "pictures", "urdf"] {
         for entry in fs::read_dir(folder().join(part)).unwrap() {
-            found.push(format!("{part}/{}", entry.unwrap().file_name().display()));
+            files.push(format!("{part}/{}", entry.unwrap().file_name().display()));
         }
     }
     known.sort();
     known.dedup();
-    found.sort();
-    assert_eq!(found, known);
+    files.sort();
+    assert_eq!(files, known);
 }
 
 /// Checks the table's counts for arms whose search takes a second; the command's `--check`, in

@@ -63,8 +63,8 @@ pub fn arms(
         };
         match import_model(Some(&model), &of_arm, read.clone()) {
             Ok(imported) => arms.push((name, imported)),
-            Err(Diagnostics(found)) => {
-                for error in found {
+            Err(Diagnostics(diagnostics)) => {
+                for error in diagnostics {
                     if !errors.contains(&error) {
                         errors.push(error);
                     }

@@ -54,12 +54,14 @@ impl Bounds {
             .filter_map(|link| self.apply_to(link, model))
             .collect();
         if !changed.is_empty() {
-            let keys = [
+            let keys: Vec<&str> = [
                 self.mass.as_ref().map(|_| "`boundmass`"),
                 self.moment.as_ref().map(|_| "`boundinertia`"),
                 self.balance.then_some("`balanceinertia`"),
-            ];
-            let keys: Vec<&str> = keys.into_iter().flatten().collect();
+            ]
+            .into_iter()
+            .flatten()
+            .collect();
             let names = changed.join("`, `");
             reader.say("bounded", &model.at, &[&keys.join(", "), &names]);
         }

@@ -34,11 +34,11 @@ fn follows<'j>(joint: &'j Joint, joints: &[&Joint]) -> Option<Follows<'j>> {
 }
 
 pub(crate) fn mimic(follower: &Joint, joints: &[&Joint]) -> Option<String> {
-    let own = follows(follower, joints)?;
+    let relation = follows(follower, joints)?;
     table([
-        ("joint", Some((own.leader + 1).to_string())),
-        ("multiplier", Some(number(own.multiplier))),
-        ("offset", Some(position(&own.offset))),
+        ("joint", Some((relation.leader + 1).to_string())),
+        ("multiplier", Some(number(relation.multiplier))),
+        ("offset", Some(position(&relation.offset))),
     ])
 }
 
@@ -62,32 +62,32 @@ pub(crate) fn without_room<'m>(joints: &[&'m Joint], problems: &mut Problems) ->
         ..robot::Joint::default()
     };
     let mut narrowed: BTreeMap<usize, robot::Joint> = BTreeMap::new();
-    let mut found = BTreeSet::new();
+    let mut names = BTreeSet::new();
     for (row, joint) in joints.iter().enumerate() {
-        let Some(own) = follows(joint, joints) else {
+        let Some(relation) = follows(joint, joints) else {
             continue;
         };
         let follower = Follower {
             row,
-            leader: own.leader,
-            multiplier: own.multiplier.clone(),
-            offset: own.offset,
+            leader: relation.leader,
+            multiplier: relation.multiplier.clone(),
+            offset: relation.offset,
             joint: limited(joint),
         };
         let leader = narrowed
-            .entry(own.leader)
-            .or_insert_with(|| limited(joints[own.leader]));
+            .entry(relation.leader)
+            .or_insert_with(|| limited(joints[relation.leader]));
         let before = leader.clone();
         if follower.narrow(leader).is_none() {
             *leader = before;
-            let leader = joints[own.leader].name.as_str();
+            let leader = joints[relation.leader].name.as_str();
             let at = joint
                 .position
                 .as_ref()
                 .map_or(&joint.at, |[low, _]| &low.at);
             problems.say("no_room", at, &[&joint.name, &leader]);
-            found.insert(joint.name.as_str());
+            names.insert(joint.name.as_str());
         }
     }
-    found
+    names
 }

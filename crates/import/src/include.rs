@@ -24,7 +24,7 @@ impl Text {
             return Ok(self);
         }
         let folder = path.parent().unwrap_or(Path::new(""));
-        let mut seen = BTreeSet::from([path.to_owned()]);
+        let mut paths = BTreeSet::from([path.to_owned()]);
         // The includes that are still to be read, the next one last, each with its file.
         let mut open = Vec::new();
         loop {
@@ -42,8 +42,8 @@ impl Text {
             let Some((file, include)) = open.pop() else {
                 return Ok(self);
             };
-            let found = self.included(folder, file, &include, &mut seen, &read);
-            let (path, text) = found?;
+            let source = self.included(folder, file, &include, &mut paths, &read);
+            let (path, text) = source?;
             self.add_file(&path.display().to_string(), &text);
         }
     }
@@ -55,26 +55,27 @@ impl Text {
         folder: &Path,
         file: usize,
         include: &Element,
-        seen: &mut BTreeSet<PathBuf>,
+        paths: &mut BTreeSet<PathBuf>,
         read: impl Fn(&Path) -> Result<String, String>,
     ) -> Result<(PathBuf, String), String> {
         let mut problems = Problems::of(self);
         let (at, name) = (&include.at, include.value("file").unwrap_or_default());
         let beside = Path::new(self.file(file).0).parent().unwrap_or(folder);
         let [first, second] = [folder, beside].map(|folder| folder.join(name));
-        let found = read(&first).map(|text| (first, text));
-        let found = found.or_else(|why| read(&second).map(|text| (second, text)).map_err(|_| why));
-        match found {
+        let source = read(&first)
+            .map(|text| (first, text))
+            .or_else(|why| read(&second).map(|text| (second, text)).map_err(|_| why));
+        match source {
             _ if name.is_empty() => problems.say("include_without_file", at, &[]),
             Err(why) => problems.say("include_unread", at, &[&name, &why]),
-            Ok((path, _)) if seen.contains(&path) || self.count() == MAX_FILES => {
+            Ok((path, _)) if paths.contains(&path) || self.count() == MAX_FILES => {
                 problems.say("include_twice", at, &[&name, &MAX_FILES]);
             }
             Ok((_, text)) if self.as_str().len() + text.len() > MAX_BYTES => {
                 problems.say("include_too_long", at, &[&name, &MAX_MIB]);
             }
             Ok((path, text)) => {
-                seen.insert(path.clone());
+                paths.insert(path.clone());
                 return Ok((path, text));
             }
         }

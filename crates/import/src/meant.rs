@@ -52,8 +52,8 @@ pub(crate) fn digits(text: &str) -> (Rational, usize) {
         None => (text, 0),
     };
     let after = mantissa.split_once('.').map_or(0, |(_, after)| after.len());
-    let all = mantissa.chars().filter(char::is_ascii_digit);
-    let digits = all.skip_while(|digit| *digit == '0').count();
+    let numerals = mantissa.chars().filter(char::is_ascii_digit);
+    let digits = numerals.skip_while(|digit| *digit == '0').count();
     let exponent: i32 = exponent;
     let unit = exponent.saturating_sub(i32::try_from(after).unwrap_or(i32::MAX));
     // Limits the exponent, so that the power stays small.

@@ -98,8 +98,10 @@ pub(crate) fn merged(
     let mut good = true;
     let mut base = selection.floats.then(|| combined(&[]));
     let of_base = base.iter_mut().map(|body| (None, body));
-    let of_joints = bodies.iter_mut().enumerate();
-    let of_joints = of_joints.map(|(index, branch)| (Some(index), &mut branch.body));
+    let of_joints = bodies
+        .iter_mut()
+        .enumerate()
+        .map(|(index, branch)| (Some(index), &mut branch.body));
     for (index, merged) in of_base.chain(of_joints) {
         let mut parts = Vec::new();
         for (link, (_, way, _)) in places.iter().filter(|(_, (body, ..))| *body == index) {
@@ -220,10 +222,10 @@ fn possible(
     let is_possible = |inertia: &Inertia<Rational>| {
         inertia.defect(&Rational::one()) != Some(Defect::NegativeMoment)
     };
-    let found = [swept, lifted].into_iter().find(is_possible);
-    let id = found.as_ref().map_or("negative_moment", |_| "dust");
+    let inertia = [swept, lifted].into_iter().find(is_possible);
+    let id = inertia.as_ref().map_or("negative_moment", |_| "dust");
     problems.say(id, at, &words);
-    found
+    inertia
 }
 
 /// Returns a tensor with all principal moments larger by this.

@@ -157,8 +157,8 @@ impl Kind {
     ];
 
     pub(crate) fn word(self) -> &'static str {
-        let found = Kind::WORDS.iter().find(|(_, kind)| *kind == self);
-        found.map_or("a ball", |(word, _)| word)
+        let entry = Kind::WORDS.iter().find(|(_, kind)| *kind == self);
+        entry.map_or("a ball", |(word, _)| word)
     }
 
     /// True if the position is one number, or none for a joint that is fixed.
@@ -271,10 +271,10 @@ impl Model {
         let mut open: Vec<usize> = joints()
             .filter(|joint| is_root(self.ends[*joint][0]))
             .collect();
-        let mut seen = std::collections::BTreeSet::new();
+        let mut visits = std::collections::BTreeSet::new();
         let mut moving = Vec::new();
         while let Some(joint) = open.pop() {
-            if seen.insert(joint) {
+            if visits.insert(joint) {
                 moving.extend((self.joints[joint].kind != Kind::Fixed).then_some(joint));
                 open.extend(joints().filter(|next| self.ends[*next][0] == self.ends[joint][1]));
             }
@@ -285,12 +285,12 @@ impl Model {
     /// Finds the ends of each joint; a link that is missing is an error.
     pub(crate) fn resolve(&mut self, problems: &mut Problems) {
         let mut end = |(name, at): &(String, Span)| {
-            let found = self.link(name);
-            if found.is_none() && !name.is_empty() {
+            let place = self.link(name);
+            if place.is_none() && !name.is_empty() {
                 let help = instead(name, self.links.iter().map(|link| &link.name));
                 problems.say("no_link", at, &[name, &help]);
             }
-            found.unwrap_or_default()
+            place.unwrap_or_default()
         };
         let joints = self.joints.iter();
         let ends = joints.map(|joint| [end(&joint.parent), end(&joint.child)]);

@@ -98,8 +98,8 @@ pub fn read_robot(source: Text, options: &Options) -> Result<OpenRobot, String> 
     };
     let robot_file = imported
         .as_ref()
-        .map_or(source.as_str(), |imported| &imported.text);
-    let robot_file = robot_file.to_owned();
+        .map_or(source.as_str(), |imported| &imported.text)
+        .to_owned();
     let reading = read::parse(&robot_file);
     // What was imported was read once already.
     let reading = reading.map_err(|errors| errors.render(source.name(), &robot_file))?;
@@ -156,8 +156,8 @@ pub fn first_bytes(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 
 /// Returns the text of a file that is included; pipes and devices have no end.
 fn included(path: &Path) -> Result<String, String> {
-    let found = fs::metadata(path).map_err(|error| error.to_string())?;
-    if !found.is_file() {
+    let metadata = fs::metadata(path).map_err(|error| error.to_string())?;
+    if !metadata.is_file() {
         return Err("it is not a regular file".to_owned());
     }
     let bytes = first_bytes(path, MAX_BYTES as u64 + 1).map_err(|error| error.to_string())?;

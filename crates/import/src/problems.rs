@@ -123,7 +123,7 @@ impl Problem {
 #[derive(Clone)]
 pub(crate) struct Problems<'t> {
     pub(crate) text: &'t Text,
-    found: Vec<Problem>,
+    problems: Vec<Problem>,
     more: usize,
     /// The part of the model that is read.
     part: Option<usize>,
@@ -131,10 +131,10 @@ pub(crate) struct Problems<'t> {
 
 impl<'t> Problems<'t> {
     pub(crate) fn of(text: &'t Text) -> Self {
-        let found = Vec::new();
+        let problems = Vec::new();
         Problems {
             text,
-            found,
+            problems,
             more: 0,
             part: None,
         }
@@ -174,11 +174,15 @@ impl<'t> Problems<'t> {
             let kind = (other.message.severity, other.message.differs);
             kind == (*severity, *differs) && other.part == problem.part
         };
-        let count = self.found.iter().filter(is_of_kind).count();
-        let has_room = count < MAX && self.found.len() < MAX_OF_ALL;
-        match self.found.iter_mut().find(|other| other.is_like(&problem)) {
+        let count = self.problems.iter().filter(is_of_kind).count();
+        let has_room = count < MAX && self.problems.len() < MAX_OF_ALL;
+        match self
+            .problems
+            .iter_mut()
+            .find(|other| other.is_like(&problem))
+        {
             Some(same) => same.more += 1 + problem.more,
-            None if has_room => self.found.push(problem),
+            None if has_room => self.problems.push(problem),
             None => self.more += usize::from(problem.is_error()),
         }
     }
@@ -194,7 +198,7 @@ impl<'t> Problems<'t> {
 
     /// Decides which parts the robot has: mistakes in others are notes.
     pub(crate) fn settle(&mut self, is_part: impl Fn(usize) -> bool) {
-        for mut problem in std::mem::take(&mut self.found) {
+        for mut problem in std::mem::take(&mut self.problems) {
             let part = problem.part.take();
             if part.is_none_or(&is_part) {
                 self.add(problem);
@@ -206,14 +210,14 @@ impl<'t> Problems<'t> {
 
     /// True if there are errors, not counting those in parts that the robot may lack.
     pub(crate) fn has_errors(&self) -> bool {
-        let mut found = self.found.iter();
-        found.any(|problem| problem.part.is_none() && problem.is_error())
+        let mut problems = self.problems.iter();
+        problems.any(|problem| problem.part.is_none() && problem.is_error())
     }
 
     /// Returns the messages of the differences, in the order of the file.
     pub(crate) fn differences(&self) -> Vec<String> {
         let differs = |problem: &&Problem| problem.message.differs;
-        let mut differences: Vec<&Problem> = self.found.iter().filter(differs).collect();
+        let mut differences: Vec<&Problem> = self.problems.iter().filter(differs).collect();
         differences.sort_by_key(|problem| problem.at.start);
         differences.iter().map(|problem| problem.text()).collect()
     }
@@ -222,31 +226,34 @@ impl<'t> Problems<'t> {
     /// alone.
     pub(crate) fn finish(mut self) -> Result<Vec<Diagnostic>, Diagnostics> {
         let has_errors = self.has_errors();
-        self.found
+        self.problems
             .retain(|problem| problem.is_error() || !has_errors);
-        self.found
+        self.problems
             .sort_by_key(|problem| (!problem.message.differs, problem.at.start));
-        let found = self.found.iter().map(|problem| {
-            let (line, column) = self.text.line_and_column(problem.at.start);
-            Diagnostic {
-                severity: problem.message.severity,
-                warning: None,
-                message: problem.text(),
-                span: problem.at.clone(),
-                line,
-                column,
-                help: (!problem.help.is_empty()).then(|| problem.help.clone()),
-            }
-        });
-        let mut found: Vec<Diagnostic> = found.collect();
-        if let (1.., Some(last)) = (self.more, found.last_mut()) {
+        let mut diagnostics: Vec<Diagnostic> = self
+            .problems
+            .iter()
+            .map(|problem| {
+                let (line, column) = self.text.line_and_column(problem.at.start);
+                Diagnostic {
+                    severity: problem.message.severity,
+                    warning: None,
+                    message: problem.text(),
+                    span: problem.at.clone(),
+                    line,
+                    column,
+                    help: (!problem.help.is_empty()).then(|| problem.help.clone()),
+                }
+            })
+            .collect();
+        if let (1.., Some(last)) = (self.more, diagnostics.last_mut()) {
             last.severity = Severity::Error;
             last.message += &format!(" (and {} more errors)", self.more);
         }
         if has_errors {
-            Err(Diagnostics(found))
+            Err(Diagnostics(diagnostics))
         } else {
-            Ok(found)
+            Ok(diagnostics)
         }
     }
 }
@@ -295,8 +302,9 @@ mod tests {
     /// Every message is said somewhere, and every one that is said is in the table.
     #[test]
     fn the_table_has_all_messages() {
-        let source = texts(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"));
-        let source: String = source.split_whitespace().collect();
+        let source: String = texts(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"))
+            .split_whitespace()
+            .collect();
         let keywords = |id: &&&str| id.contains(' ');
         for id in MESSAGES.keys().filter(|id| !keywords(id)) {
             assert!(source.contains(&format!("\"{id}\"")), "nobody says {id}");

@@ -66,7 +66,9 @@ impl<'p, 't> Reader<'p, 't> {
             let listed = row.listed(&format!("<{tag}>"));
             match (listed, self.table.row(&element.tag, tag)) {
                 (Some(Verdict::LeftOut), _) => {
-                    let value = inside.content().map_or("", |found| found.value.as_str());
+                    let value = inside
+                        .content()
+                        .map_or("", |content| content.value.as_str());
                     self.leave_out(&element.tag, tag, &inside.at, value, of);
                 }
                 (None, Some(below)) if below.verdict("*") == Verdict::LeftOut => {
@@ -100,10 +102,10 @@ impl<'p, 't> Reader<'p, 't> {
 
     /// Says the unknown names of a class; what it leaves out is said at the elements that have it.
     pub(crate) fn check_class(&mut self, root: &Element, class: &Element) {
-        let found = Problems::of(self.problems.text);
-        let found = std::mem::replace(self.problems, found);
+        let scratch = Problems::of(self.problems.text);
+        let original = std::mem::replace(self.problems, scratch);
         self.check(&root.tag, class, "a class");
-        *self.problems = found;
+        *self.problems = original;
     }
 
     /// Says a name that is left out, unless its value has no effect.
@@ -160,11 +162,11 @@ impl<'p, 't> Reader<'p, 't> {
 
     /// Returns an attribute that has to be there, empty if it is missing.
     pub(crate) fn required(&mut self, element: &Element, key: &str) -> (String, Span) {
-        if let Some(found) = element
+        if let Some(attribute) = element
             .get(key)
-            .filter(|found| !found.value.trim().is_empty())
+            .filter(|attribute| !attribute.value.trim().is_empty())
         {
-            return (found.value.clone(), found.at.clone());
+            return (attribute.value.clone(), attribute.at.clone());
         }
         self.say("no_attribute", &element.at, &[&element.tag, &key]);
         (String::new(), element.at.clone())
@@ -178,8 +180,8 @@ impl<'p, 't> Reader<'p, 't> {
         words: &[(&str, T)],
     ) -> Option<T> {
         let Attribute { value, at, .. } = element.get(key)?;
-        let found = words.iter().find(|(word, _)| word == value);
-        if found.is_none() {
+        let entry = words.iter().find(|(word, _)| word == value);
+        if entry.is_none() {
             let words: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
             let help = match words.len() {
                 ..4 => words.join(" or "),
@@ -187,7 +189,7 @@ impl<'p, 't> Reader<'p, 't> {
             };
             self.say("not_a_word", at, &[value, &key, &element.tag, &help]);
         }
-        found.map(|(_, value)| *value)
+        entry.map(|(_, value)| *value)
     }
 
     /// Reads N numbers of an attribute; `None` if there is no such attribute, or a mistake in it.
@@ -284,9 +286,9 @@ impl<'p, 't> Reader<'p, 't> {
         what: &str,
         names: impl Iterator<Item = (&'n String, &'n Span)>,
     ) {
-        let mut seen = BTreeSet::new();
+        let mut name_set = BTreeSet::new();
         let help = "names tell them apart: give it another";
-        for (name, at) in names.filter(|(name, _)| !seen.insert(*name)) {
+        for (name, at) in names.filter(|(name, _)| !name_set.insert(*name)) {
             self.say("twice", at, &[&what, name, &help]);
         }
     }

@@ -70,14 +70,14 @@ impl Text {
     }
 
     /// Renders messages, each with its file, line and column.
-    pub fn render(&self, found: &[Diagnostic]) -> String {
-        let rendered = found.iter().map(|found| {
-            let (name, range) = self.file_of(found.span.start);
-            let [start, end] = [found.span.start, found.span.end];
+    pub fn render(&self, diagnostics: &[Diagnostic]) -> String {
+        let rendered = diagnostics.iter().map(|diagnostic| {
+            let (name, range) = self.file_of(diagnostic.span.start);
+            let [start, end] = [diagnostic.span.start, diagnostic.span.end];
             let span = start - range.start..end.max(start) - range.start;
             let in_file = Diagnostic {
                 span,
-                ..found.clone()
+                ..diagnostic.clone()
             };
             in_file.render(name, &self.text[range.clone()])
         });

@@ -275,13 +275,13 @@ fn say_left_out(joints: &[&Joint], problems: &mut Problems) {
     }
     let velocity = having(joints, |joint| joint.velocity.as_ref().filter(is_no_limit));
     let torque = having(joints, |joint| joint.effort.as_ref().filter(is_no_limit));
-    for (key, found) in [("velocity", velocity), ("torque", torque)] {
-        match found.as_slice() {
+    for (key, limits) in [("velocity", velocity), ("torque", torque)] {
+        match limits.as_slice() {
             [] => {}
             [(joint, limit)] => {
                 problems.say("no_limit", &limit.at, &[&key, &joint.name, &limit.text]);
             }
-            [(_, first), ..] => problems.say("no_limits", &first.at, &[&key, &names(&found)]),
+            [(_, first), ..] => problems.say("no_limits", &first.at, &[&key, &names(&limits)]),
         }
     }
 }
@@ -311,8 +311,8 @@ fn say_rotors(joints: &[&Joint], problems: &mut Problems) {
         .filter(|joint| !joint.rotors.is_empty())
         .collect();
     if let Some([inertia, _]) = driven.first().and_then(|joint| joint.rotors.first()) {
-        let all: Vec<String> = driven.iter().map(armature).collect();
-        problems.say("rotors", &inertia.at, &[&all.join(", ")]);
+        let armatures: Vec<String> = driven.iter().map(armature).collect();
+        problems.say("rotors", &inertia.at, &[&armatures.join(", ")]);
     }
 }
 
@@ -335,7 +335,7 @@ fn say_friction(joints: &[&Joint], problems: &mut Problems) {
             format!("joint `{}`, {},", joint.name, first.text),
             "the joint",
         ),
-        all => (names(all), "each joint its own, such as"),
+        entries => (names(entries), "each joint its own, such as"),
     };
     let words: [&dyn Display; 4] = [&of, &whose, &number(&first.value), &unit];
     problems.say("friction", &first.at, &words);

@@ -74,13 +74,13 @@ impl Element {
 
     /// Returns all elements of a tag inside, in the order of the file.
     pub(crate) fn all_inside(&self, tag: &str) -> Vec<&Element> {
-        let mut found = Vec::new();
+        let mut elements = Vec::new();
         let mut open: Vec<&Element> = self.inside.iter().rev().collect();
         while let Some(element) = open.pop() {
-            found.extend((element.tag == tag).then_some(element));
+            elements.extend((element.tag == tag).then_some(element));
             open.extend(element.inside.iter().rev());
         }
-        found
+        elements
     }
 }
 
@@ -237,8 +237,8 @@ fn element(node: Node, source: &str, start: usize) -> Element {
     let shift = |range: Range<usize>| start + range.start..start + range.end;
     // The parser saw names with `.` for `:`.
     let name = |from: usize, name: &str| {
-        let found = source.get(from..from + name.len());
-        found.unwrap_or(name).to_owned()
+        let source_name = source.get(from..from + name.len());
+        source_name.unwrap_or(name).to_owned()
     };
     let line = source[range.clone()].lines().next().unwrap_or_default();
     let end = line.find('>').map_or(line.len(), |end| end + 1);

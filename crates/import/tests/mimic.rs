@@ -38,8 +38,8 @@ fn the_runtime_gives_what_pinocchio_gives() {
             let Some(known) = quantity.facts().given.and_then(|key| state.get(key)) else {
                 continue;
             };
-            let found = runtime.entries(quantity, &at).unwrap();
-            let error = relative(&found, &flat(known));
+            let entries = runtime.entries(quantity, &at).unwrap();
+            let error = relative(&entries, &flat(known));
             assert!(error < 1e-12, "{quantity:?}: {error:e}");
             compared += 1;
         }

@@ -65,8 +65,8 @@ fn origin(node: Node) -> Pose {
 
 fn add_link(sum: &mut Parameters, root: Node, link: &str, at: Pose, moving: &[String]) {
     let tagged = |tag: &'static str| root.children().filter(move |node| node.has_tag_name(tag));
-    let found = tagged("link").find(|found| found.attribute("name") == Some(link));
-    if let Some(inertial) = child(found.unwrap(), "inertial") {
+    let link_node = tagged("link").find(|node| node.attribute("name") == Some(link));
+    if let Some(inertial) = child(link_node.unwrap(), "inertial") {
         let number = |tag: &str, key: &str| list(child(inertial, tag).unwrap(), key, "0")[0];
         let [xx, yy, zz, xy, yz, xz] =
             ["ixx", "iyy", "izz", "ixy", "iyz", "ixz"].map(|key| number("inertia", key));
@@ -117,9 +117,10 @@ fn check(name: &str, robot: &Robot, text: &str) {
                 .map(|load| load.to_f64().unwrap());
             viscous * qd[i] + armature * qdd[i]
         });
-        let given = [Position, Velocity, Acceleration];
-        let given = given.into_iter().zip([q, qd, qdd]);
-        let y = runtime.entries(Quantity::LinkRegressor, &JointVectors::new(given));
+        let arguments = [Position, Velocity, Acceleration]
+            .into_iter()
+            .zip([q, qd, qdd]);
+        let y = runtime.entries(Quantity::LinkRegressor, &JointVectors::new(arguments));
         let y = DMatrix::from_row_slice(n, 10 * n, &y.unwrap());
         let size = (y.abs() * pi.abs()).amax();
         let off = (&y * &pi + drives - tau).amax() / size;

@@ -13,8 +13,11 @@ use crate::support::{data, flat, path, relative};
 
 fn options(case: &Value) -> Options {
     let mut options = Options::default();
-    let words = case["options"].as_array().into_iter().flatten();
-    let mut words = words.map(|word| word.as_str().unwrap().to_owned());
+    let mut words = case["options"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .map(|word| word.as_str().unwrap().to_owned());
     while let Some(option) = words.next() {
         match option.as_str() {
             "--exact" => options.exact = true,
@@ -34,14 +37,17 @@ fn off(imported: &Import, case: &Value) -> f64 {
 }
 
 fn names(messages: &[Diagnostic], case: &Value) -> bool {
-    let words = case["words"].as_array().unwrap();
-    let mut words = words.iter().map(|word| word.as_str().unwrap());
+    let mut words = case["words"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|word| word.as_str().unwrap());
     words.any(|word| {
         let says = |text: &str| text.contains(word);
         let help = |message: &Diagnostic| message.help.as_deref().is_some_and(says);
         messages
             .iter()
-            .any(|found| says(&found.message) || help(found))
+            .any(|diagnostic| says(&diagnostic.message) || help(diagnostic))
     })
 }
 

@@ -54,8 +54,11 @@ fn worst(robot: &Robot, frame: &'static str, golden: &Value) -> f64 {
         axes: Axes::Mixed,
         rows: Rows::ALL,
     };
-    let seen = Arm::from_robot(robot, &mut f64::nearest).seen(&view);
-    let (runtime, seen) = (Reference::from_robot(robot), Reference::new(seen.unwrap()));
+    let view_arm = Arm::from_robot(robot, &mut f64::nearest).seen(&view);
+    let (runtime, view_runtime) = (
+        Reference::from_robot(robot),
+        Reference::new(view_arm.unwrap()),
+    );
     let mut worst = 0.0f64;
     for state in golden["states"].as_array().unwrap() {
         let of = |key: &str| {
@@ -79,7 +82,10 @@ fn worst(robot: &Robot, frame: &'static str, golden: &Value) -> f64 {
                 of("gravity").as_slice(),
             ),
             (runtime.inertia(&q).unwrap().as_slice(), &expected),
-            (&seen.hand(&q).unwrap().rows(), &flat(&state["frame"])),
+            (
+                &view_runtime.hand(&q).unwrap().rows(),
+                &flat(&state["frame"]),
+            ),
         ] {
             worst = worst.max(relative(found, expected));
         }
@@ -156,17 +162,17 @@ fn lines(import: &Import) -> Vec<&str> {
 #[test]
 fn a_chain_gives_the_file_of_an_arm() {
     for file in ["ur5.urdf", "xarm7.urdf", "twodofs.urdf"] {
-        let [arm, all] = [Options::default(), tree()].map(|options| taken(&data(file), &options));
-        assert_eq!(lines(&arm), lines(&all), "{file}");
+        let [arm, tree] = [Options::default(), tree()].map(|options| taken(&data(file), &options));
+        assert_eq!(lines(&arm), lines(&tree), "{file}");
     }
     let held = [("panda_finger_joint1", "0")];
     let without_fingers = Options {
         lock: to("", &held).lock,
         ..tree()
     };
-    let all = taken(&data("panda.urdf"), &without_fingers);
+    let tree = taken(&data("panda.urdf"), &without_fingers);
     let arm = taken(&data("panda.urdf"), &to("panda_link8", &held));
-    assert_eq!(all.robot.joints, arm.robot.joints);
+    assert_eq!(tree.robot.joints, arm.robot.joints);
 }
 
 /// The limits of both fingers of PR2's grippers have zero alone in common, by the sign of one of them.
@@ -283,8 +289,8 @@ fn a_base_floats() {
         let bias = runtime.coriolis(&q, &qd).unwrap() + &gravity;
         let acc = runtime.forward_dynamics(&q, &qd, &effort).unwrap();
         let d = runtime.inertia(&q).unwrap();
-        for (key, found) in [("tau", tau), ("gravity", gravity), ("bias", bias)] {
-            let off = relative(found.as_slice(), of(key).as_slice());
+        for (key, vector) in [("tau", tau), ("gravity", gravity), ("bias", bias)] {
+            let off = relative(vector.as_slice(), of(key).as_slice());
             assert!(off < 2e-15, "{key}: {off:e}");
         }
         let off = relative(d.as_slice(), &flat(&state["D"]));

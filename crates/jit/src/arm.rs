@@ -110,8 +110,10 @@ impl Arm {
         plan: Option<&str>,
         load: &Load,
     ) -> Result<Arm, LoadError> {
-        let plan = plan.map(Plan::parse).transpose();
-        let plan = plan.map_err(|error| LoadError::Robot(format!("error: {name}: {error}")))?;
+        let plan = plan
+            .map(Plan::parse)
+            .transpose()
+            .map_err(|error| LoadError::Robot(format!("error: {name}: {error}")))?;
         Arm::of(&Text::of(name, source.to_owned()), plan, load)
     }
 
@@ -151,8 +153,10 @@ impl Arm {
             Some(scene) => scene.base_coordinates(&reading.robot),
             None => reading.robot.base_coordinates(),
         };
-        let functions = entry.functions.iter();
-        let functions = functions.map(|proved| compiled(&entry, proved));
+        let functions = entry
+            .functions
+            .iter()
+            .map(|proved| compiled(&entry, proved));
         Ok(Arm {
             robot: reading.robot,
             floats: base > 0,
@@ -187,8 +191,8 @@ impl Arm {
 
     /// Returns the function of a name in a scalar.
     pub fn function(&self, name: &str, scalar: ScalarType) -> Option<&Function> {
-        let mut all = self.functions.iter();
-        all.find(|function| function.name() == name && function.scalar() == scalar)
+        let mut functions = self.functions.iter();
+        functions.find(|function| function.name() == name && function.scalar() == scalar)
     }
 
     /// Returns the functions as Rust: the text of a file for each scalar, without its stamp.
@@ -238,8 +242,8 @@ impl Arm {
         request.plan = Plan::parse(&self.entry.plan).ok();
         let mut generated = generate(&reading.robot, &request).map_err(LoadError::Generate)?;
         let claim = claimed(&reading.robot, self.robot_file(), &request, &generated)?;
-        let own = |warning: &String| !self.notes().contains(warning);
-        generated.warnings.retain(own);
+        let is_new = |warning: &String| !self.notes().contains(warning);
+        generated.warnings.retain(is_new);
         Ok((generated.texts.concat(), claim, generated.warnings))
     }
 
@@ -265,7 +269,7 @@ impl Arm {
     /// [`LoadError`]: what is kept is damaged.
     pub fn parameters(&self) -> Result<Vec<(String, f64)>, LoadError> {
         let values = self.setup()?.arm(Exact::clone).parameters();
-        let names = Parameter::of_bodies(&self.robot).map(|own| own.to_string());
+        let names = Parameter::of_bodies(&self.robot).map(|parameter| parameter.to_string());
         Ok(names.zip(values.iter().map(f64::nearest)).collect())
     }
 
@@ -276,10 +280,11 @@ impl Arm {
     /// [`LoadError`]: what is kept is damaged.
     pub fn loading(&self) -> Result<Vec<(&'static str, Vec<f64>)>, LoadError> {
         let setup = self.setup()?;
-        let taken = RuntimeParameter::LOADING.into_iter();
-        let taken = taken.filter(|own| setup.has(*own));
+        let taken = RuntimeParameter::LOADING
+            .into_iter()
+            .filter(|parameter| setup.has(*parameter));
         Ok(taken
-            .map(|own| (own.name(), setup.file_values(own)))
+            .map(|parameter| (parameter.name(), setup.file_values(parameter)))
             .collect())
     }
 
@@ -305,8 +310,9 @@ impl Arm {
     /// [`LoadError`]: among others, that there are none.
     pub fn base_parameters(&self) -> Result<Vec<(String, f64)>, LoadError> {
         let setup = self.setup()?;
-        let base = setup.base(Quantity::BaseRegressor);
-        let base = base.map_err(|why| LoadError::Generate(why.clone().into()))?;
+        let base = setup
+            .base(Quantity::BaseRegressor)
+            .map_err(|why| LoadError::Generate(why.clone().into()))?;
         let values = base.values(&setup.arm(Exact::clone));
         let names = base.names().into_iter();
         Ok(names.zip(values.iter().map(f64::nearest)).collect())
@@ -324,10 +330,10 @@ impl Arm {
     fn setup(&self) -> Result<Setup, LoadError> {
         let reading = read_robot(&self.entry.robot, "the arm's robot file")?;
         let request = self.load.request(&reading)?;
-        let setup = Setup::in_scene(&reading.robot, request.scene.as_ref());
-        let setup = setup.map_err(|why| LoadError::Generate(why.into()))?;
-        let setup = setup.taking(&request.parameters);
-        let setup = setup.taking_bodies(&request.bodies, request.keeps_zeros);
+        let setup = Setup::in_scene(&reading.robot, request.scene.as_ref())
+            .map_err(|why| LoadError::Generate(why.into()))?
+            .taking(&request.parameters)
+            .taking_bodies(&request.bodies, request.keeps_zeros);
         setup.map_err(|why| LoadError::Generate(why.into()))
     }
 
@@ -356,9 +362,11 @@ fn compiled(entry: &Entry, proved: &CachedFunction) -> Result<Function, LoadErro
     let scalar = parse::<ScalarType>(&proved.scalar).map_err(|_| damaged())?;
     let text = entry.rust.get(proved.file).ok_or_else(damaged)?;
     let sizes = proved.sizes();
-    let arguments = proved.arguments.iter();
-    let arguments = arguments.map(|name| Argument::from_name(name).ok_or_else(damaged));
-    let arguments = arguments.collect::<Result<Vec<_>, _>>()?;
+    let arguments = proved
+        .arguments
+        .iter()
+        .map(|name| Argument::from_name(name).ok_or_else(damaged))
+        .collect::<Result<Vec<_>, _>>()?;
     let form = workspace::Signature {
         function: output,
         arguments: &arguments,
@@ -366,7 +374,9 @@ fn compiled(entry: &Entry, proved: &CachedFunction) -> Result<Function, LoadErro
         scalar,
     };
     let program = Code::parse(text, &form).map_err(|_| damaged())?;
-    let lengths = arguments.iter().map(|own| (*own, own.length(sizes)));
+    let lengths = arguments
+        .iter()
+        .map(|argument| (*argument, argument.length(sizes)));
     let signature = Signature {
         arguments: lengths.collect(),
         results: output.quantities().iter().map(|q| q.len(sizes)).collect(),

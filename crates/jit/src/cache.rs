@@ -72,7 +72,9 @@ impl CachedFunction {
             function: function.function.text(),
             scalar: emitted.scalar.name().to_owned(),
             file,
-            arguments: arguments.map(|own| own.name().to_owned()).collect(),
+            arguments: arguments
+                .map(|argument| argument.name().to_owned())
+                .collect(),
             limbs: sizes.limbs,
             sizes: [
                 sizes.rows,
@@ -307,7 +309,7 @@ mod tests {
         let name = format!("dalembert-sources-{}", std::process::id());
         let root = std::env::temp_dir().join(name);
         fs::create_dir_all(root.join("a/b")).unwrap();
-        let mut found = vec![sources::hash(&root, &["a"]).unwrap()];
+        let mut hashes = vec![sources::hash(&root, &["a"]).unwrap()];
         let files = [
             ("a/b/one", "x"),
             ("a/b/one", "y"),
@@ -316,16 +318,16 @@ mod tests {
         ];
         for (file, text) in files {
             fs::write(root.join(file), text).unwrap();
-            found.push(sources::hash(&root, &["a"]).unwrap());
+            hashes.push(sources::hash(&root, &["a"]).unwrap());
             fs::rename(root.join(file), root.join("a/renamed")).unwrap();
-            found.push(sources::hash(&root, &["a"]).unwrap());
+            hashes.push(sources::hash(&root, &["a"]).unwrap());
             fs::rename(root.join("a/renamed"), root.join(file)).unwrap();
         }
         fs::remove_dir_all(&root).unwrap();
-        let count = found.len();
-        found.sort();
-        found.dedup();
-        assert_eq!(found.len(), count);
+        let count = hashes.len();
+        hashes.sort();
+        hashes.dedup();
+        assert_eq!(hashes.len(), count);
     }
 
     #[test]

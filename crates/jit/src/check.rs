@@ -79,12 +79,12 @@ pub(crate) fn check<T: Machine + Default>(
     signature: &Signature,
     call: impl Fn(&[&[T]], &mut [T]) -> Result<(), CallError>,
 ) -> Result<(), CompileError> {
-    let mut found = vec![T::default(); program.dag.outputs.len()];
+    let mut results = vec![T::default(); program.dag.outputs.len()];
     for (state, arguments) in drawn::<T>(signature).iter().enumerate() {
         let slices: Vec<&[T]> = arguments.iter().map(Vec::as_slice).collect();
         // The lengths are the signature's: it can only be called.
-        call(&slices, &mut found).map_err(|_| CompileError::Program)?;
-        if let Some(result) = differing(&expected(program, signature, arguments), &found) {
+        call(&slices, &mut results).map_err(|_| CompileError::Program)?;
+        if let Some(result) = differing(&expected(program, signature, arguments), &results) {
             return Err(CompileError::Differs { state, result });
         }
     }
@@ -100,31 +100,42 @@ pub(crate) fn check_many<T: Machine + Default>(
 ) -> Result<(), CallError> {
     let states = drawn::<T>(signature);
     let data = signature.arguments.iter().enumerate();
-    let data = data.map(|(argument, &(_, len))| {
-        let (mut data, place) = (vec![T::default(); len * STATES], place(len));
-        for (number, state) in states.iter().enumerate() {
-            for (at, &value) in place.entries(number).zip(&state[argument]) {
-                data[at] = value;
+    let data: Vec<Vec<T>> = data
+        .map(|(argument, &(_, len))| {
+            let (mut data, place) = (vec![T::default(); len * STATES], place(len));
+            for (number, state) in states.iter().enumerate() {
+                for (at, &value) in place.entries(number).zip(&state[argument]) {
+                    data[at] = value;
+                }
             }
-        }
-        data
-    });
-    let data: Vec<Vec<T>> = data.collect();
-    let rows = data.iter().zip(&signature.arguments);
-    let rows = rows.map(|(data, &(_, len))| (data.as_slice(), place(len)));
-    let rows: Vec<(&[T], Place)> = rows.collect();
-    let found = signature.results.iter();
-    let mut found: Vec<_> = found.map(|len| vec![T::default(); len * STATES]).collect();
-    let results = found.iter_mut().zip(&signature.results);
-    let results = results.map(|(data, &len)| (data.as_mut_slice(), place(len)));
+            data
+        })
+        .collect();
+    let rows: Vec<(&[T], Place)> = data
+        .iter()
+        .zip(&signature.arguments)
+        .map(|(data, &(_, len))| (data.as_slice(), place(len)))
+        .collect();
+    let mut outputs: Vec<_> = signature
+        .results
+        .iter()
+        .map(|len| vec![T::default(); len * STATES])
+        .collect();
+    let results = outputs
+        .iter_mut()
+        .zip(&signature.results)
+        .map(|(data, &len)| (data.as_mut_slice(), place(len)));
     call(&rows, &mut results.collect::<Vec<_>>())?;
     for (state, arguments) in states.iter().enumerate() {
-        let entries = |(found, &len): (&Vec<T>, &usize)| -> Vec<T> {
-            place(len).entries(state).map(|at| found[at]).collect()
+        let entries = |(output, &len): (&Vec<T>, &usize)| -> Vec<T> {
+            place(len).entries(state).map(|at| output[at]).collect()
         };
-        let own = found.iter().zip(&signature.results);
-        let own: Vec<T> = own.flat_map(entries).collect();
-        if let Some(result) = differing(&expected(program, signature, arguments), &own) {
+        let found: Vec<T> = outputs
+            .iter()
+            .zip(&signature.results)
+            .flat_map(entries)
+            .collect();
+        if let Some(result) = differing(&expected(program, signature, arguments), &found) {
             return Err(CallError::Compile(CompileError::Differs { state, result }));
         }
     }

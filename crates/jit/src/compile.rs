@@ -24,8 +24,8 @@ pub struct Signature {
 
 impl Signature {
     fn argument(&self, wanted: Argument) -> Option<(usize, usize)> {
-        let mut all = self.arguments.iter().enumerate();
-        all.find_map(|(place, &(argument, len))| (argument == wanted).then_some((place, len)))
+        let mut arguments = self.arguments.iter().enumerate();
+        arguments.find_map(|(place, &(argument, len))| (argument == wanted).then_some((place, len)))
     }
 
     fn first_entry(&self, place: usize) -> usize {
@@ -92,12 +92,12 @@ fn define(
     library.params = vec![AbiParam::new(types::I64); 3];
     let library = module.declare_function(LIBRARY, Linkage::Import, &library);
     let library = CompileError::checked(library)?;
-    let mut own = module.make_signature();
-    own.params = vec![AbiParam::new(types::I64); parameters];
-    let function = module.declare_function("function", Linkage::Local, &own);
+    let mut function_signature = module.make_signature();
+    function_signature.params = vec![AbiParam::new(types::I64); parameters];
+    let function = module.declare_function("function", Linkage::Local, &function_signature);
     let function = CompileError::checked(function)?;
     let mut context: Context = module.make_context();
-    context.func.signature = own;
+    context.func.signature = function_signature;
     let library = module.declare_func_in_func(library, &mut context.func);
     let mut frontend = FunctionBuilderContext::new();
     let mut builder = FunctionBuilder::new(&mut context.func, &mut frontend);
@@ -128,9 +128,9 @@ fn one(
         return Err(CompileError::Program);
     };
     let width = number(code.scalar).bytes() as i32;
-    let addresses = 0..signature.arguments.len();
-    let addresses = addresses.map(|index| address(emitter, arguments, index));
-    let addresses: Vec<Value> = addresses.collect();
+    let addresses: Vec<Value> = (0..signature.arguments.len())
+        .map(|index| address(emitter, arguments, index))
+        .collect();
     let read = |argument, index: usize| {
         let (place, len) = signature.argument(argument)?;
         (index < len).then(|| emitter.read(addresses[place], index as i32 * width))
@@ -185,12 +185,12 @@ fn many(
         let stride = address(emitter, strides, place);
         emitter.with(|b| {
             let mut offset = b.ins().imul(first, stride);
-            let mut all = vec![offset];
+            let mut offsets = vec![offset];
             for _ in 1..lanes {
                 offset = b.ins().iadd(offset, stride);
-                all.push(offset);
+                offsets.push(offset);
             }
-            all
+            offsets
         })
     };
     let mut of_arguments: Vec<Option<Vec<Value>>> = vec![None; signature.arguments.len()];
@@ -201,8 +201,7 @@ fn many(
         let base = address(emitter, entries, at);
         Some(emitter.gather(base, offsets))
     };
-    let values = program::emit(emitter, code, read)?;
-    let mut values = values.into_iter().enumerate();
+    let mut values = program::emit(emitter, code, read)?.into_iter().enumerate();
     for (place, &len) in signature.results.iter().enumerate() {
         let offsets = offsets(result_strides, place);
         for (index, value) in values.by_ref().take(len) {

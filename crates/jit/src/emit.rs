@@ -105,13 +105,12 @@ impl<'f> Emitter<'f> {
             if let [first] = offsets {
                 return load(floats, *first);
             }
-            let loaded = offsets.iter().map(|offset| load(number, *offset));
-            let loaded: Vec<Value> = loaded.collect();
-            let mut all = b.ins().scalar_to_vector(floats, loaded[0]);
+            let loaded: Vec<Value> = offsets.iter().map(|offset| load(number, *offset)).collect();
+            let mut vector = b.ins().scalar_to_vector(floats, loaded[0]);
             for (lane, value) in loaded.iter().enumerate().skip(1) {
-                all = b.ins().insertlane(all, *value, lane as u8);
+                vector = b.ins().insertlane(vector, *value, lane as u8);
             }
-            all
+            vector
         })
     }
 
@@ -144,11 +143,11 @@ impl<'f> Emitter<'f> {
         computed: Option<(Value, &[(Value, Value)])>,
     ) -> Vec<(Value, Value)> {
         let (floats, library) = (self.floats, self.library);
-        let each = floats.bytes() as usize;
-        let all = angles.len() * floats.lane_count() as usize;
-        let place = |index: usize| (index * each) as i32;
+        let width = floats.bytes() as usize;
+        let angle_count = angles.len() * floats.lane_count() as usize;
+        let place = |index: usize| (index * width) as i32;
         self.with(|b| {
-            let room = (3 * angles.len() * each) as u32;
+            let room = (3 * angles.len() * width) as u32;
             let slot = StackSlotData::new(StackSlotKind::ExplicitSlot, room, 4);
             let slot = b.create_sized_stack_slot(slot);
             let join = computed.map(|(usual, computed)| {
@@ -178,7 +177,7 @@ impl<'f> Emitter<'f> {
                 let at = place(2 * angles.len() + index);
                 b.ins().store(unaligned(), cos, address, at);
             }
-            let count = b.ins().iconst(types::I64, all as i64);
+            let count = b.ins().iconst(types::I64, angle_count as i64);
             let kind = b.ins().iconst(types::I64, call as i64);
             b.ins().call(library, &[address, count, kind]);
             let mut load = |index| b.ins().load(floats, unaligned(), address, place(index));
@@ -187,8 +186,11 @@ impl<'f> Emitter<'f> {
             let Some(join) = join else {
                 return called;
             };
-            let arguments = called.iter().flat_map(|&(sin, cos)| [sin, cos]);
-            let arguments: Vec<BlockArg> = arguments.map(BlockArg::Value).collect();
+            let arguments: Vec<BlockArg> = called
+                .iter()
+                .flat_map(|&(sin, cos)| [sin, cos])
+                .map(BlockArg::Value)
+                .collect();
             b.ins().jump(join, &arguments);
             b.switch_to_block(join);
             let joined = b.block_params(join).chunks(2);

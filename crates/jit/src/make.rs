@@ -79,8 +79,10 @@ fn proved(generated: &GeneratedCode) -> Vec<CachedFunction> {
     // File by file.
     let emitted = generated.emitted.iter().enumerate();
     let both = emitted.zip(functions.iter().cycle());
-    both.map(|((index, own), function)| CachedFunction::of(index / functions.len(), function, own))
-        .collect()
+    both.map(|((index, code), function)| {
+        CachedFunction::of(index / functions.len(), function, code)
+    })
+    .collect()
 }
 
 pub(crate) fn claimed(
@@ -89,7 +91,7 @@ pub(crate) fn claimed(
     request: &Request,
     generated: &GeneratedCode,
 ) -> Result<String, LoadError> {
-    let claim = claim(robot, source, request, generated);
-    let claim = claim.map_err(|why| LoadError::Generate(why.into()))?;
+    let claim =
+        claim(robot, source, request, generated).map_err(|why| LoadError::Generate(why.into()))?;
     Ok(claim.write())
 }

@@ -91,8 +91,8 @@ extern "C" fn library<T: Real>(angles: *mut T, count: usize, kind: usize) {
     // three times as many numbers and is aligned to them (whatever bits are there are a
     // number); nothing else refers to it until this returns. `T` is the scalar that it was
     // compiled for, since `InMemory::of` chose this function by it.
-    let all = unsafe { std::slice::from_raw_parts_mut(angles, 3 * count) };
-    let (angles, pairs) = all.split_at_mut(count);
+    let numbers = unsafe { std::slice::from_raw_parts_mut(angles, 3 * count) };
+    let (angles, pairs) = numbers.split_at_mut(count);
     let (sines, cosines) = pairs.split_at_mut(count);
     self::sines(angles, sines, cosines, kind);
 }
@@ -239,22 +239,23 @@ impl Native {
             place.check_apart(at, states)?;
         }
         let read = arguments.iter().map(|(data, place)| (data.as_ptr(), place));
-        let written = results.iter_mut();
-        let written = written.map(|(data, place)| (data.as_mut_ptr(), &*place));
+        let written = results
+            .iter_mut()
+            .map(|(data, place)| (data.as_mut_ptr(), &*place));
         let (read, written): (Vec<_>, Vec<_>) = (read.collect(), written.collect());
         let (read, written) = (SharedSlice(read), SharedSlice(written));
         let lanes = vector(self.program.scalar).lane_count() as usize;
         let threads = threads.clamp(1, (states / LEAST_STATES).max(1));
         // Whole vectors to all but the last.
-        let each = states.div_ceil(threads).next_multiple_of(lanes);
+        let chunk = states.div_ceil(threads).next_multiple_of(lanes);
         std::thread::scope(|scope| {
-            for first in (each..states).step_by(each.max(1)) {
+            for first in (chunk..states).step_by(chunk.max(1)) {
                 let (read, written) = (&read, &written);
                 scope.spawn(move || {
-                    self.run_many(many, read, written, first..(first + each).min(states));
+                    self.run_many(many, read, written, first..(first + chunk).min(states));
                 });
             }
-            self.run_many(many, &read, &written, 0..each.min(states));
+            self.run_many(many, &read, &written, 0..chunk.min(states));
         });
         Ok(())
     }
@@ -301,7 +302,7 @@ impl Native {
         }
         let lanes = vector(self.program.scalar).lane_count() as usize;
         let rest = states.start + states.len() / lanes * lanes..states.end;
-        let mut found = vec![T::default(); self.program.dag.outputs.len()];
+        let mut outputs = vec![T::default(); self.program.dag.outputs.len()];
         for state in rest {
             let gathered = |&(data, place): &(*const T, &Place)| -> Vec<T> {
                 let entries = place.entries(state);
@@ -309,8 +310,8 @@ impl Native {
                 entries.map(|at| unsafe { data.add(at).read() }).collect()
             };
             let arguments: Vec<Vec<T>> = read.0.iter().map(gathered).collect();
-            self.run_one(&arguments, &mut found);
-            let mut values = found.iter();
+            self.run_one(&arguments, &mut outputs);
+            let mut values = outputs.iter();
             for &(data, place) in &written.0 {
                 for (at, &value) in place.entries(state).zip(values.by_ref()) {
                     // SAFETY: as for the code's own results.
@@ -326,8 +327,8 @@ impl Native {
             _ => &self.apart,
         };
         let many = many.get_or_init(|| {
-            let code = InMemory::of(&self.program, &self.signature, states);
-            let code = code.map_err(CallError::Compile)?;
+            let code =
+                InMemory::of(&self.program, &self.signature, states).map_err(CallError::Compile)?;
             match self.program.scalar {
                 ScalarType::F64 => self.check_many::<f64>(states, &code)?,
                 ScalarType::F32 => self.check_many::<f32>(states, &code)?,

@@ -37,23 +37,25 @@ impl<R: FnMut(Argument, usize) -> Option<Value>> Inputs<'_, '_, R> {
 
     fn sines(&mut self, code: &Code) -> Result<(), CompileError> {
         let emitter = self.emitter;
-        let (own, called): (Vec<&Pair>, Vec<&Pair>) =
+        let (inline, called): (Vec<&Pair>, Vec<&Pair>) =
             code.pairs.iter().partition(|pair| pair.kernel.is_some());
         let mut pairs = Vec::new();
-        for pair in own {
+        for pair in inline {
             let angle = self.angle(pair.joint)?;
             if let Some(kernel) = &pair.kernel {
                 pairs.push((pair.joint, polynomials(emitter, kernel, angle)?));
             }
         }
-        let angles = called.iter().map(|pair| self.angle(pair.joint));
-        let angles = angles.collect::<Result<Vec<Value>, CompileError>>()?;
+        let angles = called
+            .iter()
+            .map(|pair| self.angle(pair.joint))
+            .collect::<Result<Vec<Value>, CompileError>>()?;
         let computed = match (code.library, code.scalar) {
             (Library::Together, ScalarType::F64) => together::<f64>(emitter, &angles),
             (Library::Together, ScalarType::F32) => together::<f32>(emitter, &angles),
             (Library::Libm, _) => {
-                let all = called.iter().zip(&angles);
-                let call = all.flat_map(|(pair, &angle)| {
+                let calls = called.iter().zip(&angles);
+                let call = calls.flat_map(|(pair, &angle)| {
                     let kind = match (pair.need.sin, pair.need.cos) {
                         (true, false) => Call::Sine,
                         (false, true) => Call::Cosine,
@@ -144,7 +146,9 @@ fn run<I>(
         };
         values.push(value);
     }
-    let outputs = dag.outputs.iter();
-    let outputs = outputs.map(|output| signed(values[output.index()], output.negative));
+    let outputs = dag
+        .outputs
+        .iter()
+        .map(|output| signed(values[output.index()], output.negative));
     Ok(outputs.collect())
 }

@@ -44,11 +44,11 @@ impl Load {
             scenes,
             ..
         } = reading;
-        let request = Request::parse(&self.asked, &scalars, robot, outputs, scenes);
-        let mut request = request.map_err(|problems| {
-            let each: Vec<String> = problems.iter().map(Problem::to_string).collect();
-            LoadError::Request(each.join("\n"))
-        })?;
+        let mut request =
+            Request::parse(&self.asked, &scalars, robot, outputs, scenes).map_err(|problems| {
+                let messages: Vec<String> = problems.iter().map(Problem::to_string).collect();
+                LoadError::Request(messages.join("\n"))
+            })?;
         let scene = request.scene.as_ref();
         let has_tolerance = scene.is_some_and(|scene| scene.tolerance.is_some());
         if request.sincos == SinCos::Auto && !has_tolerance {

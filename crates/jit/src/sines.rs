@@ -15,8 +15,8 @@ macro_rules! operations {
         impl $operation for IrValue<'_, '_> {
             type Output = Self;
             fn $method(self, other: Self) -> Self {
-                let IrValue(own, emitter) = self;
-                IrValue(emitter.with(|b| b.ins().$instruction(own, other.0)), emitter)
+                let IrValue(value, emitter) = self;
+                IrValue(emitter.with(|b| b.ins().$instruction(value, other.0)), emitter)
             }
         }
     )*};
@@ -26,8 +26,8 @@ operations!(Add add fadd, Sub sub fsub, Mul mul fmul);
 impl Neg for IrValue<'_, '_> {
     type Output = Self;
     fn neg(self) -> Self {
-        let IrValue(own, emitter) = self;
-        IrValue(emitter.with(|b| b.ins().fneg(own)), emitter)
+        let IrValue(number, emitter) = self;
+        IrValue(emitter.with(|b| b.ins().fneg(number)), emitter)
     }
 }
 
@@ -37,8 +37,8 @@ impl<T: Into<f64>> Number<T> for IrValue<'_, '_> {
     }
 
     fn fused(self, factor: Self, addend: Self) -> Self {
-        let IrValue(own, emitter) = self;
-        let fused = emitter.with(|b| b.ins().fma(own, factor.0, addend.0));
+        let IrValue(multiplicand, emitter) = self;
+        let fused = emitter.with(|b| b.ins().fma(multiplicand, factor.0, addend.0));
         IrValue(fused, emitter)
     }
 }
@@ -87,9 +87,9 @@ fn turned(
         let half_turn = b.ins().ishl_imm_u(count, (sign - 1) as i64);
         let next = b.ins().iadd(half_turn, below);
         let mut signed = |other: Value, turns: Value| {
-            let own = b.ins().bxor(other, kept);
+            let component = b.ins().bxor(other, kept);
             let negative = b.ins().band(turns, sign_bit);
-            let bits = b.ins().bxor(own, negative);
+            let bits = b.ins().bxor(component, negative);
             b.ins().bitcast(floats, MemFlagsData::new(), bits)
         };
         (signed(cos, half_turn), signed(sin, next))

@@ -79,7 +79,7 @@ impl core::error::Error for WrongLength {}
 #[derive(Clone, Debug)]
 pub struct JointVectors<T> {
     /// By the [index](Argument::index) of their arguments.
-    given: [DVector<T>; Argument::COUNT],
+    by_argument: [DVector<T>; Argument::COUNT],
     /// The columns of a regressor; none where it is not asked for.
     pub columns: Vec<Column<T>>,
     /// The payload at the hand, where a load is asked for.
@@ -90,12 +90,12 @@ impl<T: Float> JointVectors<T> {
     /// Makes a state from the entries of arguments; those that nothing reads may be left out,
     /// as are gravity and payloads, which the arm has.
     pub fn new(vectors: impl IntoIterator<Item = (Argument, DVector<T>)>) -> Self {
-        let mut given = Argument::ALL.map(|_| DVector::from_vec(Vec::new()));
+        let mut by_argument = Argument::ALL.map(|_| DVector::from_vec(Vec::new()));
         for (argument, vector) in vectors {
-            given[argument.index()] = vector;
+            by_argument[argument.index()] = vector;
         }
         JointVectors {
-            given,
+            by_argument,
             columns: Vec::new(),
             loading: None,
         }
@@ -199,23 +199,27 @@ impl<T: Float> Reference<T> {
     /// # Errors
     /// A vector that the quantity depends on has another length than the arm has joints.
     pub fn entries(&self, quantity: Quantity, at: &JointVectors<T>) -> Result<Vec<T>, WrongLength> {
-        let vector = |argument: Argument| &at.given[argument.index()];
+        let vector = |argument: Argument| &at.by_argument[argument.index()];
         let position = Argument::Position;
         let q = self.positions(self.values(position, vector(position))?);
-        let given = Argument::ALL.into_iter().map(|argument| match argument {
-            Argument::Gravity
-            | Argument::Load
-            | Argument::Bodies
-            | Argument::Armature
-            | Argument::Viscous
-            | Argument::Payload => Ok(Vec::new()),
-            _ if quantity.arguments().contains(&argument) => {
-                self.values(argument, vector(argument)).map(<[T]>::to_vec)
-            }
-            _ => Ok(zeros(argument.length(self.sizes()))),
+        let mut by_argument = Argument::ALL
+            .into_iter()
+            .map(|argument| match argument {
+                Argument::Gravity
+                | Argument::Load
+                | Argument::Bodies
+                | Argument::Armature
+                | Argument::Viscous
+                | Argument::Payload => Ok(Vec::new()),
+                _ if quantity.arguments().contains(&argument) => {
+                    self.values(argument, vector(argument)).map(<[T]>::to_vec)
+                }
+                _ => Ok(zeros(argument.length(self.sizes()))),
+            })
+            .collect::<Result<Vec<Vec<T>>, WrongLength>>()?;
+        let mut motion = Motion::new(q, |argument| {
+            core::mem::take(&mut by_argument[argument.index()])
         });
-        let mut given = given.collect::<Result<Vec<Vec<T>>, WrongLength>>()?;
-        let mut motion = Motion::new(q, |argument| core::mem::take(&mut given[argument.index()]));
         motion.loading.clone_from(&at.loading);
         let is_of_whole = quantity.facts().depends_on_base;
         let arm = if is_of_whole { &self.whole } else { &self.arm };
@@ -343,7 +347,7 @@ impl<T: Float> Reference<T> {
     fn sizes(&self) -> Sizes {
         let (base, rows) = (self.arm.base_joints(), self.rows());
         let limbs = (base..self.arm.links.len()).map(|row| {
-            let followed = self.arm.following.iter().find(|own| own.row == row);
+            let followed = self.arm.following.iter().find(|line| line.row == row);
             let mover = followed.map_or(row, |follower| follower.leader);
             let carrier = self.arm.carrier(row);
             let joint = rows.binary_search(&mover).unwrap_or_default();
@@ -355,8 +359,8 @@ impl<T: Float> Reference<T> {
 
     fn whole_at(&self, q: &DVector<T>) -> Result<Vec<DhVariables<T>>, WrongLength> {
         let q = self.values(Argument::Position, q)?;
-        let motion = Motion::new(self.positions(q), |_| zeros(self.coordinates()));
-        let motion = motion.of_rows(&self.whole.following);
+        let motion = Motion::new(self.positions(q), |_| zeros(self.coordinates()))
+            .of_rows(&self.whole.following);
         Ok(self.whole.at(&motion.q))
     }
 
@@ -381,7 +385,7 @@ impl<T: Float> Reference<T> {
 
     fn rows(&self) -> Vec<usize> {
         let mut rows: Vec<usize> = (0..self.arm.links.len()).collect();
-        rows.retain(|row| self.arm.following.iter().all(|own| own.row != *row));
+        rows.retain(|row| self.arm.following.iter().all(|line| line.row != *row));
         rows
     }
 
@@ -407,7 +411,9 @@ fn at_speeds<'a, T: Float>(arm: &'a Arm<T>, qd: &[T]) -> Cow<'a, Arm<T>> {
     if links.iter().all(|link| link.friction.coulomb.is_none()) {
         return Cow::Borrowed(arm);
     }
-    let speeds = links.iter().zip(qd);
-    let speeds = speeds.map(|(link, qd)| link.friction.per_speed(qd, |x| x.root()));
+    let speeds = links
+        .iter()
+        .zip(qd)
+        .map(|(link, qd)| link.friction.per_speed(qd, |x| x.root()));
     Cow::Owned(arm.clone().at_speeds(&speeds.collect::<Vec<_>>()))
 }

@@ -200,14 +200,14 @@ fn accelerations_are_rates_of_velocities() {
             let expected = moved.velocity_in(axes, changing);
             let found = here.acceleration_in(axes, velocity, acceleration);
             assert_eq!(
-                found.map(|own| own.0),
-                expected.map(|own| own.0.rate),
+                found.map(|number| number.0),
+                expected.map(|number| number.0.rate),
                 "{axes:?}"
             );
             let value = here.velocity_in(axes, velocity);
             assert_eq!(
-                value.map(|own| own.0),
-                expected.map(|own| own.0.value),
+                value.map(|number| number.0),
+                expected.map(|number| number.0.value),
                 "{axes:?}"
             );
             assert_eq!(here.velocity_from(axes, value), velocity, "{axes:?}");
@@ -261,9 +261,9 @@ fn steps() -> impl Iterator<Item = (Pose<f64>, [f64; 6])> {
 
 const UNIT: f64 = 1.0 / (1u64 << 53) as f64;
 
-fn worst<const N: usize>(found: [f64; N], truth: [Number<Wide>; N]) -> f64 {
-    let off = wide(found).into_iter().zip(truth);
-    off.map(|(own, truth)| (own - truth).0.magnitude())
+fn worst<const N: usize>(values: [f64; N], truth: [Number<Wide>; N]) -> f64 {
+    let off = wide(values).into_iter().zip(truth);
+    off.map(|(value, truth)| (value - truth).0.magnitude())
         .fold(0.0, f64::max)
 }
 
@@ -286,26 +286,35 @@ fn errors_are_below_their_bounds() {
         most[1] = most[1].max(moved / UNIT / longest);
         let length: f64 = next.orientation.to_xyzw().iter().map(|x| x * x).sum();
         assert!((length - 1.0).abs() < 16.0 * UNIT, "{length}");
-        let found = pose.difference(&next);
+        let difference = pose.difference(&next);
         let truth = widened(&pose).difference(&widened(&next));
-        let longest = pose.position.iter().chain(&next.position);
-        let longest = longest.fold(0.0, |most, x| x.abs().max(most));
+        let longest = pose
+            .position
+            .iter()
+            .chain(&next.position)
+            .fold(0.0, |most, x| x.abs().max(most));
         let [linear, turn] = [0, 3].map(|from| {
-            let part = |i: usize| (found[from + i], truth[from + i]);
+            let part = |i: usize| (difference[from + i], truth[from + i]);
             let parts = [part(0), part(1), part(2)];
-            worst(parts.map(|own| own.0), parts.map(|own| own.1))
+            worst(parts.map(|pair| pair.0), parts.map(|pair| pair.1))
         });
-        let size = found[3..].iter().fold(0.0, |most, x| x.abs().max(most));
+        let size = difference[3..]
+            .iter()
+            .fold(0.0, |most, x| x.abs().max(most));
         most[2] = most[2].max(turn / UNIT);
         most[3] = most[3].max(linear / UNIT / longest);
         // What is left of an angle's digits is what the two orientations have of it.
-        let lost = step.iter().zip(found).skip(3).map(|(a, b)| (a - b).abs());
+        let lost = step
+            .iter()
+            .zip(difference)
+            .skip(3)
+            .map(|(a, b)| (a - b).abs());
         most[4] = most[4].max(lost.fold(0.0, f64::max) / UNIT);
         assert!(size < 3.2);
     }
     println!("of u: {most:?}");
-    for (found, bound) in most.into_iter().zip([4.0, 16.0, 16.0, 32.0, 64.0]) {
-        assert!(found < bound, "{most:?}");
+    for (error, bound) in most.into_iter().zip([4.0, 16.0, 16.0, 32.0, 64.0]) {
+        assert!(error < bound, "{most:?}");
     }
 }
 
@@ -349,11 +358,14 @@ fn values_are_pinocchio_s() {
             ),
         ];
         for (axes, name) in [(Axes::Mixed, "mixed"), (Axes::World, "world")] {
-            let [found, rate] = [
+            let [axes_velocity, rate] = [
                 pose.velocity_in(axes, velocity),
                 pose.acceleration_in(axes, velocity, acceleration),
             ];
-            compared.push((found.to_vec(), read(&row[format!("{name}_velocity")])));
+            compared.push((
+                axes_velocity.to_vec(),
+                read(&row[format!("{name}_velocity")]),
+            ));
             compared.push((rate.to_vec(), read(&row[format!("{name}_acceleration")])));
         }
         for (found, expected) in compared {
@@ -404,14 +416,15 @@ int main(void) {
 
 fn there(names: &[&'static str]) -> Vec<&'static str> {
     let version = |name: &&&str| Command::new(name).arg("--version").output();
-    let found = names
+    let compilers: Vec<&str> = names
         .iter()
-        .filter(|name| version(name).is_ok_and(|own| own.status.success()));
-    let found: Vec<&str> = found.copied().collect();
-    if found.is_empty() {
+        .filter(|name| version(name).is_ok_and(|output| output.status.success()))
+        .copied()
+        .collect();
+    if compilers.is_empty() {
         eprintln!("none of {names:?} is here: the header is not compiled");
     }
-    found
+    compilers
 }
 
 fn run(command: &mut Command) -> String {
@@ -422,12 +435,12 @@ fn run(command: &mut Command) -> String {
 }
 
 /// Each line of the program's input: a pose, a step, and a velocity and an acceleration.
-fn rust_values<T: Real + Into<f64>>(given: [f64; 25], rounded: fn(f64) -> T) -> Vec<f64> {
-    let given = given.map(rounded);
-    let at = |from: usize| -> [T; 6] { std::array::from_fn(|i| given[from + i]) };
+fn rust_values<T: Real + Into<f64>>(input: [f64; 25], rounded: fn(f64) -> T) -> Vec<f64> {
+    let numbers = input.map(rounded);
+    let at = |from: usize| -> [T; 6] { std::array::from_fn(|i| numbers[from + i]) };
     let pose = Pose {
-        position: std::array::from_fn(|i| given[i]),
-        orientation: Quaternion::from_xyzw(std::array::from_fn(|i| given[3 + i])),
+        position: std::array::from_fn(|i| numbers[i]),
+        orientation: Quaternion::from_xyzw(std::array::from_fn(|i| numbers[3 + i])),
     };
     let next = pose.integrate(at(7));
     let mut values = next.position.to_vec();
@@ -444,22 +457,22 @@ fn rust_values<T: Real + Into<f64>>(given: [f64; 25], rounded: fn(f64) -> T) -> 
 
 #[test]
 fn c_returns_the_same_numbers() {
-    let given: Vec<[f64; 25]> = steps()
+    let inputs: Vec<[f64; 25]> = steps()
         .take(500)
         .map(|(pose, step)| {
-            let mut all = pose.position.to_vec();
-            all.extend(pose.orientation.to_xyzw());
-            all.extend(step);
-            all.extend(
+            let mut numbers = pose.position.to_vec();
+            numbers.extend(pose.orientation.to_xyzw());
+            numbers.extend(step);
+            numbers.extend(
                 step.map(|x| 1.5 - x)
                     .iter()
                     .chain(&step.map(|x| x * 3.0 - 0.2)),
             );
-            all.try_into().unwrap()
+            numbers.try_into().unwrap()
         })
         .collect();
-    let text = |own: &[f64; 25]| own.map(|x| format!("{x:e}")).join(" ");
-    let lines = given.iter().map(text).collect::<Vec<_>>().join("\n");
+    let text = |input: &[f64; 25]| input.map(|x| format!("{x:e}")).join(" ");
+    let lines = inputs.iter().map(text).collect::<Vec<_>>().join("\n");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     fs::write(folder.join("pose.h"), C_HEADER).unwrap();
     fs::write(folder.join("main.c"), MAIN).unwrap();
@@ -475,14 +488,14 @@ fn c_returns_the_same_numbers() {
             run(built.arg(&program).arg(real_is));
             let states = fs::File::open(folder.join("states")).unwrap();
             let said = run(Command::new(&program).stdin(states));
-            assert_eq!(said.lines().count(), given.len());
-            for (line, given) in said.lines().zip(&given) {
+            assert_eq!(said.lines().count(), inputs.len());
+            for (line, input) in said.lines().zip(&inputs) {
                 let found: Vec<f64> = line.split(' ').filter_map(|x| x.parse().ok()).collect();
                 let expected = match real {
-                    "double" => rust_values(*given, |x| x),
-                    _ => rust_values(*given, |x| x as f32),
+                    "double" => rust_values(*input, |x| x),
+                    _ => rust_values(*input, |x| x as f32),
                 };
-                assert_eq!(found, expected, "{compiler} {real} {given:?}");
+                assert_eq!(found, expected, "{compiler} {real} {input:?}");
             }
         }
     }

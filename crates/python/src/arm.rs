@@ -54,8 +54,12 @@ impl Arm {
     /// Returns the name of the base if it floats, and no scene locks it.
     #[getter]
     fn base(&self) -> Option<String> {
-        let base = self.0.robot().floating.as_ref();
-        let base = base.filter(|_| self.0.floats())?;
+        let base = self
+            .0
+            .robot()
+            .floating
+            .as_ref()
+            .filter(|_| self.0.floats())?;
         Some(base.name.clone().unwrap_or_else(|| "base".to_owned()))
     }
 
@@ -74,9 +78,10 @@ impl Arm {
     fn limits(&self) -> Vec<[f64; 5]> {
         let joints = self.0.robot().joints.iter().map(|joint| {
             let limits = &joint.limits;
-            let all = [f64::NEG_INFINITY, f64::INFINITY];
+            let infinite_range = [f64::NEG_INFINITY, f64::INFINITY];
             let position = limits.position.as_ref();
-            let [low, high] = position.map_or(all, |l| l.each_ref().map(Position::to_f64));
+            let [low, high] =
+                position.map_or(infinite_range, |l| l.each_ref().map(Position::to_f64));
             let [velocity, acceleration, torque] =
                 [&limits.velocity, &limits.acceleration, &limits.torque]
                     .map(|most| most.as_ref().map_or(f64::INFINITY, f64::nearest_rational));
@@ -90,7 +95,7 @@ impl Arm {
     fn functions<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let about = |function: &dalembert_jit::Function| {
             let counts = function.counts();
-            let all = PyDict::new(py);
+            let operations = PyDict::new(py);
             for (name, count) in [
                 ("mul", counts.mul),
                 ("add", counts.add),
@@ -100,13 +105,13 @@ impl Arm {
                 ("trig_mul", counts.trig_mul),
                 ("trig_add", counts.trig_add),
             ] {
-                all.set_item(name, count)?;
+                operations.set_item(name, count)?;
             }
             let said = PyDict::new(py);
             said.set_item("name", function.name())?;
             said.set_item("scalar", function.scalar().name())?;
             said.set_item("proof", function.proof())?;
-            said.set_item("counts", all)?;
+            said.set_item("counts", operations)?;
             Ok(said)
         };
         self.0.functions().iter().map(about).collect()

@@ -33,13 +33,13 @@ impl Call<'_> {
     pub(crate) fn run<'py, T: Real + Element>(
         &self,
         py: Python<'py>,
-        given: &[Bound<'py, PyAny>],
+        objects: &[Bound<'py, PyAny>],
         out: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Arrays<'py, T>> {
-        if let Some(results) = self.one_state(py, given, out) {
+        if let Some(results) = self.one_state(py, objects, out) {
             return results;
         }
-        let (arrays, batch) = self.arguments::<T>(given)?;
+        let (arrays, batch) = self.arguments::<T>(objects)?;
         let product = |states: usize, &axis: &usize| states.checked_mul(axis);
         let states = batch.iter().try_fold(1, product).ok_or_else(|| {
             let (name, batch) = (self.name(), shown(&batch));
@@ -88,7 +88,7 @@ impl Call<'_> {
     fn one_state<'py, T: Real + Element>(
         &self,
         py: Python<'py>,
-        given: &[Bound<'py, PyAny>],
+        objects: &[Bound<'py, PyAny>],
         out: Option<&Bound<'py, PyAny>>,
     ) -> Option<PyResult<Arrays<'py, T>>> {
         let out = match (out, self.quantities) {
@@ -101,15 +101,15 @@ impl Call<'_> {
         };
         let native = self.function.native();
         let mut slices: [&[T]; MOST_ARGUMENTS] = [&[]; MOST_ARGUMENTS];
-        let arguments = given.iter().zip(&native.signature().arguments);
+        let arguments = objects.iter().zip(&native.signature().arguments);
         for (slice, (object, &(_, length))) in slices.iter_mut().zip(arguments) {
             let array = object.cast::<PyArrayDyn<T>>().ok()?;
             *slice = memory::entries(array).filter(|entries| entries.len() == length)?;
         }
-        let slices = slices.get(..given.len())?;
+        let slices = slices.get(..objects.len())?;
         if self.refuses_nan {
-            let found = |own: &&[T]| own.iter().position(|value| value.to_f64().is_nan());
-            let mut entries = slices.iter().map(found).enumerate();
+            let first_nan = |slice: &&[T]| slice.iter().position(|value| value.to_f64().is_nan());
+            let mut entries = slices.iter().map(first_nan).enumerate();
             if let Some((place, entry)) = entries.find_map(|(place, e)| Some((place, e?))) {
                 return Some(Err(self.refused(place, 0, entry)));
             }
@@ -131,10 +131,10 @@ impl Call<'_> {
         }
         let mut rest = values.as_slice();
         let array = |(_, shape): &Quantity| -> PyResult<_> {
-            let (own, others) = rest.split_at(shape.iter().product());
+            let (entries, others) = rest.split_at(shape.iter().product());
             rest = others;
             let array = memory::zeros(py, shape)?;
-            memory::write(&array, own);
+            memory::write(&array, entries);
             Ok(array)
         };
         Some(self.quantities.iter().map(array).collect())
@@ -160,29 +160,29 @@ impl Call<'_> {
 
     fn arguments<'py, T: Real + Element>(
         &self,
-        given: &[Bound<'py, PyAny>],
+        objects: &[Bound<'py, PyAny>],
     ) -> PyResult<(Arrays<'py, T>, Vec<usize>)> {
         let signature = self.function.native().signature();
-        let mut arrays = Vec::with_capacity(given.len());
+        let mut arrays = Vec::with_capacity(objects.len());
         let mut batch: Vec<usize> = Vec::new();
-        for (object, &(argument, length)) in given.iter().zip(&signature.arguments) {
+        for (object, &(argument, length)) in objects.iter().zip(&signature.arguments) {
             let array = convert::array::<T>(object, self.name(), argument.name())?;
             let wrong = |why: String| {
-                let (function, found) = (self.name(), shown(array.shape()));
+                let (function, shape) = (self.name(), shown(array.shape()));
                 PyValueError::new_err(format!(
-                    "{function}: argument `{}` has shape {found}, {why}",
+                    "{function}: argument `{}` has shape {shape}, {why}",
                     argument.name(),
                 ))
             };
             let split = array.shape().split_last();
-            let Some((_, own)) = split.filter(|(last, _)| **last == length) else {
+            let Some((_, leading_axes)) = split.filter(|(last, _)| **last == length) else {
                 return Err(wrong(format!("expected ({length},) or (N, {length})")));
             };
-            batch = broadcast(&batch, own).ok_or_else(|| {
+            batch = broadcast(&batch, leading_axes).ok_or_else(|| {
                 wrong(format!(
                     "whose leading axes {} cannot be broadcast with those of the arguments \
                      before, {}",
-                    shown(own),
+                    shown(leading_axes),
                     shown(&batch),
                 ))
             })?;
@@ -235,7 +235,7 @@ fn result<'py, 'l, T: Real + Element>(
 }
 
 fn copied<T: Element>(copy: Bound<'_, PyArrayDyn<T>>) -> PyResult<(Layout<T>, Copy<'_, T>)> {
-    let layout = Layout::of(&copy, 1);
-    let layout = layout.ok_or_else(|| PyValueError::new_err("NumPy made no plain copy"))?;
+    let layout =
+        Layout::of(&copy, 1).ok_or_else(|| PyValueError::new_err("NumPy made no plain copy"))?;
     Ok((layout, Some(copy)))
 }

@@ -34,15 +34,17 @@ pub(crate) fn array<'py, T: Real + Element>(
         ))
     };
     let numpy = py.import(intern!(py, "numpy"))?;
-    let array = numpy.call_method1(intern!(py, "asarray"), (object,));
-    let array = array.map_err(|_| wrong(format!("{}", object.get_type())))?;
-    let found = array.getattr("dtype")?;
+    let array = numpy
+        .call_method1(intern!(py, "asarray"), (object,))
+        .map_err(|_| wrong(format!("{}", object.get_type())))?;
+    let dtype = array.getattr("dtype")?;
     // Python's own numbers have no dtype that anybody chose.
-    let is_chosen = object.hasattr("dtype")? && found.getattr("kind")?.eq("f")?;
+    let is_chosen = object.hasattr("dtype")? && dtype.getattr("kind")?.eq("f")?;
     let options = PyDict::new(py);
     options.set_item("casting", if is_chosen { "safe" } else { "same_kind" })?;
-    let cast = array.call_method("astype", (expected,), Some(&options));
-    let cast = cast.map_err(|_| wrong(format!("of dtype {found}")))?;
+    let cast = array
+        .call_method("astype", (expected,), Some(&options))
+        .map_err(|_| wrong(format!("of dtype {dtype}")))?;
     Ok(cast.cast_into::<PyArrayDyn<T>>()?)
 }
 
@@ -68,12 +70,12 @@ pub(crate) fn arrays<'py, T: Real + Element>(
         let new = |quantity: &Quantity| zeros(py, &whole(quantity));
         return quantities.iter().map(new).collect();
     };
-    let given: Vec<Bound<'py, PyAny>> = match quantities.len() {
+    let objects: Vec<Bound<'py, PyAny>> = match quantities.len() {
         1 => vec![out.clone()],
         _ => out.try_iter()?.collect::<PyResult<_>>()?,
     };
-    if given.len() != quantities.len() {
-        let (found, expected) = (given.len(), quantities.len());
+    if objects.len() != quantities.len() {
+        let (found, expected) = (objects.len(), quantities.len());
         return Err(PyValueError::new_err(format!(
             "{function}: `out` has {found} arrays, expected {expected}"
         )));
@@ -81,7 +83,7 @@ pub(crate) fn arrays<'py, T: Real + Element>(
     let checked = |(object, quantity): (Bound<'py, PyAny>, &Quantity)| {
         checked(function, object, quantity.0, &whole(quantity))
     };
-    given.into_iter().zip(quantities).map(checked).collect()
+    objects.into_iter().zip(quantities).map(checked).collect()
 }
 
 fn checked<'py, T: Real + Element>(

@@ -64,8 +64,8 @@ impl Function {
         refuses_nan: bool,
         loaded: Py<PyAny>,
     ) -> PyResult<Function> {
-        let all = arm.functions().iter().enumerate();
-        let named = all.filter(|(_, function)| function.name() == name);
+        let functions = arm.functions().iter().enumerate();
+        let named = functions.filter(|(_, function)| function.name() == name);
         let places: Vec<usize> = named.map(|(place, _)| place).collect();
         let Some(any) = places.first().map(|&place| &arm.functions()[place]) else {
             return Err(PyValueError::new_err(format!("unknown function `{name}`")));
@@ -92,13 +92,13 @@ impl Function {
     }
 
     fn compiled(&self) -> impl Iterator<Item = &Compiled> {
-        let all = self.arm.functions();
-        self.places.iter().map(|&place| &all[place])
+        let functions = self.arm.functions();
+        self.places.iter().map(|&place| &functions[place])
     }
 
     fn is_load(&self) -> bool {
-        let mut all = self.compiled();
-        all.any(|own| own.output() == Output::Load)
+        let mut functions = self.compiled();
+        functions.any(|function| function.output() == Output::Load)
     }
 
     fn in_scalar(&self, scalar: Scalar) -> Option<&Compiled> {
@@ -129,20 +129,23 @@ impl Function {
     /// Returns the dtypes that it computes in.
     #[getter]
     fn dtypes(&self) -> Vec<&'static str> {
-        self.compiled().map(|own| dtype(own.scalar())).collect()
+        self.compiled()
+            .map(|function| dtype(function.scalar()))
+            .collect()
     }
 
     /// Makes it known to compiled programs of JAX, and returns the number by which they call
     /// it. The arm then lives as long as the process.
     fn xla(&self, name: &str) -> PyResult<u64> {
-        let mut all = self.places.iter().copied();
-        let place = all.find(|&place| dtype(self.arm.functions()[place].scalar()) == name);
-        let place = place.ok_or_else(|| {
-            let (own, dtypes) = (self.__name__(), self.dtypes().join(" and "));
-            PyTypeError::new_err(format!(
-                "{own}: arrays are {name}, but the arm computes in {dtypes}"
-            ))
-        })?;
+        let mut places = self.places.iter().copied();
+        let place = places
+            .find(|&place| dtype(self.arm.functions()[place].scalar()) == name)
+            .ok_or_else(|| {
+                let (function, dtypes) = (self.__name__(), self.dtypes().join(" and "));
+                PyTypeError::new_err(format!(
+                    "{function}: arrays are {name}, but the arm computes in {dtypes}"
+                ))
+            })?;
         Ok(xla::register(&self.arm, place))
     }
 
@@ -170,9 +173,9 @@ impl Function {
         threads: usize,
         kwargs: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let mut given = self.given(args, kwargs)?;
+        let mut values = self.given(args, kwargs)?;
         if self.is_load() {
-            self.check_bodies(&mut given)?;
+            self.check_bodies(&mut values)?;
         }
         if threads == 0 {
             let name = self.__name__();
@@ -184,10 +187,10 @@ impl Function {
         // Of both, floats are for who gives nothing else.
         let is_f32 = |array: &Bound<'_, PyAny>| array.cast::<PyArrayDyn<f32>>().is_ok();
         match (self.in_scalar(Scalar::F64), self.in_scalar(Scalar::F32)) {
-            (double, Some(own)) if double.is_none() || given.iter().all(is_f32) => {
-                self.call::<f32>(py, own, &given, out, threads)
+            (double, Some(single)) if double.is_none() || values.iter().all(is_f32) => {
+                self.call::<f32>(py, single, &values, out, threads)
             }
-            (Some(own), _) => self.call::<f64>(py, own, &given, out, threads),
+            (Some(double), _) => self.call::<f64>(py, double, &values, out, threads),
             (None, _) => Err(PyTypeError::new_err("nothing was compiled")),
         }
     }
@@ -195,10 +198,13 @@ impl Function {
 
 impl Function {
     /// Refuses bodies that no body is, and puts them one behind the other.
-    fn check_bodies(&self, given: &mut [Bound<'_, PyAny>]) -> PyResult<()> {
-        let signature = self.compiled().next().map(|own| own.native().signature());
-        let arguments = signature.iter().flat_map(|own| &own.arguments);
-        for (value, (argument, length)) in given.iter_mut().zip(arguments) {
+    fn check_bodies(&self, values: &mut [Bound<'_, PyAny>]) -> PyResult<()> {
+        let signature = self
+            .compiled()
+            .next()
+            .map(|function| function.native().signature());
+        let arguments = signature.iter().flat_map(|signature| &signature.arguments);
+        for (value, (argument, length)) in values.iter_mut().zip(arguments) {
             let name = argument.name();
             if name == "bodies" {
                 *value = payload::flat(value, *length)?;
@@ -221,18 +227,18 @@ impl Function {
         kwargs: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let names = &self.arguments;
-        let mut given: Vec<Bound<'py, PyAny>> = args.iter().collect();
+        let mut values: Vec<Bound<'py, PyAny>> = args.iter().collect();
         let wrong = |what: String| {
             let (name, arguments) = (self.__name__(), names.join(", "));
             Err(PyTypeError::new_err(format!("{name}({arguments}): {what}")))
         };
-        if given.len() > names.len() {
-            let (expected, found) = (names.len(), given.len());
+        if values.len() > names.len() {
+            let (expected, found) = (names.len(), values.len());
             return wrong(format!("expected {expected} arguments, {found} were given"));
         }
         for name in kwargs.iter().flat_map(|kwargs| kwargs.keys()) {
             let name: String = name.extract()?;
-            match names.iter().position(|own| *own == name) {
+            match names.iter().position(|argument| *argument == name) {
                 None => return wrong(format!("there is no argument `{name}`")),
                 Some(place) if place < args.len() => {
                     return wrong(format!("argument `{name}` is given twice"));
@@ -240,17 +246,17 @@ impl Function {
                 Some(_) => {}
             }
         }
-        for name in &names[given.len()..] {
+        for name in &names[values.len()..] {
             let value = kwargs.map(|kwargs| kwargs.get_item(name)).transpose()?;
             match value.flatten() {
-                Some(value) => given.push(value),
+                Some(value) => values.push(value),
                 None => return wrong(format!("argument `{name}` is missing")),
             }
         }
-        let named = names.iter().zip(&mut given);
+        let named = names.iter().zip(&mut values);
         for (_, value) in named.filter(|(name, _)| **name == "load") {
             let load = value.cast::<Load>().ok();
-            let Some(numbers) = load.map(|own| own.get().numbers.bind(own.py()).clone()) else {
+            let Some(numbers) = load.map(|load| load.get().numbers.bind(load.py()).clone()) else {
                 let kind = value.get_type();
                 return wrong(format!(
                     "`load` is {kind}, expected what `arm.load` returns"
@@ -258,14 +264,14 @@ impl Function {
             };
             *value = numbers;
         }
-        Ok(given)
+        Ok(values)
     }
 
     fn call<'py, T: Real + Element>(
         &self,
         py: Python<'py>,
         function: &Compiled,
-        given: &[Bound<'py, PyAny>],
+        values: &[Bound<'py, PyAny>],
         out: Option<&Bound<'py, PyAny>>,
         threads: usize,
     ) -> PyResult<Bound<'py, PyAny>> {
@@ -275,7 +281,7 @@ impl Function {
             refuses_nan: self.refuses_nan,
             threads,
         };
-        let mut results = call.run::<T>(py, given, out)?.into_iter();
+        let mut results = call.run::<T>(py, values, out)?.into_iter();
         match (&self.structure, results.next()) {
             (None, Some(result)) if self.is_load() => {
                 let numbers = result.into_any().unbind();
@@ -283,8 +289,8 @@ impl Function {
             }
             (None, Some(result)) => Ok(result.into_any()),
             (Some(structure), first) => {
-                let all: Vec<_> = first.into_iter().chain(results).collect();
-                structure.bind(py).call1(PyTuple::new(py, all)?)
+                let fields: Vec<_> = first.into_iter().chain(results).collect();
+                structure.bind(py).call1(PyTuple::new(py, fields)?)
             }
             (None, None) => Err(PyTypeError::new_err("the function has no results")),
         }

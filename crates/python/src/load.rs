@@ -88,14 +88,16 @@ pub fn load(
         // Nobody may wait any more.
         let _ = sender.send(arm);
     };
-    let thread = std::thread::Builder::new().stack_size(STACK).spawn(work);
-    let thread = thread.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+    let thread = std::thread::Builder::new()
+        .stack_size(STACK)
+        .spawn(work)
+        .map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
     loop {
-        let found = py.detach(|| {
+        let outcome = py.detach(|| {
             let receiver = receiver.lock().unwrap_or_else(PoisonError::into_inner);
             receiver.recv_timeout(PATIENCE)
         });
-        match found {
+        match outcome {
             Ok(loaded) => {
                 // The next thread takes the allocator's memory of one that has ended, and would
                 // get some more beside one that is about to. A panic has no arm to return.
@@ -130,8 +132,8 @@ impl<'py> Options<'_, 'py> {
         let Some(value) = value else {
             return Ok(None);
         };
-        let found = value.extract();
-        found.map(Some).map_err(|_| {
+        let result = value.extract();
+        result.map(Some).map_err(|_| {
             let kind = value.get_type();
             PyTypeError::new_err(format!("{name}: {value} is of another type, {kind}"))
         })

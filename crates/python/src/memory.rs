@@ -101,9 +101,10 @@ impl<T: Element> Layout<T> {
     pub(crate) fn find(&self, is_such: impl Fn(&T) -> bool) -> Option<(usize, usize)> {
         let data = self.slice();
         for state in 0..self.states {
-            let own = data.get(state * self.place.state..)?;
+            let rest = data.get(state * self.place.state..)?;
             let mut entries = self.place.offsets.iter();
-            if let Some(entry) = entries.position(|&offset| own.get(offset).is_some_and(&is_such)) {
+            if let Some(entry) = entries.position(|&offset| rest.get(offset).is_some_and(&is_such))
+            {
                 return Some((state, entry));
             }
         }
@@ -122,8 +123,10 @@ pub(crate) fn zeros<'py, T: Element>(
     py: Python<'py>,
     shape: &[usize],
 ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
-    let lengths: Result<Vec<npy_intp>, _> = shape.iter().map(|&x| x.try_into()).collect();
-    let mut lengths = lengths?;
+    let mut lengths = shape
+        .iter()
+        .map(|&x| x.try_into())
+        .collect::<Result<Vec<npy_intp>, _>>()?;
     let dtype = T::get_dtype(py).into_ptr().cast();
     // SAFETY: the lengths are as many as is said, and the call takes the reference to the dtype.
     let array = unsafe {
@@ -317,8 +320,8 @@ unsafe fn answer(frame: &Frame) -> Result<(), String> {
             .filter(|item| item.dtype == U64)
             .map(|item| *item.value)
     };
-    let found = number.and_then(xla::find);
-    let (arm, place) = found.ok_or("expected one attribute, the number of a function")?;
+    let entry = number.and_then(xla::find);
+    let (arm, place) = entry.ok_or("expected one attribute, the number of a function")?;
     let function = &arm.functions()[place];
     // SAFETY: the caller's.
     match function.scalar() {
@@ -355,7 +358,7 @@ unsafe fn computed<T: Real>(
 /// # Safety
 /// As for [`answer`].
 unsafe fn numbers<T>(buffers: &Buffers, dtype: i32) -> Result<Vec<(*mut T, usize)>, String> {
-    let mut all = Vec::new();
+    let mut slices = Vec::new();
     for index in 0..usize::try_from(buffers.count).unwrap_or(0) {
         // SAFETY: there are `count` items, each the address of a buffer: XLA has no other
         // kind of argument or result.
@@ -373,7 +376,7 @@ unsafe fn numbers<T>(buffers: &Buffers, dtype: i32) -> Result<Vec<(*mut T, usize
             0 => std::ptr::NonNull::dangling().as_ptr(),
             _ => buffer.data.cast(),
         };
-        all.push((data, length));
+        slices.push((data, length));
     }
-    Ok(all)
+    Ok(slices)
 }

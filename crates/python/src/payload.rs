@@ -44,29 +44,29 @@ pub(crate) fn check(name: &str, bodies: &Bound<'_, PyAny>, zeros: &[bool]) -> Py
         return Ok(());
     };
     let shape: Vec<usize> = array.getattr("shape")?.extract()?;
-    let each = shape.last().map_or(0, |last| last / 10);
-    if shape.last() != Some(&(10 * each)) || each == 0 {
+    let body_count = shape.last().map_or(0, |last| last / 10);
+    if shape.last() != Some(&(10 * body_count)) || body_count == 0 {
         return Ok(());
     }
     let rows = array.call_method1("reshape", ((-1, 10),))?;
     let Ok(rows) = rows.call_method0("tolist")?.extract::<Vec<Numbers>>() else {
         return Ok(());
     };
-    let mut all = rows.iter().enumerate();
-    let wrong = |(place, own): (usize, &Numbers)| {
-        let zeros = zeros.iter().skip(10 * (place % each));
-        let why = defect(own).or_else(|| filled(own, zeros))?;
+    let mut body_rows = rows.iter().enumerate();
+    let wrong = |(place, numbers): (usize, &Numbers)| {
+        let zeros = zeros.iter().skip(10 * (place % body_count));
+        let why = defect(numbers).or_else(|| filled(numbers, zeros))?;
         Some((place, why))
     };
-    let Some((place, why)) = all.find_map(wrong) else {
+    let Some((place, why)) = body_rows.find_map(wrong) else {
         return Ok(());
     };
     let mut which = String::new();
-    if rows.len() > each {
-        which += &format!(" at state {}", place / each);
+    if rows.len() > body_count {
+        which += &format!(" at state {}", place / body_count);
     }
-    if each > 1 {
-        which += &format!(", body {}", place % each);
+    if body_count > 1 {
+        which += &format!(", body {}", place % body_count);
     }
     let message = format!("load: argument `{name}`{which}: {why}");
     Err(PyValueError::new_err(message))

@@ -87,7 +87,6 @@ pub fn pose_rows<'py>(
     let wrong = || PyValueError::new_err(format!("no operation `{name}` on such rows"));
     let of = operation(name).ok_or_else(wrong)?;
     let rows = rows.as_slice()?.chunks(rows.shape()[1].max(1));
-    let found = rows.map(|row| of(&pose(row)?, row.get(7..)?));
-    let found: Option<Vec<Vec<f64>>> = found.collect();
-    Ok(PyArray2::from_vec2(py, &found.ok_or_else(wrong)?)?)
+    let results: Option<Vec<Vec<f64>>> = rows.map(|row| of(&pose(row)?, row.get(7..)?)).collect();
+    Ok(PyArray2::from_vec2(py, &results.ok_or_else(wrong)?)?)
 }

@@ -42,10 +42,12 @@ pub(crate) fn run<T: Real>(
         (Some(first), Some(length)) => first.len() / length,
         _ => 0,
     };
-    let whole = |(found, length): (usize, &usize)| found == states * length;
+    let whole = |(count, length): (usize, &usize)| count == states * length;
     let mut read = arguments.iter().map(|data| data.len()).zip(&lengths);
-    let written = results.iter().map(|data| data.len());
-    let mut written = written.zip(&signature.results);
+    let mut written = results
+        .iter()
+        .map(|data| data.len())
+        .zip(&signature.results);
     let name = function.name();
     if !(read.all(whole) && written.all(whole)) {
         let expected = format!("{lengths:?} numbers of {states} states");

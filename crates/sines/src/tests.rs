@@ -84,16 +84,16 @@ fn polynomials_are_as_near_as_stated() {
     let sine = SINE_F32.map(f64::from);
     let cosine = COSINE_F32.map(f64::from);
     let least = (0.78545f64.sin() / 0.78545).log2();
-    for (what, found, stated) in [
+    for (what, exponent, stated) in [
         ("sine", error(&SINE, 3, 2, 0.78541) - least, -57.6),
         ("cosine", error(&COSINE, 4, 4, 0.78541), -63.9),
         ("sine of f32", error(&sine, 3, 2, 0.78545) - least, -27.6),
         ("cosine of f32", error(&cosine, 4, 4, 0.78545), -32.9),
     ] {
-        std::println!("{what}: 2^{found:.2}");
-        assert!(found < stated, "{what}: 2^{found}");
+        std::println!("{what}: 2^{exponent:.2}");
+        assert!(exponent < stated, "{what}: 2^{exponent}");
         // A bound far below would be one of another polynomial.
-        assert!(found > stated - 0.5, "{what}: 2^{found}");
+        assert!(exponent > stated - 0.5, "{what}: 2^{exponent}");
     }
 }
 
@@ -123,8 +123,11 @@ fn the_parts_are_of_a_quarter_turn() {
             assert!(width(*part) + most.ilog2() <= 53, "{part:e}");
         }
         let sum = parts.iter().fold(whole(0), |sum, part| sum + exact(*part));
-        let found = bits(&magnitude(quarter() - sum));
-        assert!(found < missing && found > missing - 0.5, "2^{found}");
+        let exponent = bits(&magnitude(quarter() - sum));
+        assert!(
+            exponent < missing && exponent > missing - 0.5,
+            "2^{exponent}"
+        );
     }
 }
 

@@ -27,10 +27,10 @@ struct Worst {
 impl Worst {
     fn add(&mut self, x: f64, sin: f64, cos: f64) {
         self.points += 1;
-        for (worst, found) in [(&mut self.sin, sin), (&mut self.cos, cos)] {
+        for (worst, error) in [(&mut self.sin, sin), (&mut self.cos, cos)] {
             // Nothing is below a NaN.
-            if found > worst.0 || found.is_nan() {
-                *worst = (found, x);
+            if error > worst.0 || error.is_nan() {
+                *worst = (error, x);
             }
         }
     }
@@ -99,14 +99,14 @@ fn singles(bits: impl Iterator<Item = u32>) {
         assert!(cos.map(f32::to_bits) == other_cos.map(f32::to_bits));
         for (x, (sin, cos)) in x.into_iter().zip(sin.into_iter().zip(cos)) {
             let (true_sin, true_cos) = libm::sincos(x.into());
-            let error = |found: f32, exact: f64| {
+            let error = |result: f32, exact: f64| {
                 let near = (exact as f32).abs();
                 let size = f64::from(near.next_up()) - f64::from(near);
                 // Where rounding to f32 reaches the next power of two, an ulp below it is half as
                 // large.
                 let below = f64::from(near) > exact.abs() && near.to_bits().is_multiple_of(1 << 23);
                 let size = if below { size / 2.0 } else { size };
-                (f64::from(found) - exact).abs() / size
+                (f64::from(result) - exact).abs() / size
             };
             worst.add(x.into(), error(sin, true_sin), error(cos, true_cos));
         }
@@ -144,10 +144,10 @@ fn against_the_wide_float() {
     for x in hard.chain(within(1.0, 300, 5)).chain([hardest, 0.0, 1e-20]) {
         let (sin, cos) = reference.sincos(x);
         let exact = Wide::sincos_of(x).unwrap();
-        for (found, exact) in [(sin, exact.sin), (cos, exact.cos)] {
+        for (pair, exact) in [(sin, exact.sin), (cos, exact.cos)] {
             let part = |x: f64| Wide::from_f64(x).unwrap();
-            let error = part(found.0).add(&part(found.1)).sub(&exact).magnitude();
-            assert!(error <= ulp(found.0) * (-16f64).exp2(), "{x:e}: {error:e}");
+            let error = part(pair.0).add(&part(pair.1)).sub(&exact).magnitude();
+            assert!(error <= ulp(pair.0) * (-16f64).exp2(), "{x:e}: {error:e}");
         }
     }
 }

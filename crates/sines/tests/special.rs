@@ -18,15 +18,15 @@ fn same(a: f64, b: f64) -> bool {
 #[test]
 fn what_polynomials_are_not_for_is_libms() {
     let large = [LARGEST.next_up(), 1e5, 1e22, f64::MAX, f64::INFINITY];
-    let all = large.into_iter().chain([f64::NAN]);
-    for x in all.flat_map(|x| [x, -x]) {
+    let doubles = large.into_iter().chain([f64::NAN]);
+    for x in doubles.flat_map(|x| [x, -x]) {
         let ([sin], [cos]) = sincos(&[x]);
         let (libm_sin, libm_cos) = libm::sincos(x);
         assert!(same(sin, libm_sin) && same(cos, libm_cos), "{x:e}");
     }
     let large = [LARGEST_F32.next_up(), 1e5, 1e22, f32::MAX, f32::INFINITY];
-    let all = large.into_iter().chain([f32::NAN]);
-    for x in all.flat_map(|x| [x, -x]) {
+    let singles = large.into_iter().chain([f32::NAN]);
+    for x in singles.flat_map(|x| [x, -x]) {
         let ([sin], [cos]) = sincosf(&[x]);
         let (libm_sin, libm_cos) = libm::sincosf(x);
         let all_same = same(sin.into(), libm_sin.into()) && same(cos.into(), libm_cos.into());
@@ -42,8 +42,8 @@ fn what_is_tiny_is_its_own_sine() {
     }
     let tiny = [0.0f32, 1e-45, f32::MIN_POSITIVE, 1e-30, 1e-13, 1e-5];
     for x in tiny.into_iter().flat_map(|x| [x, -x]) {
-        let own = [(x.to_bits(), 1f32.to_bits())];
-        assert_eq!(bitsf(sincosf(&[x])), own, "{x:e}");
+        let expected = [(x.to_bits(), 1f32.to_bits())];
+        assert_eq!(bitsf(sincosf(&[x])), expected, "{x:e}");
     }
 }
 
@@ -66,8 +66,8 @@ fn are_computed_for_themselves<const N: usize>() {
             angles[odd] = unusual;
             let (together, singles) = (sincos(&angles), angles.map(|x| x as f32));
             let together_f32 = bitsf(sincosf(&singles));
-            for (i, found) in bits(together).into_iter().enumerate() {
-                assert_eq!(found, bits(sincos(&[angles[i]]))[0], "{angles:?}");
+            for (i, pair) in bits(together).into_iter().enumerate() {
+                assert_eq!(pair, bits(sincos(&[angles[i]]))[0], "{angles:?}");
                 assert_eq!(together_f32[i], bitsf(sincosf(&[singles[i]]))[0]);
             }
         }

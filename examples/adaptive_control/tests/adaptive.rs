@@ -50,11 +50,11 @@ fn rate_is_off(step: u32, regressor: Regressor) -> f64 {
         (before - energy(&moved, &wanted, &controller.estimate)) / period
     };
     // Half the step halves the error of a difference: the combination is of second order.
-    let found = 2.0 * fallen(0.5e-6) - fallen(1e-6);
+    let rate = 2.0 * fallen(0.5e-6) - fallen(1e-6);
     let viscous = [0.0, 0.0, 0.05];
     let damped: Joints = core::array::from_fn(|i| (DAMPING[i] + viscous[i]) * s[i]);
     let power = product(&damped, &s);
-    (found - power).abs() / power
+    (rate - power).abs() / power
 }
 
 #[test]

@@ -79,7 +79,7 @@ pub fn simulate(push: &Push, duration: f64) -> Vec<Noticed> {
     let [q, qd, _] = target(0.0);
     let mut state = State { q, qd };
     let mut observer = Observer::new(&state);
-    let mut all = Vec::new();
+    let mut samples = Vec::new();
     for step in 0..(duration / PERIOD).round() as u32 {
         let time = f64::from(step) * PERIOD;
         let [q, qd, qdd] = target(time);
@@ -95,11 +95,11 @@ pub fn simulate(push: &Push, duration: f64) -> Vec<Noticed> {
         });
         let outside = observer.observe(&state, &next, &tau);
         state = next;
-        all.push(Noticed {
+        samples.push(Noticed {
             time: time + PERIOD,
             torque: largest(outside),
             wrench: ur10::contact_wrench(&state.q, &outside, &DAMPING),
         });
     }
-    all
+    samples
 }

@@ -10,16 +10,16 @@ const PUSH: Push = Push {
 
 #[test]
 fn a_push_is_found_within_five_percent() {
-    let all = simulate(&PUSH, 2.5);
-    let first = all.iter().find(|noticed| noticed.torque > THRESHOLD);
+    let samples = simulate(&PUSH, 2.5);
+    let first = samples.iter().find(|noticed| noticed.torque > THRESHOLD);
     let time = first.unwrap().time;
     assert!((1.0..1.02).contains(&time), "{time}");
-    for noticed in all.iter().filter(|n| (1.3..2.0).contains(&n.time)) {
+    for noticed in samples.iter().filter(|n| (1.3..2.0).contains(&n.time)) {
         let off = distance(&noticed.wrench, &PUSH.wrench);
         assert!(off <= 0.05 * largest(PUSH.wrench), "{noticed:?}");
     }
     // After the push nothing is noticed.
-    let mut later = all.iter().filter(|noticed| noticed.time > 2.3);
+    let mut later = samples.iter().filter(|noticed| noticed.time > 2.3);
     assert!(later.all(|noticed| noticed.torque < THRESHOLD));
 }
 
@@ -29,8 +29,8 @@ fn an_arm_that_nothing_touches_notices_nothing() {
         wrench: [0.0; 6],
         ..PUSH
     };
-    let all = simulate(&still, 2.0);
-    let most = largest(all.iter().map(|noticed| noticed.torque));
+    let samples = simulate(&still, 2.0);
+    let most = largest(samples.iter().map(|noticed| noticed.torque));
     assert!(most < 1e-3 * THRESHOLD, "{most}");
 }
 

@@ -68,9 +68,10 @@ fn tick(servo: &Servo, q: f64) -> u16 {
 
 /// Returns the torque at the joint: that of the command, less back-EMF, less friction.
 fn torque(servo: &Servo, command: i16, speed: f64) -> f64 {
-    let own = f64::from(servo.sign) * f64::from(command) - f64::from(servo.units_per_speed) * speed;
+    let drive =
+        f64::from(servo.sign) * f64::from(command) - f64::from(servo.units_per_speed) * speed;
     let rub = f64::from(servo.friction) * speed / (speed * speed + 1e-4).sqrt();
-    own / f64::from(servo.units_per_torque) - rub - 0.01 * speed
+    drive / f64::from(servo.units_per_torque) - rub - 0.01 * speed
 }
 
 fn so101_at(q: [f64; so101::N], known: [Servo; so101::N]) -> Bench<{ so101::N }> {

@@ -8,16 +8,16 @@ use guide::simulate::{State, step};
 use guide::{Joints, arm, carrying, control, hold, picking, varied};
 
 fn texts(folder: &Path, ending: &str) -> Vec<String> {
-    let mut found = Vec::new();
+    let mut contents = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
-            found.extend(texts(&path, ending));
+            contents.extend(texts(&path, ending));
         } else if path.extension().is_some_and(|e| e == ending) {
-            found.push(fs::read_to_string(path).unwrap());
+            contents.push(fs::read_to_string(path).unwrap());
         }
     }
-    found
+    contents
 }
 
 #[test]
@@ -67,8 +67,8 @@ fn a_pose_is_held() {
 #[test]
 fn a_payload_is_found() {
     let measured = hold::measured(&[Q, [0.0, 0.2, 0.9], [1.0, -0.3, 0.5]], 0.7);
-    let found = hold::mass(&measured.unwrap()).unwrap();
-    assert!((found - 0.7).abs() < 1e-12, "{found}");
+    let mass = hold::mass(&measured.unwrap()).unwrap();
+    assert!((mass - 0.7).abs() < 1e-12, "{mass}");
     assert_eq!(hold::mass(&[]), None);
     assert_eq!(hold::measured(&[Q], -0.7), None);
 }
@@ -84,11 +84,11 @@ fn a_tool_is_held_on_a_wall() {
 #[test]
 fn a_heavy_link_needs_more() {
     let (q, qd, qdd) = ([0.3, 0.2, -0.4], [0.5, -0.3, 0.2], [1.0, 2.0, 0.5]);
-    let own = arm::inverse_dynamics(&q, &qd, &qdd);
+    let torques = arm::inverse_dynamics(&q, &qd, &qdd);
     let same = varied::inverse_dynamics(&q, &qd, &qdd, &varied::load(&varied::BODIES));
-    assert!(distance(&own, &same) < 1e-12);
+    assert!(distance(&torques, &same) < 1e-12);
     let heavy = hold::with_a_heavy_link(&q, &qd, &qdd).unwrap();
-    assert!(heavy[1] > 1.1 * own[1] && (heavy[2] - own[2]).abs() < 1e-12);
+    assert!(heavy[1] > 1.1 * torques[1] && (heavy[2] - torques[2]).abs() < 1e-12);
 }
 
 #[test]
@@ -105,9 +105,9 @@ fn picking_is_within_its_tolerance() {
     let load = carrying::load(&payload.unwrap());
     let floor = carrying::Gravity([0.0, 0.0, -9.81]);
     let [_, exact @ ..] = carrying::inverse_dynamics(&q, &qd, &qdd, &floor, &load);
-    let found = picking::inverse_dynamics(&q, &qd, &qdd);
+    let torques = picking::inverse_dynamics(&q, &qd, &qdd);
     for (i, limit) in [60.0, 25.0].into_iter().enumerate() {
-        let off = (found[i] - exact[i]).abs();
+        let off = (torques[i] - exact[i]).abs();
         assert!(off <= 1e-2 * limit, "{off}");
     }
 }

@@ -42,8 +42,9 @@ pub fn command(
     let on_base = DMatrix::from_fn(6, rows.len(), |i, k| jacobian[(rows[k], i)]);
     let wrench = DVector::from_fn(6, |i, _| needed[i]);
     let decomposition = on_base.svd(true, true);
-    let shared = decomposition.solve(&wrench, 1e-6);
-    let shared = shared.expect("both sides of the decomposition were asked for");
+    let shared = decomposition
+        .solve(&wrench, 1e-6)
+        .expect("both sides of the decomposition were asked for");
     let mut forces = [0.0; 3 * LEGS];
     for (row, force) in rows.iter().zip(shared.iter()) {
         forces[*row] = *force;
@@ -69,15 +70,15 @@ fn wished(state: &State, stance: Stance, target: &Pose<f64>, legs: &[[f64; 3]; L
     for leg in 0..LEGS {
         let first = go2::FL_HIP_JOINT + 3 * leg;
         if stance.has(leg) {
-            let own = Matrix3::from_fn(|i, k| jacobian[(3 * leg + i, first + k)]);
+            let block = Matrix3::from_fn(|i, k| jacobian[(3 * leg + i, first + k)]);
             let taken = |i: usize| {
                 let row = jacobian.row(3 * leg + i);
                 let by_base: f64 = (0..6).map(|k| row[k] * wished[k]).sum();
                 -bias[3 * leg + i] - by_base
             };
             let taken = Vector3::from_fn(|i, _| taken(i));
-            let own = own.lu().solve(&taken).unwrap_or_default();
-            wished.fixed_rows_mut::<3>(first).copy_from(&own);
+            let rates = block.lu().solve(&taken).unwrap_or_default();
+            wished.fixed_rows_mut::<3>(first).copy_from(&rates);
         } else {
             for joint in 0..3 {
                 let off = legs[leg][joint] - state.q[3 * leg + joint];

@@ -11,23 +11,23 @@ pub fn accelerations(state: &State, stance: Stance, tau: &Rates) -> (Rates, Vec<
     let (q, v, tau, g) = (&state.q, &state.v.into(), &(*tau).into(), &state.gravity());
     match stance {
         Stance::Four => {
-            let found = go2::contact_forward_dynamics_fl_foot_fr_foot_rl_foot_rr_foot(
+            let solution = go2::contact_forward_dynamics_fl_foot_fr_foot_rl_foot_rr_foot(
                 q, v, tau, g, &DAMPING,
             );
-            let forces = found.forces_fl_foot_fr_foot_rl_foot_rr_foot.to_vec();
-            (found.qdd_fl_foot_fr_foot_rl_foot_rr_foot.into(), forces)
+            let forces = solution.forces_fl_foot_fr_foot_rl_foot_rr_foot.to_vec();
+            (solution.qdd_fl_foot_fr_foot_rl_foot_rr_foot.into(), forces)
         }
         Stance::RightThree => {
-            let found =
+            let solution =
                 go2::contact_forward_dynamics_fr_foot_rl_foot_rr_foot(q, v, tau, g, &DAMPING);
-            let forces = found.forces_fr_foot_rl_foot_rr_foot.to_vec();
-            (found.qdd_fr_foot_rl_foot_rr_foot.into(), forces)
+            let forces = solution.forces_fr_foot_rl_foot_rr_foot.to_vec();
+            (solution.qdd_fr_foot_rl_foot_rr_foot.into(), forces)
         }
         Stance::LeftThree => {
-            let found =
+            let solution =
                 go2::contact_forward_dynamics_fl_foot_rl_foot_rr_foot(q, v, tau, g, &DAMPING);
-            let forces = found.forces_fl_foot_rl_foot_rr_foot.to_vec();
-            (found.qdd_fl_foot_rl_foot_rr_foot.into(), forces)
+            let forces = solution.forces_fl_foot_rl_foot_rr_foot.to_vec();
+            (solution.qdd_fl_foot_rl_foot_rr_foot.into(), forces)
         }
     }
 }

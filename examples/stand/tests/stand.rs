@@ -52,8 +52,8 @@ fn the_error_of_the_energy_is_the_integrator_s() {
         let tau = command(&state, Stance::Four, &state.pose, &[BENT; LEGS]).tau * 1.1;
         let (before, mut work) = (state.energy(), 0.0);
         for _ in 0..steps {
-            let (next, own) = step(&state, Stance::Four, &tau, 0.1 / f64::from(steps));
-            (state, work) = (next, work + own);
+            let (next, step_work) = step(&state, Stance::Four, &tau, 0.1 / f64::from(steps));
+            (state, work) = (next, work + step_work);
         }
         (state.energy() - before - work).abs()
     };

@@ -13,8 +13,8 @@ const PERIOD: f64 = 1e-3;
 /// seconds. `push` is the error of q̇₁ at the start, rad/s. Returns the largest error of the last
 /// state from upright at rest, and the largest torque, N·m.
 pub fn follow(plan: &Plan, hold: f64, push: f64) -> [f64; 2] {
-    let each = (plan::PERIOD / PERIOD).round() as usize;
-    let swing = each * plan.torques.len();
+    let periods = (plan::PERIOD / PERIOD).round() as usize;
+    let swing = periods * plan.torques.len();
     let upright = plan::holding(PERIOD);
     let mut state = HANGING;
     state[2] += push;
@@ -24,10 +24,10 @@ pub fn follow(plan: &Plan, hold: f64, push: f64) -> [f64; 2] {
     for k in 0..swing + (hold / PERIOD).round() as usize {
         let torque = match k < swing {
             true => {
-                let torque = plan.torques[k / each];
-                let answer = plan.gains[k / each].dot(&(state - planned));
-                planned = match (k + 1) % each {
-                    0 => plan.states[(k + 1) / each],
+                let torque = plan.torques[k / periods];
+                let answer = plan.gains[k / periods].dot(&(state - planned));
+                planned = match (k + 1) % periods {
+                    0 => plan.states[(k + 1) / periods],
                     _ => step(&planned, torque, PERIOD),
                 };
                 limited(torque + answer)

@@ -42,10 +42,10 @@ struct Stage(State, Bend, Slopes);
 fn stages(state: &State, torque: f64, period: f64) -> [Stage; 4] {
     let (mut at, mut by_both) = (*state, Bend::identity());
     STAGES.map(|(_, ahead)| {
-        let own = rate_slopes(&at, torque);
-        let stage = Stage(at, by_both, own);
+        let slopes = rate_slopes(&at, torque);
+        let stage = Stage(at, by_both, slopes);
         at = state + rate(&at, torque) * (ahead * period);
-        let moved = own * by_both * (ahead * period);
+        let moved = slopes * by_both * (ahead * period);
         by_both = Bend::identity();
         let mut rows = by_both.fixed_rows_mut::<4>(0);
         rows += moved;
@@ -56,8 +56,9 @@ fn stages(state: &State, torque: f64, period: f64) -> [Stage; 4] {
 /// Returns the derivatives of [`step`] with respect to the state and the torque.
 pub fn slopes(state: &State, torque: f64, period: f64) -> Slopes {
     let mut sum = Slopes::zeros();
-    for (Stage(_, by_both, own), (weight, _)) in stages(state, torque, period).iter().zip(STAGES) {
-        sum += own * by_both * weight;
+    for (Stage(_, by_both, slopes), (weight, _)) in stages(state, torque, period).iter().zip(STAGES)
+    {
+        sum += slopes * by_both * weight;
     }
     Slopes::identity() + sum * (period / 6.0)
 }
@@ -68,10 +69,10 @@ pub fn slopes(state: &State, torque: f64, period: f64) -> Slopes {
 pub fn bends(state: &State, torque: f64, period: f64, multiplier: &State) -> Bend {
     let (mut bends, mut onward) = (Bend::zeros(), State::zeros());
     let stages = stages(state, torque, period);
-    for (Stage(at, by_both, own), (weight, ahead)) in stages.iter().zip(STAGES).rev() {
+    for (Stage(at, by_both, slopes), (weight, ahead)) in stages.iter().zip(STAGES).rev() {
         let counted = multiplier * (weight * period / 6.0) + onward * (ahead * period);
         bends += by_both.transpose() * rate_bends(at, torque, &counted) * by_both;
-        onward = own.fixed_columns::<4>(0).transpose() * counted;
+        onward = slopes.fixed_columns::<4>(0).transpose() * counted;
     }
     bends
 }
@@ -79,7 +80,7 @@ pub fn bends(state: &State, torque: f64, period: f64, multiplier: &State) -> Ben
 /// Returns the second derivatives of λᵀ(q̇, q̈); those of q̇ are zero.
 fn rate_bends(state: &State, torque: f64, multiplier: &State) -> Bend {
     let [q1, q2, qd1, qd2] = (*state).into();
-    let own = planar2r::forward_dynamics_second_derivatives(
+    let derivatives = planar2r::forward_dynamics_second_derivatives(
         &[q1, q2],
         &[qd1, qd2],
         &[0.0, torque],
@@ -88,13 +89,13 @@ fn rate_bends(state: &State, torque: f64, multiplier: &State) -> Bend {
     let mut bends = Bend::zeros();
     for i in 0..planar2r::N {
         for k in 0..planar2r::N {
-            bends[(i, k)] = own.d2qdd_dq_dq[i][k];
-            bends[(i, 2 + k)] = own.d2qdd_dq_dqd[i][k];
-            bends[(2 + k, i)] = own.d2qdd_dq_dqd[i][k];
-            bends[(2 + i, 2 + k)] = own.d2qdd_dqd_dqd[i][k];
+            bends[(i, k)] = derivatives.d2qdd_dq_dq[i][k];
+            bends[(i, 2 + k)] = derivatives.d2qdd_dq_dqd[i][k];
+            bends[(2 + k, i)] = derivatives.d2qdd_dq_dqd[i][k];
+            bends[(2 + i, 2 + k)] = derivatives.d2qdd_dqd_dqd[i][k];
         }
-        bends[(4, i)] = own.d2qdd_dtau_dq[1][i];
-        bends[(i, 4)] = own.d2qdd_dtau_dq[1][i];
+        bends[(4, i)] = derivatives.d2qdd_dtau_dq[1][i];
+        bends[(i, 4)] = derivatives.d2qdd_dtau_dq[1][i];
     }
     bends
 }
@@ -109,14 +110,14 @@ fn rate(state: &State, torque: f64) -> State {
 fn rate_slopes(state: &State, torque: f64) -> Slopes {
     let [q1, q2, qd1, qd2] = (*state).into();
     let slopes = planar2r::forward_dynamics_derivatives(&[q1, q2], &[qd1, qd2], &[0.0, torque]);
-    let mut found = Slopes::zeros();
+    let mut matrix = Slopes::zeros();
     for i in 0..planar2r::N {
-        found[(i, 2 + i)] = 1.0;
+        matrix[(i, 2 + i)] = 1.0;
         for k in 0..planar2r::N {
-            found[(2 + i, k)] = slopes.dqdd_dq[i][k];
-            found[(2 + i, 2 + k)] = slopes.dqdd_dqd[i][k];
+            matrix[(2 + i, k)] = slopes.dqdd_dq[i][k];
+            matrix[(2 + i, 2 + k)] = slopes.dqdd_dqd[i][k];
         }
-        found[(2 + i, 4)] = slopes.dqdd_dtau[i][1];
+        matrix[(2 + i, 4)] = slopes.dqdd_dtau[i][1];
     }
-    found
+    matrix
 }

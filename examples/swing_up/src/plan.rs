@@ -155,12 +155,12 @@ impl Plan {
                 true => wary * (-1.0 / lowest),
                 false => State::zeros(),
             };
-            let each = ELSEWHERE * period;
-            slope = (state - UPRIGHT).component_mul(&each)
+            let weights = ELSEWHERE * period;
+            slope = (state - UPRIGHT).component_mul(&weights)
                 + by_state.transpose() * slope
                 + gain * (of_torques * change + of_torque)
                 + mixed * change;
-            bend = Square::from_diagonal(&each)
+            bend = Square::from_diagonal(&weights)
                 + by_state.transpose() * bend * by_state
                 + bent.fixed_view::<4, 4>(0, 0)
                 + gain * gain.transpose() * of_torques

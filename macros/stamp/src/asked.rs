@@ -62,11 +62,15 @@ impl fmt::Display for NotAsked {
 
 impl std::error::Error for NotAsked {}
 
-fn is_near(name: &str, found: &str) -> bool {
-    let (one, other) = (name.as_bytes(), found.as_bytes());
+fn is_near(name: &str, word: &str) -> bool {
+    let (one, other) = (name.as_bytes(), word.as_bytes());
     let before = one.iter().zip(other).take_while(|(a, b)| a == b).count();
-    let behind = one.iter().rev().zip(other.iter().rev());
-    let behind = behind.take_while(|(a, b)| a == b).count();
+    let behind = one
+        .iter()
+        .rev()
+        .zip(other.iter().rev())
+        .take_while(|(a, b)| a == b)
+        .count();
     let longest = one.len().max(other.len());
     longest > 1 && before + behind + 1 >= longest && one.len().abs_diff(other.len()) <= 1
 }
@@ -106,14 +110,14 @@ impl Asked {
     /// # Errors
     /// There is no option of this name.
     pub fn set(&mut self, option: &str, value: &str) -> Result<(), NotAsked> {
-        let found = OPTIONS.iter().find(|(name, _)| *name == option);
-        let (name, default) = found.ok_or_else(|| NotAsked(option.to_owned()))?;
+        let entry = OPTIONS.iter().find(|(name, _)| *name == option);
+        let (name, default) = entry.ok_or_else(|| NotAsked(option.to_owned()))?;
         let value = items(value).collect::<Vec<String>>().join(", ");
-        self.0.retain(|(own, _)| own != name);
+        self.0.retain(|(key, _)| key != name);
         if !value.is_empty() && value != *default {
-            let place = |name: &str| OPTIONS.iter().position(|(own, _)| *own == name);
+            let place = |name: &str| OPTIONS.iter().position(|(key, _)| *key == name);
             self.0.push((name, value));
-            self.0.sort_by_key(|(own, _)| place(own));
+            self.0.sort_by_key(|(key, _)| place(key));
         }
         Ok(())
     }
@@ -178,7 +182,11 @@ impl std::str::FromStr for Asked {
 
     fn from_str(text: &str) -> Result<Asked, NotAsked> {
         let mut asked = Asked::default();
-        for option in text.split(';').map(str::trim).filter(|own| !own.is_empty()) {
+        for option in text
+            .split(';')
+            .map(str::trim)
+            .filter(|option| !option.is_empty())
+        {
             let (name, value) = option.split_once(':').unwrap_or((option, ""));
             asked.set(name.trim(), value)?;
         }
@@ -205,7 +213,7 @@ mod tests {
 
     #[test]
     fn each_file_in_rust_has_a_scalar() {
-        let file = |(suffix, own): (&str, Asked)| format!("{suffix} {own}");
+        let file = |(suffix, asked): (&str, Asked)| format!("{suffix} {asked}");
         let files = |text: &str| {
             let asked: Asked = text.parse().unwrap();
             asked.by_scalar().into_iter().map(file).collect::<Vec<_>>()

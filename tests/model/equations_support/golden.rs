@@ -74,7 +74,7 @@ pub fn extreme<S: Scalar>(
     pair: impl Fn(f64) -> SinCosPair<S>,
 ) -> Arm<S> {
     let robot = &case["robot"];
-    let own = |(i, kind): (usize, char)| {
+    let link_at = |(i, kind): (usize, char)| {
         let kind = match kind {
             'R' => JointKind::Revolute,
             _ => JointKind::Prismatic,
@@ -92,7 +92,7 @@ pub fn extreme<S: Scalar>(
         link(kind, [twist, pair(known("off"))], lengths, com, inertia)
     };
     let kinds = robot["types"].as_str().unwrap().chars();
-    let links = kinds.enumerate().map(own).collect();
+    let links = kinds.enumerate().map(link_at).collect();
     let gravity = triple(&robot["g"]).map(&number);
     arm(Convention::Standard, gravity, links)
 }
@@ -107,9 +107,9 @@ pub fn normwise(a: &[f64], b: &[f64]) -> f64 {
 }
 
 #[track_caller]
-pub fn check(found: &[(&str, Vec<f64>)], state: &Value, bound: f64, what: &str) -> f64 {
-    let errors = found.iter().map(|(key, found)| {
-        let error = normwise(found, &numbers(&state[*key]));
+pub fn check(results: &[(&str, Vec<f64>)], state: &Value, bound: f64, what: &str) -> f64 {
+    let errors = results.iter().map(|(key, values)| {
+        let error = normwise(values, &numbers(&state[*key]));
         assert!(error <= bound, "{what}: {key} {error:e}");
         error
     });

@@ -35,13 +35,13 @@ pub fn case(convention: Convention, n: usize, bits: u32, points: &mut Points) ->
 }
 
 pub fn every_kind(most: usize, points: &mut Points) -> Vec<Case> {
-    let mut all = Vec::new();
+    let mut cases = Vec::new();
     for convention in CONVENTIONS {
         for n in 1..=most {
-            all.extend((0..1 << n).map(|bits| case(convention, n, bits, points)));
+            cases.extend((0..1 << n).map(|bits| case(convention, n, bits, points)));
         }
     }
-    all
+    cases
 }
 
 pub fn position<S: Scalar>(
@@ -57,8 +57,10 @@ pub fn position<S: Scalar>(
 }
 
 pub fn pose(points: &mut Points) -> Columns<Field> {
-    let turned = Columns::identity().turn_z(&pair(points));
-    let turned = turned.turn_y(&pair(points)).turn_x(&pair(points));
+    let turned = Columns::identity()
+        .turn_z(&pair(points))
+        .turn_y(&pair(points))
+        .turn_x(&pair(points));
     let axes = turned.axes;
     let origin = triple(points);
     Columns { axes, origin }

@@ -19,7 +19,8 @@ fn at_frame(text: &str, arm: &Arm<Field>, case: &Case, motion: &Motion<Field>) -
     let mut case = case.clone();
     case.arm = arm.clone();
     let function = Function::parse(text).unwrap();
-    let by = |own| function.quantities()[0].written(&written(own, &case, motion, &[]));
+    let by =
+        |formulation| function.quantities()[0].written(&written(formulation, &case, motion, &[]));
     let expected = by(Formulation::LagrangeEuler);
     let length = function.outputs(Sizes::whole(arm.links.len()));
     assert_eq!(expected.len(), length, "{text}");
@@ -70,12 +71,12 @@ fn frames_are_hands_in_other_places() {
                 let j = of(&format!("jacobian{view}"), &arm);
                 let some = of(&format!("jacobian{view}:x_rz"), &arm);
                 assert_eq!(some, [&j[..n], &j[5 * n..]].concat());
-                let seen = Function::parse(&format!("jacobian{view}")).unwrap();
-                let Quantity::At(seen) = seen.quantities()[0] else {
+                let function = Function::parse(&format!("jacobian{view}")).unwrap();
+                let Quantity::At(quantity) = function.quantities()[0] else {
                     panic!("a frame");
                 };
-                let seen = moving_arm.seen(&seen.view()).unwrap();
-                let rates = Formulation::LagrangeEuler.jacobian(&seen, &moving_at);
+                let frame_arm = moving_arm.seen(&quantity.view()).unwrap();
+                let rates = Formulation::LagrangeEuler.jacobian(&frame_arm, &moving_at);
                 let rate = |row: &Vec<Dual<Field>>| {
                     let row: Vec<Field> = row.iter().map(|j| j.rate).collect();
                     dot(&row, &case.qd)
@@ -133,12 +134,12 @@ fn operational_space_fits_together() {
             assert_eq!(of("operational_bias"), matrix_product(&inertia, &rest, m));
             let mut pushed = motion.clone();
             pushed.tau = matrix_product(&transposed, &motion.wrench[..m], m);
-            let found = at_frame(&format!("contact_wrench{view}"), &arm, &case, &pushed);
+            let wrench = at_frame(&format!("contact_wrench{view}"), &arm, &case, &pushed);
             let squared = matrix_product(&j, &transposed, n);
-            let left: Vec<Field> = matrix_product(&squared, &found, m);
+            let left: Vec<Field> = matrix_product(&squared, &wrench, m);
             let right = matrix_product(&squared, &motion.wrench[..m], m);
-            for ((left, found), right) in left.iter().zip(&found).zip(&right) {
-                assert_eq!(left.add(&damping.mul(found)), *right);
+            for ((left, entry), right) in left.iter().zip(&wrench).zip(&right) {
+                assert_eq!(left.add(&damping.mul(entry)), *right);
             }
         }
     }

@@ -178,13 +178,13 @@ fn by_frames(arm: &Arm, q: &[f64], qd: &[f64], qdd: &[f64]) -> (Vec<f64>, Pose) 
     for (i, joint) in arm.joints.iter().enumerate() {
         let before = at.1;
         let placed = (rotation(joint.rpy), Vector3::from(joint.xyz));
-        let own = Vector3::from(joint.axis);
-        let own = own / own.dot(&own).sqrt();
+        let direction = Vector3::from(joint.axis);
+        let unit = direction / direction.dot(&direction).sqrt();
         at = then(&at, &placed);
-        let axis = at.0 * own;
+        let axis = at.0 * unit;
         let step = match joint.slides {
-            true => (Matrix3::identity(), own * q[i]),
-            false => (about(own, q[i]), Vector3::zeros()),
+            true => (Matrix3::identity(), unit * q[i]),
+            false => (about(unit, q[i]), Vector3::zeros()),
         };
         at = then(&at, &step);
         let lever = at.1 - before;
@@ -209,9 +209,9 @@ fn by_frames(arm: &Arm, q: &[f64], qd: &[f64], qdd: &[f64]) -> (Vec<f64>, Pose) 
     let n = arm.joints.len();
     let torque = |i: usize| {
         let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
-        for [point, own, turn] in &loads[i..] {
-            force += own;
-            moment += turn + (point - loads[i][0]).cross(own);
+        for [point, push, turn] in &loads[i..] {
+            force += push;
+            moment += turn + (point - loads[i][0]).cross(push);
         }
         let joint = &arm.joints[i];
         let load = if joint.slides { force } else { moment };
@@ -229,14 +229,18 @@ fn parameters(arm: &Arm) -> DVector<f64> {
             let tensor =
                 inertia + *mass * (Matrix3::identity() * com.dot(com) - com * com.transpose());
             let first = com.iter().map(|x| mass * x);
-            let own = [*mass].into_iter().chain(first);
-            let own = own.chain(PLACES.map(|place| tensor[place]));
-            sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
+            let moments = [*mass]
+                .into_iter()
+                .chain(first)
+                .chain(PLACES.map(|place| tensor[place]));
+            sum.iter_mut()
+                .zip(moments)
+                .for_each(|(sum, moment)| *sum += moment);
         }
         sum
     };
-    let all: Vec<f64> = arm.joints.iter().flat_map(link).collect();
-    DVector::from_vec(all)
+    let numbers: Vec<f64> = arm.joints.iter().flat_map(link).collect();
+    DVector::from_vec(numbers)
 }
 
 /// The worst difference is relative to the largest torque; of poses, in metres.
@@ -250,18 +254,22 @@ pub fn compare(arm: &Arm, robot: &Robot, drawn: &mut Drawn) -> f64 {
             [3.0, 2.0, 5.0].map(|most| DVector::from_fn(n, |_, _| drawn.number(most)));
         let (torques, hand) = by_frames(arm, q.as_slice(), qd.as_slice(), qdd.as_slice());
         let torques = vector(&torques);
-        let found = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
-        worst = worst.max((found - &torques).amax() / torques.amax());
-        let given = [Position, Velocity, Acceleration].into_iter();
-        let given = given.zip([&q, &qd, &qdd].map(Clone::clone));
-        let y = runtime.entries(Quantity::LinkRegressor, &JointVectors::new(given));
+        let tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
+        worst = worst.max((tau - &torques).amax() / torques.amax());
+        let vectors = [Position, Velocity, Acceleration]
+            .into_iter()
+            .zip([&q, &qd, &qdd].map(Clone::clone));
+        let y = runtime.entries(Quantity::LinkRegressor, &JointVectors::new(vectors));
         let y = DMatrix::from_row_slice(n, 10 * n, &y.unwrap());
         let pi = parameters(arm);
-        let drives = arm.joints.iter().enumerate();
-        let drives = drives.map(|(i, own)| own.viscous * qd[i] + own.armature * qdd[i]);
-        let found = &y * &pi + DVector::from_iterator(n, drives);
+        let drives = arm
+            .joints
+            .iter()
+            .enumerate()
+            .map(|(i, joint)| joint.viscous * qd[i] + joint.armature * qdd[i]);
+        let product = &y * &pi + DVector::from_iterator(n, drives);
         let size = (y.abs() * pi.abs()).amax().max(torques.amax());
-        worst = worst.max((found - &torques).amax() / size);
+        worst = worst.max((product - &torques).amax() / size);
         let pose = runtime.hand(&q).unwrap();
         for k in 0..3 {
             worst = worst.max((Vector3::from(pose.axes[k]) - hand.0.column(k)).amax());

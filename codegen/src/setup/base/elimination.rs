@@ -33,18 +33,18 @@ where
     let task = setup.task(Function::ALL.into_iter().find(is_over)?);
     let arm = setup.arm(constant);
     let columns: Vec<_> = columns.iter().map(|c| c.map(constant)).collect();
-    let mut found: Vec<Vec<Modulo<P>>> = vec![Vec::new(); columns.len()];
+    let mut samples: Vec<Vec<Modulo<P>>> = vec![Vec::new(); columns.len()];
     let states = columns.len() / setup.rows().len().max(1) + 4;
     for state in 0..states {
         let input = |input: Input| Sparse::Value(Modulo::<P>::any(points.input_at(input, state)));
         let posed = task.posed_over(arm.clone(), &(constant, input), Vec::new());
         for row in posed.regressor(Formulation::NewtonEulerLink, quantity, &columns) {
-            for (column, entry) in found.iter_mut().zip(row) {
+            for (column, entry) in samples.iter_mut().zip(row) {
                 column.push(entry.value().and_then(Modulo::of)?);
             }
         }
     }
-    Some(found)
+    Some(samples)
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -63,14 +63,16 @@ impl ColumnBasis<Exact> {
             return None;
         }
         let both = first.coefficients.iter().zip(&second.coefficients);
-        let coefficients = both.map(|(own, others)| {
-            let terms = own.iter().zip(others);
-            let terms = terms.map(|((place, x), (other, y))| {
-                let found = fraction(*x, *y).filter(|_| place == other);
-                Some((*place, Exact::from(found?)))
-            });
-            let terms: Option<Vec<(usize, Exact)>> = terms.collect();
-            terms.filter(|_| own.len() == others.len())
+        let coefficients = both.map(|(factors, others)| {
+            let terms: Option<Vec<(usize, Exact)>> = factors
+                .iter()
+                .zip(others)
+                .map(|((place, x), (other, y))| {
+                    let ratio = fraction(*x, *y).filter(|_| place == other);
+                    Some((*place, Exact::from(ratio?)))
+                })
+                .collect();
+            terms.filter(|_| factors.len() == others.len())
         });
         Some(ColumnBasis {
             coefficients: coefficients.collect::<Option<_>>()?,
@@ -80,7 +82,7 @@ impl ColumnBasis<Exact> {
 }
 
 pub(super) fn reduced<const P: u64>(columns: Vec<Vec<Modulo<P>>>) -> ColumnBasis<Modulo<P>> {
-    let mut found = ColumnBasis {
+    let mut basis = ColumnBasis {
         pivots: Vec::new(),
         coefficients: Vec::with_capacity(columns.len()),
     };
@@ -101,9 +103,12 @@ pub(super) fn reduced<const P: u64>(columns: Vec<Vec<Modulo<P>>>) -> ColumnBasis
             }
         }
         let Some(row) = column.iter().position(|x| *x != Modulo::ZERO) else {
-            let own = factors.into_iter().enumerate();
-            let own = own.filter(|(_, x)| *x != Modulo::ZERO).collect();
-            found.coefficients.push(own);
+            let coefficients = factors
+                .into_iter()
+                .enumerate()
+                .filter(|(_, x)| *x != Modulo::ZERO)
+                .collect();
+            basis.coefficients.push(coefficients);
             continue;
         };
         // The rest of the column, (column − Σ factors · pivots) / its entry.
@@ -117,11 +122,11 @@ pub(super) fn reduced<const P: u64>(columns: Vec<Vec<Modulo<P>>>) -> ColumnBasis
             others.push(Modulo::ZERO);
             subtract(others, &factor, &over);
         }
-        found.coefficients.push(vec![(kept.len(), Modulo::ONE)]);
-        found.pivots.push(index);
+        basis.coefficients.push(vec![(kept.len(), Modulo::ONE)]);
+        basis.pivots.push(index);
         kept.push((row, column, over));
     }
-    found
+    basis
 }
 
 fn subtract<const P: u64>(a: &mut [Modulo<P>], factor: &Modulo<P>, b: &[Modulo<P>]) {
@@ -134,8 +139,9 @@ fn subtract<const P: u64>(a: &mut [Modulo<P>], factor: &Modulo<P>, b: &[Modulo<P
 /// on its residue (Wang 1981). Nearly every residue has such a step, so that one alone shows nothing:
 /// one of less than 2⁹⁰ comes by chance once in 10⁸ times. Products of a few lengths are shorter.
 fn fraction(x: Field, y: ProofField) -> Option<Rational> {
-    let more = y.sub(&ProofField::from_i64(x.value() as i64));
-    let more = more.mul(&ProofField::from_i64(Field::P as i64).inverse()?);
+    let more = y
+        .sub(&ProofField::from_i64(x.value() as i64))
+        .mul(&ProofField::from_i64(Field::P as i64).inverse()?);
     // The residue of both, by the Chinese remainder theorem.
     let both = i128::from(x.value()) + i128::from(Field::P) * i128::from(more.value());
     let whole = i128::from(Field::P) * i128::from(ProofField::P);

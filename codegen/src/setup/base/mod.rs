@@ -65,8 +65,8 @@ impl Parameter {
     pub fn of_bodies(robot: &Robot) -> impl Iterator<Item = Parameter> {
         let base = robot.floating.iter().flat_map(|_| LinkParameter::ALL);
         let links = (0..robot.rows().len()).flat_map(|row| {
-            let all = LinkParameter::ALL.into_iter();
-            all.map(move |own| Parameter::Link(row, own))
+            let parameters = LinkParameter::ALL.into_iter();
+            parameters.map(move |parameter| Parameter::Link(row, parameter))
         });
         base.map(Parameter::Base).chain(links)
     }
@@ -170,17 +170,23 @@ impl BaseParameters {
             reduced(values(setup, quantity, &candidates).ok_or_else(unfit)?),
         )
         .ok_or_else(irrational)?;
-        let columns = reduced.pivots.iter().map(|&c| candidates[c].clone());
-        let columns: Vec<Column<Exact>> = columns.collect();
+        let columns: Vec<Column<Exact>> = reduced
+            .pivots
+            .iter()
+            .map(|&c| candidates[c].clone())
+            .collect();
         let mut combinations = vec![Vec::new(); columns.len()];
         let over = &reduced.coefficients;
         let of_bodies: Vec<Parameter> = Parameter::of_bodies(robot).collect();
         let on_base = chain.base_probes.iter().map(|probe| (None, probe));
-        let on_links = chain.links.iter().enumerate();
-        let on_links = on_links.flat_map(|(link, own)| {
-            let probes = own.probes.iter();
-            probes.map(move |probe| (Some(link), probe))
-        });
+        let on_links = chain
+            .links
+            .iter()
+            .enumerate()
+            .flat_map(|(link, chain_link)| {
+                let probes = chain_link.probes.iter();
+                probes.map(move |probe| (Some(link), probe))
+            });
         for (link, probe) in on_base.chain(on_links) {
             if let Probed::Body(body) = &probe.of {
                 let parameter = of_bodies[probe.column];
@@ -214,8 +220,10 @@ impl BaseParameters {
 
     /// Returns every base parameter as a combination of the links' and the drives', in words.
     pub fn names(&self) -> Vec<String> {
-        let all = self.combinations.iter();
-        all.map(|terms| names::combination(terms)).collect()
+        let combinations = self.combinations.iter();
+        combinations
+            .map(|terms| names::combination(terms))
+            .collect()
     }
 
     /// Returns every base parameter's value for a robot of exact numbers.
@@ -223,13 +231,17 @@ impl BaseParameters {
         let base = arm.base_joints();
         let value = |terms: &Vec<(Parameter, Exact)>| {
             let terms = terms.iter().map(|(parameter, factor)| {
-                let own = match *parameter {
-                    Parameter::Base(own) => own.of_body(&arm.body(arm.first_body())),
-                    Parameter::Link(row, own) => own.of_body(&arm.body(base + row)),
+                let amount = match *parameter {
+                    Parameter::Base(link_parameter) => {
+                        link_parameter.of_body(&arm.body(arm.first_body()))
+                    }
+                    Parameter::Link(row, link_parameter) => {
+                        link_parameter.of_body(&arm.body(base + row))
+                    }
                     Parameter::Armature(row) => arm.links[base + row].armature.clone(),
                     Parameter::Viscous(row) => arm.links[base + row].friction.viscous.clone(),
                 };
-                own.mul(factor)
+                amount.mul(factor)
             });
             terms.fold(Exact::zero(), |sum, term| sum.add(&term))
         };

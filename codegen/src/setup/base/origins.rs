@@ -44,18 +44,18 @@ pub(super) fn without_bodies(skeleton: &Skeleton<Exact>) -> Skeleton<Exact> {
 }
 
 fn candidates(skeleton: &Skeleton<Exact>, link: usize) -> Vec<Vector<Exact>> {
-    let own = &skeleton.links[link].link;
+    let chain_link = &skeleton.links[link].link;
     let links = skeleton.links.iter().map(|segment| &segment.link);
     let next = links.filter(|next| next.parent == Some(link));
     let next = next.map(|next| next.offset.clone());
     let mut candidates = vec![zero_vector()];
-    match own.kind {
+    match chain_link.kind {
         JointKind::Revolute => candidates.extend(next.map(|[_, _, z]| {
             let [x, y] = [Exact::zero(), Exact::zero()];
             [x, y, z]
         })),
         JointKind::Prismatic => {
-            candidates.push(opposite(&own.offset));
+            candidates.push(opposite(&chain_link.offset));
             candidates.extend(next);
         }
     }
@@ -78,14 +78,17 @@ fn cost(frames: &Skeleton<Exact>, regrouping: &Regrouping<Exact>) -> u64 {
     let counter = Counter::new();
     let chain = chain.map(Exact::counted);
     let value = || counter.value();
-    let position = chain.links.iter().map(|link| match link.kind {
-        JointKind::Revolute => JointPosition::Revolute(SinCosPair {
-            sin: value(),
-            cos: value(),
-        }),
-        JointKind::Prismatic => JointPosition::Prismatic(value()),
-    });
-    let position: Vec<JointPosition<Count<'_>>> = position.collect();
+    let position: Vec<JointPosition<Count<'_>>> = chain
+        .links
+        .iter()
+        .map(|link| match link.kind {
+            JointKind::Revolute => JointPosition::Revolute(SinCosPair {
+                sin: value(),
+                cos: value(),
+            }),
+            JointKind::Prismatic => JointPosition::Prismatic(value()),
+        })
+        .collect();
     let rates: Vec<Count<'_>> = (0..chain.coordinates()).map(|_| value()).collect();
     let (chain, at) = chain.posed(&position);
     chain.regressor(&at, &rates, &rates, CompositeOrder::Outward);

@@ -36,8 +36,8 @@ impl Builder<'_> {
         let tuned = tuned(&Problem::new(task, effort), &forms);
         let seeds = regrouped(task, &forms, &tuned);
         let graphs: Vec<Dag> = seeds.into_iter().map(|seed| seed.graph).collect();
-        let found = search(&graphs, &[], &|n| effort.limits(n), &|_| true, &|_, _| true)?;
-        let small = task.program(&found.graph);
+        let best = search(&graphs, &[], &|n| effort.limits(n), &|_| true, &|_, _| true)?;
+        let small = task.program(&best.graph);
         let mut builder = GraphBuilder::new(Folding::Semantic);
         let values = builder.results(&small.dag);
         let mut outputs = vec![builder.zero(); self.exact.dag.outputs.len()];
@@ -53,8 +53,12 @@ impl Builder<'_> {
             let term = &self.terms.all[term];
             add(&mut links[term.link], &term.unit, &short(factor));
         }
-        let rows = self.terms.outputs.iter();
-        let rows: Vec<usize> = rows.map(|&output| self.exact.rows[output]).collect();
+        let rows: Vec<usize> = self
+            .terms
+            .outputs
+            .iter()
+            .map(|&output| self.exact.rows[output])
+            .collect();
         self.setup.fitted(links, &rows)
     }
 }

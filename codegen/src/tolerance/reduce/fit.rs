@@ -84,8 +84,8 @@ impl<'t> Fit<'t> {
             if error <= enough || error == 0.0 {
                 break;
             }
-            for (weight, own) in weights.iter_mut().zip(&errors) {
-                *weight *= 0.02 + own / error;
+            for (weight, block_error) in weights.iter_mut().zip(&errors) {
+                *weight *= 0.02 + block_error / error;
             }
             let sum: f64 = weights.iter().sum();
             weights.iter_mut().for_each(|weight| *weight /= sum);
@@ -105,19 +105,20 @@ impl<'t> Fit<'t> {
             let residual = self.residual(of, &now);
             let errors = self.of_blocks(&residual);
             let error = largest(&errors).max(f64::MIN_POSITIVE);
-            for (weight, own) in weights.iter_mut().zip(&errors) {
-                *weight *= 0.02 + own / error;
+            for (weight, block_error) in weights.iter_mut().zip(&errors) {
+                *weight *= 0.02 + block_error / error;
             }
             let most = largest(&weights);
             weights.iter_mut().for_each(|weight| *weight /= most);
             let rows = residual.chunks_exact(self.block).zip(&weights).zip(&errors);
-            let rows = rows.flat_map(|((rows, weight), own)| {
-                let largest = rows.iter().fold(0.0, |m, x: &f64| x.abs().max(m));
-                let floor = (FLOOR * largest).max(1e-12);
-                rows.iter()
-                    .map(move |x| weight * own.max(1e-12) / x.abs().max(floor))
-            });
-            let rows: Vec<f64> = rows.collect();
+            let rows: Vec<f64> = rows
+                .flat_map(|((rows, weight), block_error)| {
+                    let largest = rows.iter().fold(0.0, |m, x: &f64| x.abs().max(m));
+                    let floor = (FLOOR * largest).max(1e-12);
+                    rows.iter()
+                        .map(move |x| weight * block_error.max(1e-12) / x.abs().max(floor))
+                })
+                .collect();
             now = self.least_squares(of, &rows);
             let error = largest(&self.errors(of, &now));
             if error < best.error {
@@ -161,7 +162,7 @@ impl<'t> Fit<'t> {
         let factor = Factor::new(of.len(), |a, b| {
             dot(&scaled[b], &self.terms.all[of[a]].column)
         });
-        let right = scaled.iter().map(|own| dot(own, &self.terms.whole));
+        let right = scaled.iter().map(|column| dot(column, &self.terms.whole));
         factor.solve(right.collect())
     }
 
@@ -183,8 +184,11 @@ impl<'t> Fit<'t> {
         let factor = Factor::new(n, |a, b| gram[at(a, b)]);
         let inverse = factor.inverse();
         let factors = factor.solve(right);
-        let saliency = factors.iter().enumerate();
-        let saliency = saliency.map(|(k, x)| x * x / inverse[k][k]).collect();
+        let saliency = factors
+            .iter()
+            .enumerate()
+            .map(|(k, x)| x * x / inverse[k][k])
+            .collect();
         Solution {
             terms: of.to_vec(),
             factors,

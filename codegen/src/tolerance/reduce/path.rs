@@ -19,8 +19,12 @@ pub(super) fn eliminate(
     fit: &Fit<'_>,
     is_over: &dyn Fn() -> bool,
 ) -> Vec<Solution> {
-    let singles = fit.terms.all.iter().enumerate();
-    let singles = singles.filter(|(_, term)| term.stands_for.is_none());
+    let singles = fit
+        .terms
+        .all
+        .iter()
+        .enumerate()
+        .filter(|(_, term)| term.stands_for.is_none());
     let mut now: Vec<usize> = singles.map(|(index, _)| index).collect();
     now.retain(|&term| fit.is_something(term));
     let mut solution = fit.solve(&now, ENOUGH);
@@ -38,12 +42,12 @@ pub(super) fn eliminate(
         candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
         candidates.truncate(TRIED);
         let next = candidates.into_iter().find_map(|(_, other)| {
-            let found = fit.solve(&other, ENOUGH);
-            let found = match found.error > MOST && found.error < NEARLY {
-                true => fit.refine(found, MOST),
-                false => found,
+            let trial = fit.solve(&other, ENOUGH);
+            let model = match trial.error > MOST && trial.error < NEARLY {
+                true => fit.refine(trial, MOST),
+                false => trial,
             };
-            (found.error <= MOST).then_some(found)
+            (model.error <= MOST).then_some(model)
         });
         let Some(next) = next else { break };
         models.push(next.clone());
@@ -54,11 +58,11 @@ pub(super) fn eliminate(
 
 fn candidates(fit: &Fit<'_>, solution: &Solution) -> Vec<(f64, Vec<usize>)> {
     let now = &solution.terms;
-    let mut all: Vec<(f64, Vec<usize>)> = Vec::new();
+    let mut candidates: Vec<(f64, Vec<usize>)> = Vec::new();
     for (place, &loss) in solution.saliency.iter().enumerate() {
         let mut other = now.to_vec();
         other.remove(place);
-        all.push((loss, other));
+        candidates.push((loss, other));
     }
     for (tied, term) in fit.terms.all.iter().enumerate() {
         let Some(of) = term.stands_for.filter(|_| fit.is_something(tied)) else {
@@ -75,7 +79,7 @@ fn candidates(fit: &Fit<'_>, solution: &Solution) -> Vec<(f64, Vec<usize>)> {
         let mut other: Vec<usize> = now.to_vec();
         other[a] = tied;
         other.remove(b);
-        all.push((gap * gap / stiff, other));
+        candidates.push((gap * gap / stiff, other));
     }
-    all
+    candidates
 }

@@ -79,11 +79,12 @@ impl Terms {
             let graph = traced(&fitted, function)?;
             let values = terms.values(&fitted.task(function).program(&graph));
             let outputs = terms.outputs.iter();
-            let column = outputs.flat_map(|&output| {
-                let values = values[output * m..][..m].iter();
-                values.map(move |x| x / allowances[output])
-            });
-            let column = column.collect();
+            let column = outputs
+                .flat_map(|&output| {
+                    let values = values[output * m..][..m].iter();
+                    values.map(move |x| x / allowances[output])
+                })
+                .collect();
             terms.all.push(Term {
                 link,
                 unit,
@@ -123,7 +124,7 @@ fn zero() -> FittedLink {
 /// Returns the terms of every link: about a point on its axis what cannot move to the link
 /// before, and ties of the two squares across the axis: a disc, and its opposite.
 fn units(skeleton: &Skeleton<Exact>) -> Vec<(usize, FittedLink, Option<[usize; 2]>)> {
-    let mut all: Vec<(usize, FittedLink, Option<[usize; 2]>)> = Vec::new();
+    let mut units: Vec<(usize, FittedLink, Option<[usize; 2]>)> = Vec::new();
     // By its entries xx, yy, zz, xy, yz and xz.
     let second = |entries: [i64; 6]| Body {
         second: Inertia::of(entries.map(|x| Exact::from(Rational::from_integer(x.into())))),
@@ -135,7 +136,7 @@ fn units(skeleton: &Skeleton<Exact>) -> Vec<(usize, FittedLink, Option<[usize; 2
         body
     };
     for (link, segment) in skeleton.links.iter().enumerate() {
-        let start = all.len();
+        let start = units.len();
         let bodies = match segment.link.kind {
             JointKind::Revolute => {
                 let about = [Exact::zero(), Exact::zero(), segment.d.clone()];
@@ -161,16 +162,16 @@ fn units(skeleton: &Skeleton<Exact>) -> Vec<(usize, FittedLink, Option<[usize; 2
         for (index, body) in bodies.into_iter().enumerate() {
             let is_tied = segment.link.kind == JointKind::Revolute && (2..4).contains(&index);
             let unit = FittedLink { body, ..zero() };
-            all.push((link, unit, is_tied.then_some([start, start + 1])));
+            units.push((link, unit, is_tied.then_some([start, start + 1])));
         }
         if !segment.link.armature.is_zero() {
             let armature = Exact::one();
-            all.push((link, FittedLink { armature, ..zero() }, None));
+            units.push((link, FittedLink { armature, ..zero() }, None));
         }
         if !segment.link.friction.viscous.is_zero() {
             let viscous = Exact::one();
-            all.push((link, FittedLink { viscous, ..zero() }, None));
+            units.push((link, FittedLink { viscous, ..zero() }, None));
         }
     }
-    all
+    units
 }

@@ -60,9 +60,10 @@ impl Reading for Digits {
 
     fn sines(&self, text: Option<&String>) -> Result<[FixedPoint; 2], String> {
         let text = text.map_or("0", String::as_str);
-        let pair = Angle::read(text).and_then(|angle| angle.rounded());
-        let pair = pair.ok_or_else(|| format!("`{text}` is not an angle up to 8 rad"))?;
-        Ok(pair.map(|own| FixedPoint(own >> (320 - BITS))))
+        let pair = Angle::read(text)
+            .and_then(|angle| angle.rounded())
+            .ok_or_else(|| format!("`{text}` is not an angle up to 8 rad"))?;
+        Ok(pair.map(|sine| FixedPoint(sine >> (320 - BITS))))
     }
 }
 
@@ -117,11 +118,15 @@ fn weighed(
 /// The frame of a payload is that of the file, unless it is in the last link's.
 fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Vec<Part>, String> {
     let gravity = Digits.list(entries(Some(&file.gravity)))?;
-    let mut all = vec![Part::new("gravity", gravity)];
+    let mut parts = vec![Part::new("gravity", gravity)];
     let base = Digits.placement(file.base.as_ref())?;
-    if let Some(own) = &file.floating {
-        let body = Digits.body(Some(&own.mass), own.com.as_ref(), own.inertia.as_ref())?;
-        all.extend(weighed("the base", body, &base));
+    if let Some(floating_base) = &file.floating {
+        let body = Digits.body(
+            Some(&floating_base.mass),
+            floating_base.com.as_ref(),
+            floating_base.inertia.as_ref(),
+        )?;
+        parts.extend(weighed("the base", body, &base));
     }
     let (mut frame, mut links) = (base.clone(), Vec::new());
     for (index, row) in file.joint.iter().enumerate() {
@@ -137,44 +142,54 @@ fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Vec<
             // Of a direction that agrees, the product with a point may differ by twice as much.
             let scale = largest(&at.origin) * 2;
             let place = Part::new(name("place"), cross(at.origin, along.clone()));
-            all.push(Part { scale, ..place });
+            parts.push(Part { scale, ..place });
         }
-        all.push(Part::new(name("axis"), along));
+        parts.push(Part::new(name("axis"), along));
         let drive = [
             &row.viscous,
             &row.coulomb,
             &row.coulomb_width,
             &row.armature,
         ];
-        for own in Digits.list(drive.map(Option::as_ref))? {
-            all.push(Part::new(name("drive"), [own]));
+        for coefficient in Digits.list(drive.map(Option::as_ref))? {
+            parts.push(Part::new(name("drive"), [coefficient]));
         }
         let body = Digits.body(Some(&row.mass), row.com.as_ref(), row.inertia.as_ref())?;
-        all.extend(weighed(&format!("joint {}", index + 1), body, &frame));
+        parts.extend(weighed(&format!("joint {}", index + 1), body, &frame));
         let shown = frame.then(&Digits.placement(row.frame.as_ref())?);
-        all.push(Part::new(name("frame"), shown.rows()));
+        parts.push(Part::new(name("frame"), shown.rows()));
         links.push(frame.clone());
     }
     let hand = frame.then(&Digits.placement(file.tool.as_ref())?);
-    all.push(Part::new("tool", hand.rows()));
+    parts.push(Part::new("tool", hand.rows()));
     let held = frame.then(&Digits.placement(file.payload_frame.as_ref())?);
-    all.push(Part::new("payload_frame", held.rows()));
-    if let Some(own) = payload {
-        let body = Digits.body(Some(&own.mass), Some(&own.com), own.inertia.as_ref())?;
-        let holder = file.holder(own.link.as_ref())?;
-        let holder = holder.map_or(&base, |row| &links[row]);
+    parts.push(Part::new("payload_frame", held.rows()));
+    if let Some(payload) = payload {
+        let body = Digits.body(
+            Some(&payload.mass),
+            Some(&payload.com),
+            payload.inertia.as_ref(),
+        )?;
+        let holder = file
+            .holder(payload.link.as_ref())?
+            .map_or(&base, |row| &links[row]);
         let frame = match has_frame {
             true => &holder.then(&Digits.placement(file.payload_frame.as_ref())?),
             false => holder,
         };
-        all.extend(weighed("the payload", body, frame));
+        parts.extend(weighed("the payload", body, frame));
     }
-    for own in &file.frame {
-        let link = file.frame_row(own)?.map_or(&base, |row| &links[row]);
-        let at = link.then(&Digits.placement(Some(&own.placement()))?);
-        all.push(Part::new(format!("frame `{}`", own.name), at.rows()));
+    for named_frame in &file.frame {
+        let link = file
+            .frame_row(named_frame)?
+            .map_or(&base, |row| &links[row]);
+        let at = link.then(&Digits.placement(Some(&named_frame.placement()))?);
+        parts.push(Part::new(
+            format!("frame `{}`", named_frame.name),
+            at.rows(),
+        ));
     }
-    Ok(all)
+    Ok(parts)
 }
 
 fn payload<'f>(file: &'f File, scene: Option<&str>) -> Option<&'f Payload> {
@@ -193,10 +208,10 @@ pub fn check(file: &File, aligned: &File, scene: Option<&str>) -> Result<(), Str
     };
     let follows = |file: &File| {
         let rows = 0..file.joint.len();
-        let own = rows.map(|row| {
-            let own = file.follows(row)?;
+        let followers = rows.map(|row| {
+            let follower = file.follows(row)?;
             let mut sum = FixedPoint::from(0);
-            for (factor, text) in &own.offsets {
+            for (factor, text) in &follower.offsets {
                 let angle = file.joint[row].turns().then(|| Angle::read(text)).flatten();
                 let offset = match angle {
                     Some(angle) => FixedPoint(angle.scaled(BITS)),
@@ -204,11 +219,11 @@ pub fn check(file: &File, aligned: &File, scene: Option<&str>) -> Result<(), Str
                 };
                 sum = sum + FixedPoint(fixed(factor, BITS)) * offset;
             }
-            Ok((own.row, own.times, sum))
+            Ok((follower.row, follower.times, sum))
         });
-        own.collect::<Result<Vec<_>, String>>()
+        followers.collect::<Result<Vec<_>, String>>()
     };
-    let name = |file: &File| (file.floating.as_ref()).map(|own| own.name.clone());
+    let name = |file: &File| (file.floating.as_ref()).map(|base| base.name.clone());
     if name(file) != name(aligned) {
         return Err("the rows have another base than the robot file".into());
     }
@@ -224,36 +239,44 @@ pub fn check(file: &File, aligned: &File, scene: Option<&str>) -> Result<(), Str
     }
     let links = |file: &File| -> Result<Vec<Option<usize>>, String> {
         let frames = file.frame.iter();
-        frames.map(|own| file.frame_row(own)).collect()
+        frames.map(|frame| file.frame_row(frame)).collect()
     };
     if links(file)? != links(aligned)? {
         return Err("the rows have frames on other links than the robot file".into());
     }
     let moved = payload(aligned, scene);
-    let given = payload(file, scene).filter(|_| moved.is_some());
-    if moved.is_some() != given.is_some() {
+    let scene_payload = payload(file, scene).filter(|_| moved.is_some());
+    if moved.is_some() != scene_payload.is_some() {
         return Err("the rows have a payload, and the scene has none".into());
     }
-    let holder = |file: &File, own: Option<&Payload>| {
-        own.map(|own| file.holder(own.link.as_ref())).transpose()
+    let holder = |file: &File, payload: Option<&Payload>| {
+        payload
+            .map(|payload| file.holder(payload.link.as_ref()))
+            .transpose()
     };
-    if holder(file, given)? != holder(aligned, moved)? {
+    if holder(file, scene_payload)? != holder(aligned, moved)? {
         return Err("the rows have the payload on another link than the scene".into());
     }
-    let (own, other) = (parts(file, given, true)?, parts(aligned, moved, false)?);
-    let double = |own: &FixedPoint| (&own.0 >> (BITS - 64)).to_f64().unwrap_or(0.0) / 2f64.powi(64);
-    for (own, other) in own.iter().zip(&other) {
+    let (file_parts, other) = (
+        parts(file, scene_payload, true)?,
+        parts(aligned, moved, false)?,
+    );
+    let double =
+        |number: &FixedPoint| (&number.0 >> (BITS - 64)).to_f64().unwrap_or(0.0) / 2f64.powi(64);
+    for (file_part, other) in file_parts.iter().zip(&other) {
         // Not of the claim, whose origins may stand anywhere along the axes.
-        let slack: BigInt = &own.scale / BigInt::from(10).pow(DIGITS) + 1;
-        let mut pairs = own.values.iter().zip(&other.values);
-        let is_near = pairs.all(|(own, other)| (&own.0 - &other.0).abs() <= slack);
-        if own.name != other.name || !is_near {
-            let name = &own.name;
-            let [own, other] = [own, other].map(|part| {
+        let slack: BigInt = &file_part.scale / BigInt::from(10).pow(DIGITS) + 1;
+        let mut pairs = file_part.values.iter().zip(&other.values);
+        let is_near = pairs.all(|(number, other)| (&number.0 - &other.0).abs() <= slack);
+        if file_part.name != other.name || !is_near {
+            let name = &file_part.name;
+            let [numbers, other] = [file_part, other].map(|part| {
                 let values = part.values.iter().map(double);
                 values.collect::<Vec<_>>()
             });
-            return Err(format!("{name}: {own:?} in the file, {other:?} claimed"));
+            return Err(format!(
+                "{name}: {numbers:?} in the file, {other:?} claimed"
+            ));
         }
     }
     Ok(())

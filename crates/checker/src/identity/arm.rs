@@ -87,7 +87,7 @@ fn turned([sin, cos]: [Number; 2], [other, by]: [Number; 2]) -> [Number; 2] {
 
 fn times([sin, cos]: [Number; 2], count: i64) -> [Number; 2] {
     let one = [if count < 0 { -sin } else { sin }, cos];
-    (0..count.abs()).fold([0.into(), 1.into()], |all, _| turned(all, one))
+    (0..count.abs()).fold([0.into(), 1.into()], |pair, _| turned(pair, one))
 }
 
 /// A body about its centre of mass, and where that is.
@@ -105,20 +105,20 @@ pub(super) trait Reading {
         &self,
         list: [Option<&String>; K],
     ) -> Result<[Self::Number; K], String> {
-        let mut all: [Self::Number; K] = from_fn(|_| 0i64.into());
-        for (one, text) in all.iter_mut().zip(list) {
+        let mut numbers: [Self::Number; K] = from_fn(|_| 0i64.into());
+        for (one, text) in numbers.iter_mut().zip(list) {
             *one = self.entry(text)?;
         }
-        Ok(all)
+        Ok(numbers)
     }
 
     fn turn(&self, axis: usize, text: Option<&String>) -> Result<Pose<Self::Number>, String> {
         Ok(Pose::turn(axis, self.sines(text)?))
     }
 
-    fn placement(&self, own: Option<&Placement>) -> Result<Pose<Self::Number>, String> {
-        let own = own.cloned().unwrap_or_default();
-        let [xyz, rpy] = [&own.xyz, &own.rpy].map(|list| entries(list.as_ref()));
+    fn placement(&self, placement: Option<&Placement>) -> Result<Pose<Self::Number>, String> {
+        let place = placement.cloned().unwrap_or_default();
+        let [xyz, rpy] = [&place.xyz, &place.rpy].map(|list| entries(list.as_ref()));
         let mut pose = Pose::shift(self.list(xyz)?);
         for axis in [2, 1, 0] {
             pose = pose.then(&self.turn(axis, rpy[axis])?);
@@ -146,8 +146,8 @@ pub(super) trait Reading {
         };
         let along = Pose::shift(self.list([None, None, d.as_ref()])?);
         let along = self.turn(2, theta.as_ref())?.then(&along);
-        let across = Pose::shift(self.list([row.a.as_ref(), None, None])?);
-        let across = across.then(&self.turn(0, row.alpha.as_ref())?);
+        let across = Pose::shift(self.list([row.a.as_ref(), None, None])?)
+            .then(&self.turn(0, row.alpha.as_ref())?);
         let none = Pose::shift([0i64; 3].map(Self::Number::from));
         match (convention, &row.placement) {
             (_, Some(placement)) => Ok([self.placement(Some(placement))?, none]),
@@ -181,25 +181,26 @@ impl Reading for Point {
 
 impl Point {
     /// A base that floats stays where it is: in its axes nothing but gravity depends on that.
-    fn floating(&self, file: &File, own: &FloatingBase) -> Result<Body, String> {
+    fn floating(&self, file: &File, base: &FloatingBase) -> Result<Body, String> {
         let places = [&file.base, &file.tool, &file.payload_frame];
-        let is_bare = own.com.is_none() || own.inertia.is_none();
-        let has_mass = !number_of(Some(&own.mass))?.is_zero();
+        let is_bare = base.com.is_none() || base.inertia.is_none();
+        let has_mass = !number_of(Some(&base.mass))?.is_zero();
         if places.into_iter().any(Option::is_some) || file.convention.is_some() {
             return Err("a base that floats, beside a place of it or rows".into());
         }
         if is_bare && has_mass {
             return Err("the base: expected `com` and `inertia` beside a mass".into());
         }
-        let (body, centre) = self.body(Some(&own.mass), own.com.as_ref(), own.inertia.as_ref())?;
+        let (body, centre) =
+            self.body(Some(&base.mass), base.com.as_ref(), base.inertia.as_ref())?;
         Ok(body.moved(&centre))
     }
 
     fn line(&self, setting: &Setting, row: usize) -> Result<Line, String> {
-        let own = &setting.follows[row];
+        let follower = &setting.follows[row];
         let whole = |times: &Rational| times.to_i64().unwrap_or_default();
         let (mut pair, mut length) = ([0.into(), 1.into()], Number::from(0));
-        for (factor, text) in &own.offsets {
+        for (factor, text) in &follower.offsets {
             if setting.file.joint[row].turns() {
                 let angle = self.angle(&angle_of(Some(*text))?);
                 pair = turned(pair, times(angle, whole(factor)));
@@ -207,10 +208,13 @@ impl Point {
                 length = length + self.number(&(number_of(Some(*text))? * factor));
             }
         }
-        let leader = setting.movers.iter().position(|row| *row == own.row);
-        let leader = leader.ok_or("a joint follows one that does not move")?;
-        let line = (whole(&own.times), pair, length);
-        Ok(((leader, self.number(&own.times)), line))
+        let leader = setting
+            .movers
+            .iter()
+            .position(|row| *row == follower.row)
+            .ok_or("a joint follows one that does not move")?;
+        let line = (whole(&follower.times), pair, length);
+        Ok(((leader, self.number(&follower.times)), line))
     }
 }
 
@@ -272,7 +276,7 @@ impl Arm {
             }
             let [before, behind] = point.ways(row, convention)?;
             let parent = file.carrier(index)?;
-            let carrier = parent.map_or(base, |own| joints[own].link);
+            let carrier = parent.map_or(base, |joint| joints[joint].link);
             let at = carrier.then(&before);
             frame = at.then(&behind);
             let along = point.axis(row)?;
@@ -282,7 +286,7 @@ impl Arm {
             let turns = row.turns();
             let (body, centre) =
                 point.body(Some(&row.mass), row.com.as_ref(), row.inertia.as_ref())?;
-            let given = (body, frame.then(&centre));
+            let centred_body = (body, frame.then(&centre));
             let drive = [&row.viscous, &row.coulomb, &row.armature];
             let [viscous, coulomb, armature] = point.list(drive.map(Option::as_ref))?;
             let (leader, line) = point.line(setting, index)?;
@@ -302,8 +306,8 @@ impl Arm {
                 },
                 link: frame,
                 shown,
-                body: body.moved(&given.1),
-                given,
+                body: body.moved(&centred_body.1),
+                given: centred_body,
                 viscous,
                 coulomb,
                 armature,
@@ -316,17 +320,21 @@ impl Arm {
             let pose = frame.then(&point.placement(file.tool.as_ref())?);
             frames.push(Frame { name, row, pose });
         }
-        for own in &file.frame {
-            let (name, row) = (own.name.clone(), file.frame_row(own)?);
-            let placed = point.placement(Some(&own.placement()))?;
+        for named_frame in &file.frame {
+            let (name, row) = (named_frame.name.clone(), file.frame_row(named_frame)?);
+            let placed = point.placement(Some(&named_frame.placement()))?;
             let link = row.map_or(base, |row| joints[row].link);
             let pose = link.then(&placed);
             frames.push(Frame { name, row, pose });
         }
-        let locked = (0..setting.joints()).filter(|&own| setting.is_locked(own));
-        let locked = locked.map(|joint| setting.base() + joint);
-        let body = file.floating.as_ref().filter(|_| setting.floats);
-        let body = body.map(|base| point.floating(file, base));
+        let locked = (0..setting.joints())
+            .filter(|&joint| setting.is_locked(joint))
+            .map(|joint| setting.base() + joint);
+        let body = file
+            .floating
+            .as_ref()
+            .filter(|_| setting.floats)
+            .map(|base| point.floating(file, base));
         let mut arm = Arm {
             base: body.transpose()?,
             movers: setting.movers.clone(),
@@ -337,12 +345,16 @@ impl Arm {
             half: point.half(),
         };
         let carried = match &file.moved {
-            Some(own) => Some((own, None)),
-            None => (scene.payload.as_ref()).map(|own| (own, file.payload_frame.as_ref())),
+            Some(payload) => Some((payload, None)),
+            None => (scene.payload.as_ref()).map(|payload| (payload, file.payload_frame.as_ref())),
         };
-        if let Some((own, frame)) = carried {
-            let carried = point.body(Some(&own.mass), Some(&own.com), own.inertia.as_ref())?;
-            match file.holder(own.link.as_ref())? {
+        if let Some((payload, frame)) = carried {
+            let carried = point.body(
+                Some(&payload.mass),
+                Some(&payload.com),
+                payload.inertia.as_ref(),
+            )?;
+            match file.holder(payload.link.as_ref())? {
                 Some(row) => arm.carry(row, carried, &point.placement(frame)?),
                 None => arm.carry_on_base(carried)?,
             }
@@ -398,29 +410,28 @@ impl Arm {
         let links = self
             .joints
             .iter()
-            .map(|own| own.body.moved(&own.shown.inverse()));
-        let bodies = self.base.iter().copied().chain(links);
-        let bodies = bodies.flat_map(|body| {
+            .map(|joint| joint.body.moved(&joint.shown.inverse()));
+        let bodies = self.base.iter().copied().chain(links).flat_map(|body| {
             let [x, y, z] = body.first;
             let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = body.tensor;
             [body.mass, x, y, z, xx, yy, zz, xy, yz, xz]
         });
-        let armatures = self.joints.iter().map(|own| own.armature);
-        let viscous = self.joints.iter().map(|own| own.viscous);
+        let armatures = self.joints.iter().map(|joint| joint.armature);
+        let viscous = self.joints.iter().map(|joint| joint.viscous);
         bodies.chain(armatures).chain(viscous).collect()
     }
 
     /// 1 where the axes of two joints that turn are parallel at q = 0, −1 where they are opposite.
     pub(crate) fn parallel(&self, joints: [usize; 2]) -> Option<f64> {
-        let [a, b] = joints.map(|own| self.joints[self.movers[own]].axis.0);
-        let is_zero = |own: Number| !own.is_nonzero();
+        let [a, b] = joints.map(|joint| self.joints[self.movers[joint]].axis.0);
+        let is_zero = |number: Number| !number.is_nonzero();
         cross(a, b).into_iter().all(is_zero).then_some(())?;
         let is_same = is_zero(dot(a, b) - Number::from(1));
         Some(if is_same { 1.0 } else { -1.0 })
     }
 
     pub(super) fn spread(&self, rates: &[Number]) -> Vec<Number> {
-        let leaders = self.joints.iter().map(|own| own.leader);
+        let leaders = self.joints.iter().map(|joint| joint.leader);
         let base = self.base_coordinates();
         let spread = leaders.map(|(leader, factor)| rates[base + leader] * factor);
         spread.collect()
@@ -428,11 +439,11 @@ impl Arm {
 
     pub(super) fn gathered(&self, loads: impl IntoIterator<Item = Number>) -> Vec<Number> {
         let base = self.base_coordinates();
-        let mut all = vec![Number::default(); base + self.movers.len()];
+        let mut sums = vec![Number::default(); base + self.movers.len()];
         for (joint, load) in self.joints.iter().zip(loads) {
             let (leader, factor) = joint.leader;
-            all[base + leader] = all[base + leader] + load * factor;
+            sums[base + leader] = sums[base + leader] + load * factor;
         }
-        all
+        sums
     }
 }

@@ -49,7 +49,7 @@ pub struct Statement<'s> {
 pub struct Points<'s> {
     setting: &'s Setting<'s>,
     draws: Draws,
-    all: Vec<Point>,
+    points: Vec<Point>,
     arms: Vec<Arm>,
 }
 
@@ -59,7 +59,7 @@ impl<'s> Points<'s> {
         Points {
             setting,
             draws: Draws::new(texts),
-            all: Vec::new(),
+            points: Vec::new(),
             arms: Vec::new(),
         }
     }
@@ -69,18 +69,18 @@ impl<'s> Points<'s> {
     }
 
     fn first(&mut self, count: usize) -> &[Point] {
-        while self.all.len() < count {
-            self.all.push(Point::draw(&mut self.draws));
+        while self.points.len() < count {
+            self.points.push(Point::draw(&mut self.draws));
         }
-        &self.all[..count]
+        &self.points[..count]
     }
 
     fn with_arms(&mut self, count: usize) -> Result<impl Iterator<Item = (&Point, &Arm)>, String> {
         self.first(count);
-        for point in self.all[..count].iter().skip(self.arms.len()) {
+        for point in self.points[..count].iter().skip(self.arms.len()) {
             self.arms.push(Arm::read(self.setting, point)?);
         }
-        Ok(self.all.iter().zip(&self.arms).take(count))
+        Ok(self.points.iter().zip(&self.arms).take(count))
     }
 }
 
@@ -88,29 +88,34 @@ impl<'s> Points<'s> {
 ///
 /// # Errors
 /// The first result that differs, by its number.
-pub fn check(own: Statement, points: &mut Points) -> Result<(), String> {
+pub fn check(statement: Statement, points: &mut Points) -> Result<(), String> {
     // Own formulas are quotients of polynomials of a degree below 200 n²: D's entries are of 4 n,
     // its determinant of 4 n², and what is derived twice or inverted twice of a small multiple of
     // that. Points in contact make it three rows and columns larger. Joints that follow others
     // several times as far are of as many times their degree.
     let setting = points.setting;
     let n = (setting.links() + setting.base()) as f64;
-    let held = own.function.fields.iter().map(Field::points).max();
+    let held = statement.function.fields.iter().map(Field::points).max();
     let rows = n + 3.0 * held.unwrap_or_default() as f64;
     let own_degree = 200.0 * n * rows * setting.turns();
-    let load_degree = own.load.map_or(1.0, |load| load.degree().max(1.0));
-    let degree = (own.program.degree() * load_degree + own_degree) * (2.0 * n + 1.0);
+    let load_degree = statement.load.map_or(1.0, |load| load.degree().max(1.0));
+    let degree = (statement.program.degree() * load_degree + own_degree) * (2.0 * n + 1.0);
     // No number counts as too large.
     if !(degree <= MOST_DEGREE) {
         return Err("the degree is too large for a few points to decide".into());
     }
     let bits = (degree.ceil() as u128).next_power_of_two().trailing_zeros();
     let mut points = points.with_arms(CERTAINTY.div_ceil(POINT - bits) as usize)?;
-    points.try_for_each(|(point, arm)| at_point(own, setting, point, arm.clone()))
+    points.try_for_each(|(point, arm)| at_point(statement, setting, point, arm.clone()))
 }
 
-fn at_point(own: Statement, setting: &Setting, point: &Point, mut arm: Arm) -> Result<(), String> {
-    let (function, base) = (own.function, own.base);
+fn at_point(
+    statement: Statement,
+    setting: &Setting,
+    point: &Point,
+    mut arm: Arm,
+) -> Result<(), String> {
+    let (function, base) = (statement.function, statement.base);
     let mut state = State::draw(point, setting)?;
     let place = |name: &str| argument(name).unwrap_or_default();
     let takes = |name: &str| function.arguments.contains(&place(name));
@@ -118,12 +123,14 @@ fn at_point(own: Statement, setting: &Setting, point: &Point, mut arm: Arm) -> R
         arm.gravity.copy_from_slice(&state.given[place("g")]);
     }
     if takes("load") {
-        let computed = own.load.and_then(|load| load.residues(point, &state));
+        let computed = statement.load.and_then(|load| load.residues(point, &state));
         state.given[place("load")] = computed.ok_or("nothing computes its `load`")?;
         arm = arm.given(setting, point, &state)?;
     }
-    let found = own.program.residues(point, &state);
-    let mut found = found.ok_or("the program reads what is not there")?;
+    let mut found = statement
+        .program
+        .residues(point, &state)
+        .ok_or("the program reads what is not there")?;
     let mut expected = Vec::new();
     for field in &function.fields {
         let values = result(&arm, &state, field).ok_or("no such result")?;
@@ -134,37 +141,41 @@ fn at_point(own: Statement, setting: &Setting, point: &Point, mut arm: Arm) -> R
                 return Err("Coulomb friction is no column of a regressor".into());
             }
             let rows = setting.rows.len().max(1);
-            let own = expected.len()..expected.len() + rows * base.combinations.len();
+            let range = expected.len()..expected.len() + rows * base.combinations.len();
             let sizes = [rows, values.len() / rows];
-            let columns = found.get(own.clone());
-            let spread = columns.and_then(|own| spread(own, &base.combinations, point, sizes));
-            let spread = spread.ok_or("the base parameters do not fit the results")?;
+            let columns = found.get(range.clone());
+            let spread = columns
+                .and_then(|numbers| spread(numbers, &base.combinations, point, sizes))
+                .ok_or("the base parameters do not fit the results")?;
             if !are_independent(&base.combinations, point) {
                 return Err("the base parameters do not stand for themselves".into());
             }
-            found.splice(own, spread);
+            found.splice(range, spread);
         }
         expected.extend(values);
     }
     if !base.values.is_empty() {
         let parameters = arm.parameters();
-        let sums = base.combinations.iter().map(|combination| {
-            let mut sum = Number::new(0, point.prime);
-            for (column, factor) in combination {
-                sum = sum + *parameters.get(*column)? * point.constant(factor);
-            }
-            Some(sum)
-        });
-        let sums = sums.collect::<Option<Vec<Number>>>();
+        let sums = base
+            .combinations
+            .iter()
+            .map(|combination| {
+                let mut sum = Number::new(0, point.prime);
+                for (column, factor) in combination {
+                    sum = sum + *parameters.get(*column)? * point.constant(factor);
+                }
+                Some(sum)
+            })
+            .collect::<Option<Vec<Number>>>();
         expected.extend(sums.ok_or("the base parameters do not fit the robot")?);
-        found.extend(base.values.iter().map(|own| point.constant(own)));
+        found.extend(base.values.iter().map(|exact| point.constant(exact)));
     }
     if found.len() != expected.len() {
         return Err(format!("{} results, not {}", found.len(), expected.len()));
     }
-    let is_other = |(own, other): (&Number, &Number)| {
-        let own = own.value(point.prime);
-        own.is_none() || own != other.value(point.prime)
+    let is_other = |(number, other): (&Number, &Number)| {
+        let residue = number.value(point.prime);
+        residue.is_none() || residue != other.value(point.prime)
     };
     match found.iter().zip(&expected).position(is_other) {
         Some(place) => Err(format!("result {} is not that of the robot", place + 1)),
@@ -175,48 +186,48 @@ fn at_point(own: Statement, setting: &Setting, point: &Point, mut arm: Arm) -> R
 fn are_independent(base: &[Combination], point: &Point) -> bool {
     let mut known: Vec<BTreeMap<usize, Number>> = Vec::new();
     base.iter().all(|combination| {
-        let mut own = BTreeMap::new();
-        let add = |column: usize, value: Number, own: &mut BTreeMap<usize, Number>| {
-            let sum = own.entry(column).or_insert_with(|| 0.into());
+        let mut row = BTreeMap::new();
+        let add = |column: usize, value: Number, terms: &mut BTreeMap<usize, Number>| {
+            let sum = terms.entry(column).or_insert_with(|| 0.into());
             *sum = *sum + value;
-            own.retain(|_, value| value.value(point.prime) != Some(0));
+            terms.retain(|_, value| value.value(point.prime) != Some(0));
         };
         for (column, factor) in combination {
-            add(*column, point.constant(factor), &mut own);
+            add(*column, point.constant(factor), &mut row);
         }
         for other in &known {
             let Some((pivot, by)) = other.first_key_value() else {
                 continue;
             };
-            if let Some(value) = own.get(pivot) {
+            if let Some(value) = row.get(pivot) {
                 let factor = -(*value / *by);
                 for (column, value) in other {
-                    add(*column, *value * factor, &mut own);
+                    add(*column, *value * factor, &mut row);
                 }
             }
         }
-        known.push(own.clone());
-        !own.is_empty()
+        known.push(row.clone());
+        !row.is_empty()
     })
 }
 
 fn spread(
-    found: &[Number],
+    numbers: &[Number],
     base: &[Combination],
     point: &Point,
     [n, length]: [usize; 2],
 ) -> Option<Vec<Number>> {
-    let mut all = vec![Number::new(0, point.prime); n * length];
+    let mut entries = vec![Number::new(0, point.prime); n * length];
     for (k, combination) in base.iter().enumerate() {
         for (column, factor) in combination {
             let factor = point.constant(factor);
-            for (i, row) in all.chunks_mut(length.max(1)).enumerate() {
+            for (i, row) in entries.chunks_mut(length.max(1)).enumerate() {
                 let place = row.get_mut(*column)?;
-                *place = *place + *found.get(i * base.len() + k)? * factor;
+                *place = *place + *numbers.get(i * base.len() + k)? * factor;
             }
         }
     }
-    (found.len() == n * base.len()).then_some(all)
+    (numbers.len() == n * base.len()).then_some(entries)
 }
 
 /// Returns those entries of a result that are over the joints that a scene asks for.
@@ -230,12 +241,12 @@ fn selected(field: &Field, setting: &Setting, values: Vec<Number>) -> Vec<Number
         if ['l', 'b'].contains(&axis) {
             break;
         }
-        let all: Vec<usize> = (0..length).collect();
+        let indices: Vec<usize> = (0..length).collect();
         let (count, rows) = match axis {
             'n' => (coordinates, &setting.rows),
             'k' => (coordinates * coordinates, &blocks),
             'j' => (setting.joints(), &joint_rows),
-            _ => (length, &all),
+            _ => (length, &indices),
         };
         let split = parts.iter().flat_map(|part| {
             let length = part.len() / count.max(1);

@@ -10,7 +10,10 @@ use super::table::View;
 impl At<'_> {
     pub(super) fn centre(&self) -> Vector {
         let base = self.base.unwrap_or_default();
-        let whole = self.bodies.iter().fold(base, |all, own| all.plus(own));
+        let whole = self
+            .bodies
+            .iter()
+            .fold(base, |total, body| total.plus(body));
         whole.first.map(|moment| moment / whole.mass)
     }
 
@@ -27,35 +30,38 @@ impl At<'_> {
         qdd[..first].fill(0.into());
         let taken = self.torques(&qdd)[..first].to_vec();
         let rows = self.inertia().into_iter().take(first);
-        let own = rows.map(|row| row[..first].to_vec()).collect();
-        let base = solve(own, vec![taken]).concat();
-        let base: Vec<Number> = base.into_iter().map(|own| -own).collect();
+        let block = rows.map(|row| row[..first].to_vec()).collect();
+        let base: Vec<Number> = solve(block, vec![taken])
+            .concat()
+            .into_iter()
+            .map(|acceleration| -acceleration)
+            .collect();
         qdd[..first].copy_from_slice(&base);
         qdd
     }
 
     /// Returns the rows that are asked of each point in contact; none without one.
     pub(super) fn of_points(&self, of: impl Fn(&At) -> Matrix) -> Option<Matrix> {
-        let mut all = Vec::new();
+        let mut rows = Vec::new();
         for frame in self.view.frame.split(',') {
             let view = View {
                 frame: frame.to_owned(),
                 axes: String::new(),
                 rows: vec![0, 1, 2],
             };
-            let own = self.seen_as(&view);
-            own.hand()?;
-            all.extend(of(&own));
+            let at = self.seen_as(&view);
+            at.hand()?;
+            rows.extend(of(&at));
         }
-        Some(all)
+        Some(rows)
     }
 
     pub(super) fn contact_jacobians(&self) -> Matrix {
-        self.of_points(|own| own.jacobian()).unwrap_or_default()
+        self.of_points(|at| at.jacobian()).unwrap_or_default()
     }
 
     pub(super) fn contact_bias(&self) -> Vec<Number> {
-        let rates = self.of_points(|own| vec![own.rate()]);
+        let rates = self.of_points(|at| vec![at.rate()]);
         rates.unwrap_or_default().concat()
     }
 
@@ -65,8 +71,11 @@ impl At<'_> {
         let [driven, mobility] = self.mobility_of(&j);
         let free = self.accelerations(self.given("tau"));
         let escape = plus(&times(&j, &free), &self.contact_bias());
-        let forces = solve(self.damped(mobility), vec![escape]).concat();
-        let forces: Vec<Number> = forces.into_iter().map(|own| -own).collect();
+        let forces: Vec<Number> = solve(self.damped(mobility), vec![escape])
+            .concat()
+            .into_iter()
+            .map(|force| -force)
+            .collect();
         [plus(&free, &times(&transposed(&driven), &forces)), forces]
     }
 

@@ -218,8 +218,8 @@ impl Enclosure {
         let [(a, i), (b, k)] = [a, b].map(parts);
         let least = i.min(k).min(0);
         let sum = (a << (i - least)) + (b << (k - least));
-        let own: BigInt = ((&self.over + &self.slack * sign) * 2) << -least;
-        own.cmp(&(sum * &self.under))
+        let numerator: BigInt = ((&self.over + &self.slack * sign) * 2) << -least;
+        numerator.cmp(&(sum * &self.under))
     }
 }
 
@@ -261,8 +261,10 @@ impl Exact {
                     None => 1u32,
                 };
                 total += power;
-                let both = [("sin", [power, 0]), ("cos", [0, power])];
-                let both = both.into_iter().find(|(own, _)| *own == name)?.1;
+                let both = [("sin", [power, 0]), ("cos", [0, power])]
+                    .into_iter()
+                    .find(|(function, _)| *function == name)?
+                    .1;
                 powers.push((Angle::read(angle)?, both));
                 rest = &behind[end..];
             }
@@ -275,8 +277,9 @@ impl Exact {
 
     pub(crate) fn factors(&self) -> usize {
         let terms = self.0.terms.iter();
-        let factors =
-            |(_, own): &Term| -> u32 { own.iter().map(|(_, powers)| powers[0] + powers[1]).sum() };
+        let factors = |(_, angles): &Term| -> u32 {
+            angles.iter().map(|(_, powers)| powers[0] + powers[1]).sum()
+        };
         terms.map(|term| 1 + factors(term) as usize).sum()
     }
 
@@ -300,7 +303,7 @@ impl Exact {
         *self.0.double.get_or_init(|| {
             let Enclosure { over, slack, under } = self.settle(&mut Sines::new())?;
             let near = |over: BigInt, under: BigInt| Rational::new_raw(over, under).to_f64();
-            let value = near(over.clone(), under.clone()).filter(|own| own.is_finite())?;
+            let value = near(over.clone(), under.clone()).filter(|double| double.is_finite())?;
             let (m, e) = parts(value);
             let (up, down) = (e.max(0), (-e).max(0));
             let off = ((over << down) - ((m * under) << up)).abs() + (slack << down);
@@ -323,8 +326,8 @@ impl Exact {
     }
 
     fn rounded(&self, known: &mut Sines) -> Option<Enclosure> {
-        if let Some(own) = self.fraction() {
-            let (over, under) = (own.numer().clone(), own.denom().clone());
+        if let Some(fraction) = self.fraction() {
+            let (over, under) = (fraction.numer().clone(), fraction.denom().clone());
             let slack = BigInt::zero();
             return Some(Enclosure { over, slack, under });
         }
@@ -333,9 +336,10 @@ impl Exact {
             let factor = fixed(factor, PLACES);
             let mut product = factor.clone();
             for (angle, powers) in powers {
-                let own = known.entry(angle.clone());
-                let own = own.or_insert_with(|| angle.rounded());
-                for (value, power) in own.as_ref()?.iter().zip(powers) {
+                let pair = known
+                    .entry(angle.clone())
+                    .or_insert_with(|| angle.rounded());
+                for (value, power) in pair.as_ref()?.iter().zip(powers) {
                     (0..*power).for_each(|_| product = (&product * value) >> BITS);
                 }
             }
@@ -360,19 +364,22 @@ impl Exact {
             let point = || Point::new(&[&format!("{:?}", self.0.terms)]);
             return is_zero && (is_exact || !point().constant(self).is_nonzero());
         }
-        let own = literal as f32;
-        if is_single && f64::from(own) != literal {
+        let single = literal as f32;
+        if is_single && f64::from(single) != literal {
             return false;
         }
         let (below, above, bits): (f64, f64, u64) = match is_single {
             true => (
-                own.next_down().into(),
-                own.next_up().into(),
-                own.to_bits().into(),
+                single.next_down().into(),
+                single.next_up().into(),
+                single.to_bits().into(),
             ),
             false => (literal.next_down(), literal.next_up(), literal.to_bits()),
         };
-        if ![literal, below, above].iter().all(|own| own.is_finite()) {
+        if ![literal, below, above]
+            .iter()
+            .all(|double| double.is_finite())
+        {
             return false;
         }
         let is_tie = bits.is_multiple_of(2) && is_exact;
@@ -456,8 +463,12 @@ impl Point {
     /// twenty-fourth of a turn have all their relations, other angles are drawn.
     pub fn angle(&self, angle: &Angle) -> [Number; 2] {
         let drawn = |angle: Angle| {
-            let known = self.angles.borrow().get(&angle).copied();
-            let known = known.or_else(|| self.part_of_turn(&angle));
+            let known = self
+                .angles
+                .borrow()
+                .get(&angle)
+                .copied()
+                .or_else(|| self.part_of_turn(&angle));
             let pair = known.unwrap_or_else(|| self.pair());
             self.angles.borrow_mut().insert(angle, pair);
             pair
@@ -496,18 +507,18 @@ impl Point {
         let term = |(factor, powers): &Term| {
             let mut product = self.number(factor);
             for (angle, powers) in powers {
-                for (own, power) in self.angle(angle).into_iter().zip(powers) {
-                    product = (0..*power).fold(product, |all, _| all * own);
+                for (residue, power) in self.angle(angle).into_iter().zip(powers) {
+                    product = (0..*power).fold(product, |product, _| product * residue);
                 }
             }
             product
         };
         let mut known = self.constants.borrow_mut();
-        let (_, own) = known.entry(Arc::as_ptr(&constant.0)).or_insert_with(|| {
+        let (_, residue) = known.entry(Arc::as_ptr(&constant.0)).or_insert_with(|| {
             let terms = constant.0.terms.iter().map(term);
             // Kept with the constant, whose place is no other's as long as it is there.
             (constant.clone(), terms.fold(0.into(), |a, b| a + b))
         });
-        *own
+        *residue
     }
 }

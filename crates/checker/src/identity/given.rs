@@ -67,15 +67,15 @@ impl Setting<'_> {
     /// # Errors
     /// A range that is empty, a number that is not one.
     pub fn bodies_given(&self) -> Result<Vec<(usize, Vec<payload::Body>)>, String> {
-        let mut all = Vec::new();
+        let mut arguments = Vec::new();
         for &place in &self.loading {
             match ARGUMENTS[place].0 {
-                "payload" => all.push((place, vec![self.body()?.unwrap_or_default()])),
-                "bodies" => all.push((place, self.body_ranges()?)),
+                "payload" => arguments.push((place, vec![self.body()?.unwrap_or_default()])),
+                "bodies" => arguments.push((place, self.body_ranges()?)),
                 _ => {}
             }
         }
-        Ok(all)
+        Ok(arguments)
     }
 
     /// Returns the bodies that each link's may be: those of its limits, or half to twice the mass, twice
@@ -87,8 +87,8 @@ impl Setting<'_> {
         let of = |(link, numbers): (&usize, &[f64; 10])| {
             let joint = |row: usize| self.file.joint.get(row)?.limits.body.as_ref();
             let base = || self.file.floating.as_ref()?.limits.body.as_ref();
-            let given = link.checked_sub(1).map_or_else(base, joint);
-            given.map_or_else(|| Ok(around(*numbers)), |own| own.read("body"))
+            let range = link.checked_sub(1).map_or_else(base, joint);
+            range.map_or_else(|| Ok(around(*numbers)), |range| range.read("body"))
         };
         self.bodies.iter().zip(&self.numbers).map(of).collect()
     }
@@ -132,16 +132,21 @@ impl File {
     /// # Errors
     /// One that is not a number.
     pub fn body_of(&self, link: usize) -> Result<Vec<Exact>, String> {
-        let all = match link.checked_sub(1) {
-            Some(row) => (self.joint.get(row)).map(|own| (&own.mass, &own.com, &own.inertia)),
-            None => (self.floating.as_ref()).map(|own| (&own.mass, &own.com, &own.inertia)),
+        let body = match link.checked_sub(1) {
+            Some(row) => {
+                (self.joint.get(row)).map(|joint| (&joint.mass, &joint.com, &joint.inertia))
+            }
+            None => (self.floating.as_ref()).map(|base| (&base.mass, &base.com, &base.inertia)),
         };
-        let (mass, com, inertia) = all.ok_or("the body of a link that is not there")?;
+        let (mass, com, inertia) = body.ok_or("the body of a link that is not there")?;
         let com = com.iter().flatten();
         let inertia = inertia.iter().flatten();
         let mut numbers = vec![Exact::from(Rational::zero()); 10];
-        let texts = [(0, mass)].into_iter().filter(|(_, text)| !text.is_empty());
-        let texts = texts.chain((1..).zip(com)).chain((4..).zip(inertia));
+        let texts = [(0, mass)]
+            .into_iter()
+            .filter(|(_, text)| !text.is_empty())
+            .chain((1..).zip(com))
+            .chain((4..).zip(inertia));
         for (place, text) in texts {
             let number = number_of(Some(text)).map_err(|why| format!("link {link}: {why}"))?;
             let is_nothing = number.to_f64().is_some_and(|x| x.abs() < NOTHING);
@@ -159,8 +164,8 @@ impl File {
         match name {
             "bodies" if links.len() > self.joint.len() + 1 => Err("more bodies than links".into()),
             "bodies" => {
-                let all = links.iter().map(|link| self.body_of(*link));
-                Ok(all.collect::<Result<Vec<_>, String>>()?.concat())
+                let bodies = links.iter().map(|link| self.body_of(*link));
+                Ok(bodies.collect::<Result<Vec<_>, String>>()?.concat())
             }
             "armature" => self.joint.iter().map(|row| read(&row.armature)).collect(),
             _ => self.joint.iter().map(|row| read(&row.viscous)).collect(),
@@ -188,29 +193,31 @@ impl Arm {
         let mut places = setting.loading.clone();
         places.sort_by_key(|place| ARGUMENTS[*place].0 == "payload");
         for place in places {
-            let own = &state.given[place];
+            let entries = &state.given[place];
             match ARGUMENTS[place].0 {
                 "bodies" => {
                     let stays = |place| setting.zeros.get(place) == Some(&true);
-                    let numbers = own.iter().enumerate();
-                    let numbers = numbers.map(|(k, x)| if stays(k) { 0.into() } else { *x });
-                    let numbers: Vec<Number> = numbers.collect();
+                    let numbers: Vec<Number> = entries
+                        .iter()
+                        .enumerate()
+                        .map(|(k, x)| if stays(k) { 0.into() } else { *x })
+                        .collect();
                     for (link, numbers) in setting.bodies.iter().zip(numbers.chunks(10)) {
                         self.take_body(*link, body(numbers)?)?;
                     }
                 }
                 "armature" => {
-                    let rows = self.joints.iter_mut().zip(own);
+                    let rows = self.joints.iter_mut().zip(entries);
                     rows.for_each(|(row, x)| row.armature = *x);
                 }
                 "viscous" => {
-                    let rows = self.joints.iter_mut().zip(own);
+                    let rows = self.joints.iter_mut().zip(entries);
                     rows.for_each(|(row, x)| row.viscous = *x);
                 }
                 _ => {
                     let frame = point.placement(setting.file.payload_frame.as_ref())?;
                     let row = setting.file.holder(None)?.unwrap_or_default();
-                    self.carry(row, body(own)?, &frame);
+                    self.carry(row, body(entries)?, &frame);
                 }
             }
         }

@@ -41,7 +41,7 @@ pub(super) fn solve(mut m: Matrix, mut right: Matrix) -> Matrix {
             let factor = m[i][k] / m[k][k];
             let pivot = m[k].clone();
             let both = m[i].iter_mut().zip(&pivot).skip(k);
-            both.for_each(|(own, above)| *own = *own - factor * *above);
+            both.for_each(|(entry, above)| *entry = *entry - factor * *above);
             right.iter_mut().for_each(|x| x[i] = x[i] - factor * x[k]);
         }
     }

@@ -26,19 +26,22 @@ pub(super) struct At<'a> {
 impl<'a> At<'a> {
     fn new(arm: &'a Arm, state: &'a State, view: &'a View) -> At<'a> {
         let mut poses = vec![Pose::shift(Vector::default())];
-        let carrier = |joint: &Joint| joint.parent.map_or(0, |own| own + 1);
+        let carrier = |joint: &Joint| joint.parent.map_or(0, |parent| parent + 1);
         for joint in &arm.joints {
             poses.push(poses[carrier(joint)].then(&joint.motion(state)));
         }
-        let axes = arm.joints.iter().map(|own| (own, &poses[carrier(own)]));
+        let axes = arm
+            .joints
+            .iter()
+            .map(|joint| (joint, &poses[carrier(joint)]));
         let bodies = arm.joints.iter().zip(&poses[1..]);
         At {
             arm,
             state,
             view,
-            axes: axes.map(|(own, pose)| pose.screw(own.axis)).collect(),
+            axes: axes.map(|(joint, pose)| pose.screw(joint.axis)).collect(),
             base: arm.base,
-            bodies: bodies.map(|(own, pose)| own.body.moved(pose)).collect(),
+            bodies: bodies.map(|(joint, pose)| joint.body.moved(pose)).collect(),
             poses,
         }
     }
@@ -112,17 +115,17 @@ impl<'a> At<'a> {
         for (k, joint) in self.arm.joints.iter().enumerate() {
             let (v, a) = joint.parent.map_or(base, |carrier| motions[carrier]);
             let (axis, body) = (self.axes[k], &self.bodies[k]);
-            let own = axis.times(qd[k]);
-            let a = a.plus(axis.times(qdd[k])).plus(v.across(own));
-            let v = v.plus(own);
+            let motion = axis.times(qd[k]);
+            let a = a.plus(axis.times(qdd[k])).plus(v.across(motion));
+            let v = v.plus(motion);
             motions.push((v, a));
             wrenches.push(exerted(body, (v, a)));
         }
         for k in (0..wrenches.len()).rev() {
-            let own = wrenches[k];
+            let wrench = wrenches[k];
             let carrier = self.arm.joints[k].parent;
             let carrier = carrier.map_or(&mut on_base, |carrier| &mut wrenches[carrier]);
-            *carrier = carrier.plus(own);
+            *carrier = carrier.plus(wrench);
         }
         (on_base, wrenches)
     }
@@ -130,27 +133,30 @@ impl<'a> At<'a> {
     /// Returns D q̈ + h, and c if there is gravity, without friction.
     fn loads(&self, qd: &[Number], qdd: &[Number], gravity: Vector) -> Vec<Number> {
         let (on_base, wrenches) = self.wrenches(qd, qdd, gravity);
-        let torques = self.axes.iter().zip(wrenches);
-        let torques = torques.map(|(axis, wrench)| axis.power(wrench));
+        let torques = self
+            .axes
+            .iter()
+            .zip(wrenches)
+            .map(|(axis, wrench)| axis.power(wrench));
         let mut loads = self.arm.gathered(torques);
         let units = base_units().into_iter().take(self.first());
         for (load, unit) in loads.iter_mut().zip(units) {
             *load = unit.power(on_base);
         }
-        let drives = self.drives(|own| own.armature, qdd);
+        let drives = self.drives(|joint| joint.armature, qdd);
         plus(&loads, &drives)
     }
 
     fn with_friction(&self, loads: &[Number], rates: &[Number]) -> Vec<Number> {
         // What follows another joint has no Coulomb friction.
-        let speed = |own: &Joint| self.state.speeds[self.first() + own.leader.0];
-        let drag = self.drives(|own| own.viscous + own.coulomb * speed(own), rates);
+        let speed = |joint: &Joint| self.state.speeds[self.first() + joint.leader.0];
+        let drag = self.drives(|joint| joint.viscous + joint.coulomb * speed(joint), rates);
         plus(loads, &drag)
     }
 
     fn drives(&self, number: impl Fn(&Joint) -> Number, rates: &[Number]) -> Vec<Number> {
         let rows = self.arm.joints.iter().zip(self.arm.spread(rates));
-        let drives = rows.map(|(own, rate)| number(own) * rate);
+        let drives = rows.map(|(joint, rate)| number(joint) * rate);
         self.arm.gathered(drives)
     }
 
@@ -170,12 +176,12 @@ impl<'a> At<'a> {
         let mut whole = self.base.unwrap_or_default();
         let units = || base_units().into_iter().take(first).enumerate();
         for (k, joint) in self.arm.joints.iter().enumerate().rev() {
-            let own = behind[k];
+            let body = behind[k];
             let carrier = joint
                 .parent
                 .map_or(&mut whole, |carrier| &mut behind[carrier]);
-            *carrier = carrier.plus(&own);
-            let momentum = own.momentum(self.axes[k]);
+            *carrier = carrier.plus(&body);
+            let momentum = body.momentum(self.axes[k]);
             let (leader, factor) = joint.leader;
             let row = first + leader;
             d[row][row] = d[row][row] + joint.armature * factor * factor;
@@ -242,7 +248,10 @@ impl<'a> At<'a> {
                 &self.loads(&self.zeros(), &bracket, Vector::default()),
             );
         }
-        twice.into_iter().map(|own| own * self.arm.half).collect()
+        twice
+            .into_iter()
+            .map(|entry| entry * self.arm.half)
+            .collect()
     }
 
     fn columns_of_coriolis(&self) -> Matrix {
@@ -265,9 +274,9 @@ impl<'a> At<'a> {
             "" => HAND,
             name => name,
         };
-        let own = self.arm.frames.iter().find(|own| own.name == name)?;
-        let pose = self.poses.get(own.row.map_or(0, |row| row + 1))?;
-        Some((own.row, pose.then(&own.pose)))
+        let frame = self.arm.frames.iter().find(|frame| frame.name == name)?;
+        let pose = self.poses.get(frame.row.map_or(0, |row| row + 1))?;
+        Some((frame.row, pose.then(&frame.pose)))
     }
 
     /// Linear components stand over angular ones.
@@ -275,7 +284,7 @@ impl<'a> At<'a> {
         let linear = sum(motion.1, cross(motion.0, hand.origin));
         let six = match self.view.axes.as_str() {
             "world" => [motion.1, motion.0],
-            "local" => [linear, motion.0].map(|own| hand.back(own)),
+            "local" => [linear, motion.0].map(|vector| hand.back(vector)),
             _ => [linear, motion.0],
         };
         let six = six.concat();
@@ -293,10 +302,10 @@ impl<'a> At<'a> {
             .into_iter()
             .flat_map(|last| self.arm.way(last))
             .collect();
-        let column = |(row, own): (usize, &Screw)| {
+        let column = |(row, axis): (usize, &Screw)| {
             let is_on_way = way.contains(&row);
-            let own = if is_on_way { *own } else { Screw::default() };
-            self.seen(own, &hand)
+            let motion = if is_on_way { *axis } else { Screw::default() };
+            self.seen(motion, &hand)
         };
         let columns = self.axes.iter().enumerate().map(column).collect();
         let base = base_units().map(|unit| self.seen(unit, &hand));
@@ -305,8 +314,8 @@ impl<'a> At<'a> {
             .into_iter()
             .map(|row| self.arm.gathered(row));
         let with_base = |(k, mut row): (usize, Vec<Number>)| {
-            if let Some(own) = base.get(k) {
-                row[..own.len()].copy_from_slice(own);
+            if let Some(entries) = base.get(k) {
+                row[..entries.len()].copy_from_slice(entries);
             }
             row
         };
@@ -320,7 +329,7 @@ impl<'a> At<'a> {
                 0 => coordinate.checked_sub(self.first()),
                 _ => Some(coordinate),
             };
-            let own = match index {
+            let numbers = match index {
                 Some(index) => {
                     let moved = self.state.moving(by, index, 1);
                     of(&self.moved(&moved, &[by]))
@@ -333,7 +342,7 @@ impl<'a> At<'a> {
                     })
                 }
             };
-            parts(own, 1)
+            parts(numbers, 1)
         };
         transposed(&(0..self.count()).map(column).collect())
     }
@@ -341,7 +350,7 @@ impl<'a> At<'a> {
     /// Returns J̇q̇: the slope of J q̇ along q̇, in axes that do not turn.
     pub(super) fn rate(&self) -> Vec<Number> {
         let qd = self.given("qd");
-        let rate = times(&self.slopes(0, |own| times(&own.jacobian(), qd)), qd);
+        let rate = times(&self.slopes(0, |at| times(&at.jacobian(), qd)), qd);
         let (Some(_), Some((last, hand))) = (self.base, self.hand()) else {
             return rate;
         };
@@ -349,7 +358,7 @@ impl<'a> At<'a> {
         let base = screw(qd);
         let links = last.into_iter().flat_map(|last| self.arm.way(last));
         let rates = self.arm.spread(qd);
-        let motion = links.fold(base, |all, k| all.plus(self.axes[k].times(rates[k])));
+        let motion = links.fold(base, |motion, k| motion.plus(self.axes[k].times(rates[k])));
         let turned = match self.view.axes.as_str() {
             "local" => return rate,
             "world" => base.across(motion),
@@ -378,7 +387,7 @@ impl<'a> At<'a> {
                         let body = body.moved(&self.arm.joints[link].shown);
                         at.bodies[link] = at.bodies[link].plus(&body.moved(&self.poses[link + 1]));
                     }
-                    (None, Some(own)) => *own = own.plus(&body),
+                    (None, Some(base)) => *base = base.plus(&body),
                     (None, None) => {}
                 }
                 return parts(torques(&at), 1);
@@ -406,14 +415,14 @@ impl<'a> At<'a> {
 
     fn with_tensors_or_masses(&self, has_tensors: bool) -> Arm {
         let mut arm = self.arm.clone();
-        for own in &mut arm.joints {
-            let (mut body, centre) = own.given;
+        for joint in &mut arm.joints {
+            let (mut body, centre) = joint.given;
             match has_tensors {
                 true => body.mass = 0.into(),
                 false => body.tensor = Default::default(),
             }
-            own.body = body.moved(&centre);
-            own.armature = 0.into();
+            joint.body = body.moved(&centre);
+            joint.armature = 0.into();
         }
         arm
     }
@@ -427,10 +436,10 @@ impl<'a> At<'a> {
             "h" => self.coriolis(qd),
             "d_rot" | "d_tran" | "h_rot" | "h_tran" => {
                 let arm = self.with_tensors_or_masses(is.ends_with("rot"));
-                let own = At::new(&arm, self.state, self.view);
+                let at = At::new(&arm, self.state, self.view);
                 match is.starts_with('d') {
-                    true => own.inertia().concat(),
-                    false => own.coriolis(qd),
+                    true => at.inertia().concat(),
+                    false => at.coriolis(qd),
                 }
             }
             "symbols" => {
@@ -441,7 +450,7 @@ impl<'a> At<'a> {
             "kinetic" => vec![product(qd, &self.momentum()) * self.arm.half],
             "potential" => {
                 let bodies = self.base.iter().chain(&self.bodies);
-                let first = bodies.map(|own| own.first);
+                let first = bodies.map(|body| body.first);
                 vec![-dot(self.arm.gravity, first.fold(Vector::default(), sum))]
             }
             "p" => self.momentum(),
@@ -451,17 +460,17 @@ impl<'a> At<'a> {
             "pose" => self.hand().map_or_else(Vec::new, |(_, hand)| hand.rows()),
             "poses" => {
                 let links = self.poses[1..].iter().zip(&self.arm.joints);
-                let rows = links.flat_map(|(pose, own)| pose.then(&own.shown).rows());
+                let rows = links.flat_map(|(pose, joint)| pose.then(&joint.shown).rows());
                 rows.collect()
             }
             "jacobian" => self.jacobian().concat(),
             "jacobian_rate" => self.rate(),
             "wrenches" => {
                 let (_, wrenches) = self.wrenches(qd, self.given("qdd"), self.arm.gravity);
-                let about = |(k, own): (usize, Screw)| {
+                let about = |(k, wrench): (usize, Screw)| {
                     let (origin, is_moved) = self.arm.joints[k].origin;
                     let origin = self.poses[k + usize::from(is_moved)].apply(origin);
-                    [own.1, sum(own.0, cross(own.1, origin))].concat()
+                    [wrench.1, sum(wrench.0, cross(wrench.1, origin))].concat()
                 };
                 wrenches.into_iter().enumerate().flat_map(about).collect()
             }
@@ -527,18 +536,20 @@ impl<'a> At<'a> {
                 // What is locked is in no space.
                 let units = self.moving(units(n)).into_iter();
                 let both = units.zip(self.consistent());
-                let row = |(unit, own): (Vec<Number>, Vec<Number>)| minus(&unit, &times(&j, &own));
+                let row = |(unit, inverse): (Vec<Number>, Vec<Number>)| {
+                    minus(&unit, &times(&j, &inverse))
+                };
                 both.flat_map(row).collect()
             }
             "y" | "y_base" => {
-                let mut columns = self.columns(|own| own.torques(own.given("qdd")));
+                let mut columns = self.columns(|at| at.torques(at.given("qdd")));
                 if is == "y" {
                     let drives = 2 * self.arm.joints.len();
                     columns.truncate(columns.len() - drives);
                 }
                 transposed(&columns).concat()
             }
-            "y_passivity" => transposed(&self.columns(|own| own.passivity())).concat(),
+            "y_passivity" => transposed(&self.columns(|at| at.passivity())).concat(),
             _ => Vec::new(),
         }
     }
@@ -566,22 +577,24 @@ fn parts(values: Vec<Number>, part: usize) -> Vec<Number> {
 /// Returns a result of an arm at a state, flat by rows: `dtau_dq` is the slopes of `tau` by q, and
 /// `d2tau_dq_dqd` those of λᵀτ by q and q̇. None of a field that has no formula.
 pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
-    let own = At::new(arm, state, &field.view);
+    let arm_at_state = At::new(arm, state, &field.view);
     if field.is_of_base(arm.base.is_none()) {
         return None;
     }
     // A frame that is not there has no results, of which others would be short.
     if field.is_of_frame() {
-        own.of_points(|_| Matrix::new())?;
+        arm_at_state.of_points(|_| Matrix::new())?;
     }
     let n = arm.movers.len();
     let mut words = field.is.split('_');
     let first = words.next()?;
     let of = first.trim_start_matches('d').trim_start_matches('2');
-    let by = words.map(|word| argument(word.strip_prefix('d')?));
-    let by = by.collect::<Option<Vec<usize>>>().unwrap_or_default();
+    let by = words
+        .map(|word| argument(word.strip_prefix('d')?))
+        .collect::<Option<Vec<usize>>>()
+        .unwrap_or_default();
     Some(match *by.as_slice() {
-        [by] => own.slopes(by, |own| own.value(of)).concat(),
+        [by] => arm_at_state.slopes(by, |at| at.value(of)).concat(),
         [one, other] => {
             let bend = |at: usize, known: &[Number]| {
                 if one == other && at % n < at / n {
@@ -593,14 +606,14 @@ pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
                     return 0.into();
                 }
                 let moved = state.moving(one, at / n, 1).moving(other, at % n, 2);
-                let bends = parts(own.moved(&moved, &[one, other]).value(of), 3);
-                product(&bends, own.given("multiplier"))
+                let bends = parts(arm_at_state.moved(&moved, &[one, other]).value(of), 3);
+                product(&bends, arm_at_state.given("multiplier"))
             };
-            (0..n * n).fold(Vec::new(), |mut all, at| {
-                all.push(bend(at, &all));
-                all
+            (0..n * n).fold(Vec::new(), |mut entries, at| {
+                entries.push(bend(at, &entries));
+                entries
             })
         }
-        _ => own.value(field.is),
+        _ => arm_at_state.value(field.is),
     })
 }

@@ -6,8 +6,8 @@ use super::state::State;
 use crate::program::{Operand, Program};
 
 /// Returns the residue of an operand that is not a step.
-pub(crate) fn leaf(own: &Operand<Exact>, point: &Point, state: &State) -> Option<Number> {
-    match own {
+pub(crate) fn leaf(operand: &Operand<Exact>, point: &Point, state: &State) -> Option<Number> {
+    match operand {
         Operand::Constant(constant) => Some(point.constant(constant)),
         Operand::Entry(argument, index) => state.given.get(*argument)?.get(*index).copied(),
         Operand::Sine(joint, is_sine) => Some(state.pairs.get(*joint)?[usize::from(!is_sine)]),
@@ -28,7 +28,11 @@ fn apply(operation: char, a: Number, b: Number) -> Number {
 impl Program<Exact> {
     /// Returns its results at a point.
     pub fn residues(&self, point: &Point, state: &State) -> Option<Vec<Number>> {
-        self.run(|own| leaf(own, point, state), apply, |own: Number| -own)
+        self.run(
+            |operand| leaf(operand, point, state),
+            apply,
+            |number: Number| -number,
+        )
     }
 
     /// Returns its results at a point with another value in the place of a step's.
@@ -47,11 +51,15 @@ impl Program<Exact> {
                 false => apply(operation, a, b),
             }
         };
-        self.run(|own| leaf(own, point, state), apply, |own: Number| -own)
+        self.run(
+            |operand| leaf(operand, point, state),
+            apply,
+            |number: Number| -number,
+        )
     }
 
     pub(crate) fn step_residues(&self, point: &Point, state: &State) -> Option<Vec<Number>> {
-        self.values(|own| leaf(own, point, state), apply)
+        self.values(|operand| leaf(operand, point, state), apply)
     }
 
     /// Returns at least the degrees of numerator and denominator of its results, in inputs, sines
@@ -66,8 +74,8 @@ impl Program<Exact> {
                 '+' | '-' => a.max(b),
                 _ => a + b,
             };
-            let all = self.run(|_| Some(1.0), apply, |own| own);
-            return all.unwrap_or_default().into_iter().fold(0.0, f64::max);
+            let degrees = self.run(|_| Some(1.0), apply, |degree| degree);
+            return degrees.unwrap_or_default().into_iter().fold(0.0, f64::max);
         }
         let mut divisors = Vec::<Vec<f64>>::new();
         let zip = |a: Vec<f64>, b: Vec<f64>, pick: fn(f64, f64) -> f64| {
@@ -86,21 +94,21 @@ impl Program<Exact> {
                 zip(a, inverse, |a, b| a + b)
             }
         };
-        let all = self.run(leaf, apply, |own| own).unwrap_or_default();
-        let largest = |mut own: Vec<f64>| {
+        let results = self.run(leaf, apply, |degrees| degrees).unwrap_or_default();
+        let largest = |mut degrees: Vec<f64>| {
             let mut under = 0.0;
             for (index, divisor) in divisors.iter().enumerate().rev() {
-                let times = own.get(index + 1).copied().unwrap_or(0.0);
+                let times = degrees.get(index + 1).copied().unwrap_or(0.0);
                 // Beyond a double's range nothing times infinity is nothing, too.
                 let product = |x: &f64| match *x == 0.0 || times == 0.0 {
                     true => 0.0,
                     false => x * times,
                 };
                 under += product(&divisor[0]);
-                own = zip(own, divisor.iter().map(product).collect(), |a, b| a + b);
+                degrees = zip(degrees, divisor.iter().map(product).collect(), |a, b| a + b);
             }
-            own[0].max(under)
+            degrees[0].max(under)
         };
-        all.into_iter().map(largest).fold(0.0, f64::max)
+        results.into_iter().map(largest).fold(0.0, f64::max)
     }
 }

@@ -208,10 +208,10 @@ impl File {
     /// # Errors
     /// A parent that does not come before, or of a joint that is not placed.
     pub(super) fn carrier(&self, row: usize) -> Result<Option<usize>, String> {
-        let own = &self.joint[row];
-        let why = match own.parent.as_deref() {
+        let joint = &self.joint[row];
+        let why = match joint.parent.as_deref() {
             None => return Ok(row.checked_sub(1)),
-            Some(_) if own.placement.is_none() => "has a `parent` and no placement",
+            Some(_) if joint.placement.is_none() => "has a `parent` and no placement",
             Some(word) if self.is_base(word) => return Ok(None),
             Some(word) => match self.row(word)? {
                 carrier if carrier < row => return Ok(Some(carrier)),
@@ -223,15 +223,15 @@ impl File {
 
     /// Returns true for the name of the base.
     pub(super) fn is_base(&self, word: &str) -> bool {
-        let own = self.floating.as_ref().and_then(|own| own.name.as_deref());
-        word == "base" || own == Some(word)
+        let name = self.floating.as_ref().and_then(|base| base.name.as_deref());
+        word == "base" || name == Some(word)
     }
 
     /// Returns the row whose link a frame is fixed to; none for a base that floats.
-    pub(super) fn frame_row(&self, own: &NamedFrame) -> Result<Option<usize>, String> {
-        match self.floating.is_some() && self.is_base(&own.link) {
+    pub(super) fn frame_row(&self, frame: &NamedFrame) -> Result<Option<usize>, String> {
+        match self.floating.is_some() && self.is_base(&frame.link) {
             true => Ok(None),
-            false => self.row(&own.link).map(Some),
+            false => self.row(&frame.link).map(Some),
         }
     }
 
@@ -279,11 +279,11 @@ impl File {
         self.moved = scene.and_then(|name| self.scene.remove(name)?.payload);
         self.scene = other.scene;
         self.limits = other.limits;
-        if let (Some(own), Some(other)) = (&mut self.floating, other.floating) {
-            own.limits = other.limits;
+        if let (Some(base), Some(other)) = (&mut self.floating, other.floating) {
+            base.limits = other.limits;
         }
-        for (own, other) in self.joint.iter_mut().zip(other.joint) {
-            own.limits = other.limits;
+        for (row, other) in self.joint.iter_mut().zip(other.joint) {
+            row.limits = other.limits;
         }
         self
     }
@@ -301,7 +301,7 @@ pub fn read(source: &str) -> Result<File, String> {
     let mut value = plain(&DeValue::Table(table.into_inner()))?;
     let wrong = |error: serde_json::Error| format!("robot file: {error}");
     let joints = value.get_mut("joint").and_then(Value::as_array_mut);
-    let floats = |own: &&mut Vec<Value>| own.first().is_some_and(|own| own["kind"] == "floating");
+    let floats = |rows: &&mut Vec<Value>| rows.first().is_some_and(|row| row["kind"] == "floating");
     let floating = joints.filter(floats).map(|joints| joints.remove(0));
     let mut file: File = serde_json::from_value(value).map_err(wrong)?;
     file.floating = floating

@@ -126,9 +126,12 @@ impl Pose {
         self.axes.map(|axis| dot(axis, v))
     }
 
-    pub(super) fn screw(&self, own: Screw) -> Screw {
-        let turned = self.rotate(own.0);
-        Screw(turned, sum(self.rotate(own.1), cross(self.origin, turned)))
+    pub(super) fn screw(&self, screw: Screw) -> Screw {
+        let turned = self.rotate(screw.0);
+        Screw(
+            turned,
+            sum(self.rotate(screw.1), cross(self.origin, turned)),
+        )
     }
 
     pub(super) fn moved(axis: Screw, turns: bool, [sin, cos]: [Number; 2], slide: Number) -> Pose {
@@ -180,8 +183,12 @@ impl<S: Scalar> Body<S> {
             let column = [0, 1, 2].map(|j: usize| half[j][k].clone());
             let row = [0, 1, 2].map(|j: usize| pose.axes[j][i].clone());
             let across = product(&p, i, &turned, k) + product(&turned, i, &p, k);
-            let own = dot(row, column) + -(across + product(&heavy, i, &p, k));
-            if i == k { own + twice.clone() } else { own }
+            let inertia = dot(row, column) + -(across + product(&heavy, i, &p, k));
+            if i == k {
+                inertia + twice.clone()
+            } else {
+                inertia
+            }
         };
         Body {
             mass: self.mass.clone(),

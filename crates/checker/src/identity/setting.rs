@@ -67,10 +67,12 @@ impl File {
             Some(name) => self.scene.get(name).ok_or_else(|| missing(name))?,
             None => &self.bare,
         };
-        let follows = (0..count).map(|row| self.follows(row));
-        let follows = follows.collect::<Result<Vec<_>, String>>()?;
-        let movers = (0..count).filter(|&row| self.joint[row].mimic.is_none());
-        let movers: Vec<usize> = movers.collect();
+        let follows = (0..count)
+            .map(|row| self.follows(row))
+            .collect::<Result<Vec<_>, String>>()?;
+        let movers: Vec<usize> = (0..count)
+            .filter(|&row| self.joint[row].mimic.is_none())
+            .collect();
         let joint = |word: &str| find(word, movers.iter().map(|row| &self.joint[*row]));
         let mut locks = vec![None; movers.len()];
         let mut floats = self.floating.is_some();
@@ -81,7 +83,7 @@ impl File {
                 false => locks[joint(word)?] = Some(position),
             }
         }
-        let free = (0..movers.len()).filter(|&own| locks[own].is_none());
+        let free = (0..movers.len()).filter(|&joint| locks[joint].is_none());
         let joints: Vec<usize> = match &scene.joints {
             Some(list) => list
                 .iter()
@@ -93,7 +95,7 @@ impl File {
         for list in [&scene.r#box.velocity, &scene.r#box.acceleration] {
             if list
                 .as_ref()
-                .is_some_and(|own| own.len() != base + movers.len())
+                .is_some_and(|rates| rates.len() != base + movers.len())
             {
                 return Err("a range of rates in the box of the scene has another length".into());
             }
@@ -150,11 +152,11 @@ impl File {
 }
 
 fn find<'r>(word: &str, mut rows: impl ExactSizeIterator<Item = &'r Row>) -> Result<usize, String> {
-    let found = match word.parse::<usize>() {
-        Ok(number) => number.checked_sub(1).filter(|&own| own < rows.len()),
+    let row = match word.parse::<usize>() {
+        Ok(number) => number.checked_sub(1).filter(|&row| row < rows.len()),
         Err(_) => rows.position(|row| row.name.as_deref() == Some(word)),
     };
-    found.ok_or_else(|| format!("there is no joint `{word}`"))
+    row.ok_or_else(|| format!("there is no joint `{word}`"))
 }
 
 impl Row {
@@ -179,11 +181,11 @@ impl Setting<'_> {
 
     /// Returns the names of joints' places in generated code, if the robot is a tree.
     pub(crate) fn places(&self) -> Option<Places> {
-        let names = self
+        let names: Vec<Option<&str>> = self
             .movers
             .iter()
-            .map(|&row| self.file.joint[row].name.as_deref());
-        let names: Vec<Option<&str>> = names.collect();
+            .map(|&row| self.file.joint[row].name.as_deref())
+            .collect();
         let starts = || self.limbs().iter().map(|limb| limb[0]).collect();
         let limbs = self.floats.then(starts);
         self.file.is_tree().then(|| Places::new(&names, limbs))
@@ -207,7 +209,7 @@ impl Setting<'_> {
 
     /// Returns how many entries an argument of the state has: a joint each, or a coordinate each.
     pub fn entries(&self, place: usize) -> usize {
-        let axis = ARGUMENTS.get(place).map_or('0', |own| own.1);
+        let axis = ARGUMENTS.get(place).map_or('0', |argument| argument.1);
         length(axis, self.sizes())
     }
 
@@ -225,8 +227,11 @@ impl Setting<'_> {
     fn limbs(&self) -> Vec<Vec<usize>> {
         let mut spans: Vec<(usize, [usize; 2])> = Vec::new();
         for (row, follows) in self.follows.iter().enumerate() {
-            let joint = self.movers.iter().position(|mover| *mover == follows.row);
-            let joint = joint.unwrap_or_default();
+            let joint = self
+                .movers
+                .iter()
+                .position(|mover| *mover == follows.row)
+                .unwrap_or_default();
             let carrier = self.file.carrier(row).ok().flatten();
             let root = carrier.map_or(row, |carrier| spans[carrier].0);
             spans.push((root, [joint; 2]));
@@ -275,8 +280,9 @@ impl Setting<'_> {
     pub(super) fn turns(&self) -> f64 {
         let rows = self.file.joint.iter().zip(&self.follows);
         let followers = rows.filter(|(row, _)| row.mimic.is_some());
-        let turns = followers.map(|(_, own)| own.times.abs().to_f64().unwrap_or(f64::INFINITY));
-        turns.fold(1.0, |all, own| all + own)
+        let turns =
+            followers.map(|(_, follows)| follows.times.abs().to_f64().unwrap_or(f64::INFINITY));
+        turns.fold(1.0, |total, turn| total + turn)
     }
 
     /// Returns the speed over which Coulomb friction is smoothed; none of a joint without.
@@ -330,8 +336,8 @@ impl Setting<'_> {
                 None => format!("the base: the range of `{name}` is empty"),
             })
         };
-        let all = (0..before + self.joints()).map(range);
-        Ok(Some(all.collect::<Result<_, String>>()?))
+        let ranges = (0..before + self.joints()).map(range);
+        Ok(Some(ranges.collect::<Result<_, String>>()?))
     }
 
     /// Returns the bodies that a payload may be: those of the scene's box, else of the robot's limits.
@@ -339,21 +345,21 @@ impl Setting<'_> {
     /// # Errors
     /// A range that is empty, or not a range.
     pub fn body(&self) -> Result<Option<Body>, String> {
-        let own = self.scene.r#box.payload.as_ref();
-        let own = own.or(self.file.limits.payload.as_ref());
-        own.map(|own| own.read("payload")).transpose()
+        let scene_payload = self.scene.r#box.payload.as_ref();
+        let payload = scene_payload.or(self.file.limits.payload.as_ref());
+        payload.map(|range| range.read("payload")).transpose()
     }
 
     fn positions(&self, joint: usize, rate: f64) -> Option<[f64; 2]> {
-        let own = &self.file.joint[self.movers[joint]];
+        let row = &self.file.joint[self.movers[joint]];
         if let Some(at) = self.locks[joint] {
-            return Some([own.position(at)?; 2]);
+            return Some([row.position(at)?; 2]);
         }
-        let given = self.scene.r#box.position.as_ref();
-        let given = given.and_then(|list| list.get(joint));
-        match given.or(own.limits.position.as_ref()) {
-            Some([low, high]) => Some([own.position(low)?, own.position(high)?]),
-            None if own.turns() => Some([-PI, PI]),
+        let positions = self.scene.r#box.position.as_ref();
+        let range = positions.and_then(|list| list.get(joint));
+        match range.or(row.limits.position.as_ref()) {
+            Some([low, high]) => Some([row.position(low)?, row.position(high)?]),
+            None if row.turns() => Some([-PI, PI]),
             // A joint that slides without an end: a metre either way, unless every state counts.
             None if rate.is_finite() => Some([-1.0, 1.0]),
             None => Some([-rate, rate]),
@@ -362,8 +368,8 @@ impl Setting<'_> {
 
     /// Returns true for a joint whose position has limits.
     pub fn is_limited(&self, joint: usize) -> bool {
-        let own = &self.file.joint[self.movers[joint]].limits.position;
-        self.scene.r#box.position.is_some() || own.is_some()
+        let limit = &self.file.joint[self.movers[joint]].limits.position;
+        self.scene.r#box.position.is_some() || limit.is_some()
     }
 
     /// Returns how long gravity is in the axes of a base that floats, m/s², however that is turned; none
@@ -382,24 +388,26 @@ impl Setting<'_> {
     /// # Errors
     /// A text that is no number, or a list that has not one for each joint.
     pub fn tolerance(&self) -> Result<Option<(Vec<f64>, &str)>, String> {
-        let Some(own) = &self.scene.tolerance else {
+        let Some(tolerance) = &self.scene.tolerance else {
             return Ok(None);
         };
         let (base, count) = (self.base(), self.base() + self.links());
-        let each = match &own.value {
+        let tolerances = match &tolerance.value {
             OneOrEach::One(one) => vec![one; count],
-            OneOrEach::Each(each) => each.iter().collect(),
+            OneOrEach::Each(list) => list.iter().collect(),
         };
         let wrong = match base {
             0 => "`tolerance`: expected a number, or one a joint",
             _ => "`tolerance`: expected a number, or six of the base and one a joint",
         };
         // Down, so that nothing is allowed that the decimal does not allow.
-        let read = |place: usize| Some(number(each.get(place)?)?.to_f64()?.next_down());
+        let read = |place: usize| Some(number(tolerances.get(place)?)?.to_f64()?.next_down());
         let places = (0..base).chain(self.movers.iter().map(|row| base + row));
-        let read: Option<Vec<f64>> = places.map(read).collect();
-        let read = read.filter(|_| each.len() == count);
-        Ok(Some((read.ok_or(wrong)?, &own.relative_to)))
+        let read = places
+            .map(read)
+            .collect::<Option<Vec<f64>>>()
+            .filter(|_| tolerances.len() == count);
+        Ok(Some((read.ok_or(wrong)?, &tolerance.relative_to)))
     }
 
     /// Returns a coordinate's limit of `velocity`, `acceleration` or `torque`, if there is one.
@@ -409,14 +417,14 @@ impl Setting<'_> {
 
     /// Returns the text of a coordinate's limit: the box's, else that of the joint or the base.
     fn limit_text(&self, coordinate: usize, name: &str) -> Option<&String> {
-        let given = &self.scene.r#box;
-        let given = match name {
-            "velocity" => given.velocity.as_ref(),
-            "acceleration" => given.acceleration.as_ref(),
+        let bounds = &self.scene.r#box;
+        let limits = match name {
+            "velocity" => bounds.velocity.as_ref(),
+            "acceleration" => bounds.acceleration.as_ref(),
             _ => None,
         };
-        let given = given.and_then(|list| list.get(coordinate));
-        given.or_else(|| match coordinate.checked_sub(self.base()) {
+        let limit = limits.and_then(|list| list.get(coordinate));
+        limit.or_else(|| match coordinate.checked_sub(self.base()) {
             Some(joint) => self.joint_limit(joint, name),
             None => self.base_limit(name)?.get(coordinate),
         })
@@ -424,12 +432,12 @@ impl Setting<'_> {
 
     fn base_limit(&self, name: &str) -> Option<&[String; 6]> {
         let limits = &self.file.floating.as_ref()?.limits;
-        let own = match name {
+        let limit = match name {
             "velocity" => &limits.velocity,
             "acceleration" => &limits.acceleration,
             _ => &limits.torque,
         };
-        own.as_ref()
+        limit.as_ref()
     }
 
     fn joint_limit(&self, joint: usize, name: &str) -> Option<&String> {
@@ -444,13 +452,13 @@ impl Setting<'_> {
 
     /// Returns true for an operand that the scene fixes: whoever calls a function may give another
     /// number for it.
-    pub fn is_fixed<C>(&self, own: &Operand<C>) -> bool {
-        match own {
+    pub fn is_fixed<C>(&self, operand: &Operand<C>) -> bool {
+        match operand {
             Operand::Sine(joint, _) => self.is_locked(*joint),
             Operand::Speed(coordinate) => self.is_held(*coordinate) || self.still[0],
             Operand::Entry(place, index) => {
                 let is_still = matches!(place, 1 | 2) && self.still[place - 1];
-                let is_locked = match ARGUMENTS.get(*place).map(|own| own.1) {
+                let is_locked = match ARGUMENTS.get(*place).map(|argument| argument.1) {
                     Some('j') => self.is_locked(*index),
                     Some('n') => self.is_held(*index),
                     _ => false,
@@ -488,15 +496,17 @@ impl Setting<'_> {
 
     /// Returns true if rates of some joint have no limit.
     pub fn is_unlimited(&self) -> bool {
-        let given = &self.scene.r#box;
-        let [rates, more] = [given.velocity.is_none(), given.acceleration.is_none()];
+        let bounds = &self.scene.r#box;
+        let [rates, more] = [bounds.velocity.is_none(), bounds.acceleration.is_none()];
         let base = self.file.floating.as_ref().filter(|_| self.floats);
         let base = base.map(|base| &base.limits);
-        let is_free = base.is_some_and(|own| {
-            rates && own.velocity.is_none() || more && own.acceleration.is_none()
+        let is_free = base.is_some_and(|limits| {
+            rates && limits.velocity.is_none() || more && limits.acceleration.is_none()
         });
         let mut rows = self.movers.iter().map(|&row| &self.file.joint[row].limits);
         is_free
-            || rows.any(|own| rates && own.velocity.is_none() || more && own.acceleration.is_none())
+            || rows.any(|limits| {
+                rates && limits.velocity.is_none() || more && limits.acceleration.is_none()
+            })
     }
 }

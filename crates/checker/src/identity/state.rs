@@ -27,11 +27,11 @@ impl State {
         let (sizes, base) = (setting.sizes(), setting.base());
         let list = |axis: char| (0..length(axis, sizes)).map(|_| point.residue()).collect();
         let mut state = State {
-            given: ARGUMENTS.iter().map(|own| list(own.1)).collect(),
+            given: ARGUMENTS.iter().map(|argument| list(argument.1)).collect(),
             pairs: (0..sizes.joints).map(|_| point.pair()).collect(),
             speeds: vec![0.into(); sizes.coordinates],
         };
-        let is_fixed = |own: Operand<()>| setting.is_fixed(&own);
+        let is_fixed = |operand: Operand<()>| setting.is_fixed(&operand);
         for joint in 0..sizes.joints {
             // Velocities of which 1/√(q̇² + w²) is a residue too: q̇ = (u − w²/u)/2, and the root
             // is (u + w²/u)/2.
@@ -56,9 +56,9 @@ impl State {
             }
         }
         for (place, list) in state.given.iter_mut().enumerate().skip(1) {
-            for (joint, own) in list.iter_mut().enumerate() {
+            for (joint, entry) in list.iter_mut().enumerate() {
                 if is_fixed(Operand::Entry(place, joint)) {
-                    *own = 0.into();
+                    *entry = 0.into();
                 }
             }
         }
@@ -68,15 +68,15 @@ impl State {
     /// Returns the state in which an entry of an argument has a slope of one in direction 1 or 2.
     pub fn moving(&self, argument: usize, index: usize, direction: usize) -> State {
         let (mut state, step) = (self.clone(), Number::step(direction));
-        let own = self.given[argument][index];
-        state.given[argument][index] = own + step;
+        let entry = self.given[argument][index];
+        state.given[argument][index] = entry + step;
         // f(x + ε) is f(x) + f′(x) ε, also where x moves already.
         if argument == 0 {
             let [sin, cos] = self.pairs[index];
             state.pairs[index] = [sin + cos * step, cos - sin * step];
         } else if argument == 1 {
             let speed = self.speeds[index];
-            state.speeds[index] = speed - own * speed * speed * speed * step;
+            state.speeds[index] = speed - entry * speed * speed * speed * step;
         }
         state
     }

@@ -137,41 +137,43 @@ impl Field {
     fn at(mut self, view: &str) -> Option<Field> {
         const COMPONENTS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
         let mut words = view.split(':');
-        let mut own = View {
+        let mut frame_view = View {
             frame: words.next()?.to_owned(),
             ..View::default()
         };
         for word in words {
             match word {
-                "local" | "world" if own.axes.is_empty() => own.axes = word.to_owned(),
-                "linear" => own.rows.extend(0..3),
-                "angular" => own.rows.extend(3..6),
+                "local" | "world" if frame_view.axes.is_empty() => {
+                    frame_view.axes = word.to_owned()
+                }
+                "linear" => frame_view.rows.extend(0..3),
+                "angular" => frame_view.rows.extend(3..6),
                 list => {
-                    let place = |name| COMPONENTS.iter().position(|own| *own == name);
+                    let place = |name| COMPONENTS.iter().position(|component| *component == name);
                     let rows = list.split('_').map(place).collect::<Option<Vec<usize>>>()?;
-                    own.rows.extend(rows);
+                    frame_view.rows.extend(rows);
                 }
             }
         }
-        own.rows.is_sorted_by(|a, b| a < b).then_some(())?;
+        frame_view.rows.is_sorted_by(|a, b| a < b).then_some(())?;
         // A pose has no axes of motion, and of what acts at a frame all six components are given.
         let has_rows = self.moves();
-        let is_pose = self.is == "pose" && own.axes.is_empty();
-        let is_held = self.is_held() && own.axes.is_empty();
-        let is_whole = own.rows.is_empty() && (self.acts() || is_pose || is_held);
+        let is_pose = self.is == "pose" && frame_view.axes.is_empty();
+        let is_held = self.is_held() && frame_view.axes.is_empty();
+        let is_whole = frame_view.rows.is_empty() && (self.acts() || is_pose || is_held);
         (has_rows || is_whole).then_some(())?;
         let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
         let is_name = |name: &str| !name.is_empty() && name.chars().all(is_letter);
-        let mut names = own.frame.split(',');
-        let is_one = !own.frame.contains(',') || self.is_held();
+        let mut names = frame_view.frame.split(',');
+        let is_one = !frame_view.frame.contains(',') || self.is_held();
         (is_one && names.all(is_name)).then_some(())?;
         self.name = format!("{}_{}", self.name, view.replace([':', ','], "_"));
-        self.view = own;
+        self.view = frame_view;
         Some(self)
     }
 
     fn moves(&self) -> bool {
-        MOVES.split_whitespace().any(|own| own == self.is)
+        MOVES.split_whitespace().any(|word| word == self.is)
     }
 
     fn acts(&self) -> bool {
@@ -211,13 +213,13 @@ impl Field {
         } else {
             FIXED
         };
-        !floats && self.is.starts_with("d2") || words.split(' ').any(|own| own == self.is)
+        !floats && self.is.starts_with("d2") || words.split(' ').any(|word| word == self.is)
     }
 
     /// A torque of each joint, D of each two, or a coefficient of each three.
     pub(crate) fn is_measured(&self) -> bool {
         let known = "tau c h h_rot h_tran d d_rot d_tran symbols";
-        known.split(' ').any(|own| own == self.is)
+        known.split(' ').any(|word| word == self.is)
     }
 
     /// Returns the lengths of its axes, `base` being the number of base parameters.
@@ -243,20 +245,20 @@ pub fn functions() -> &'static [Function] {
 }
 
 fn read() -> Vec<Function> {
-    let mut all: Vec<Function> = Vec::new();
+    let mut functions: Vec<Function> = Vec::new();
     for word in TABLE.split_whitespace() {
         if let Some(name) = word.strip_suffix(':') {
-            all.push(Function {
+            functions.push(Function {
                 name: name.to_owned(),
                 arguments: Vec::new(),
                 fields: Vec::new(),
             });
-        } else if let Some(last) = all.last_mut() {
+        } else if let Some(last) = functions.last_mut() {
             last.arguments.extend(argument(word));
             last.fields.extend(Field::read(word));
         }
     }
-    all
+    functions
 }
 
 impl Function {
@@ -266,7 +268,7 @@ impl Function {
     /// # Errors
     /// The first result that is not of the table, or a known name with other results.
     pub fn named(name: &str, arguments: &[String], results: &[String]) -> Result<Function, String> {
-        let all = functions();
+        let functions = functions();
         let place =
             |name: &String| argument(name).ok_or_else(|| format!("there is no argument `{name}`"));
         let arguments: Vec<usize> = arguments.iter().map(place).collect::<Result<_, _>>()?;
@@ -284,39 +286,45 @@ impl Function {
                 Some((field, view)) => (field, Some(view)),
                 None => (rest, None),
             };
-            let own = all.iter().find(|own| own.name == function)?;
-            taken.extend(own.arguments.iter().copied().map(Some));
-            let field = own.fields.iter().find(|own| own.name == field)?.clone();
+            let entry = functions.iter().find(|entry| entry.name == function)?;
+            taken.extend(entry.arguments.iter().copied().map(Some));
+            let field = entry
+                .fields
+                .iter()
+                .find(|candidate| candidate.name == field)?
+                .clone();
             view.map_or(Some(field.clone()), |view| field.at(view))
         };
-        let mut seen = results.iter().collect::<Vec<_>>();
-        seen.sort();
-        if let Some(twice) = seen.windows(2).find(|two| two[0] == two[1]) {
+        let mut names = results.iter().collect::<Vec<_>>();
+        names.sort();
+        if let Some(twice) = names.windows(2).find(|two| two[0] == two[1]) {
             return Err(format!("the result `{}` is there twice", twice[0]));
         }
-        let found =
+        let field_of =
             |result: &String| of(result).ok_or_else(|| format!("there is no result `{result}`"));
-        let fields: Vec<Field> = results.iter().map(found).collect::<Result<_, _>>()?;
-        let mut others = arguments.iter().filter(|own| !taken.contains(&Some(**own)));
+        let fields: Vec<Field> = results.iter().map(field_of).collect::<Result<_, _>>()?;
+        let mut others = arguments
+            .iter()
+            .filter(|argument| !taken.contains(&Some(**argument)));
         if let Some(other) = others.next() {
             let name = ARGUMENTS[*other].0;
             return Err(format!("no result of it takes `{name}`"));
         }
-        let is_same = |own: &Function| {
+        let is_same = |function: &Function| {
             let words = |fields: &[Field]| fields.iter().map(|field| field.is).collect::<Vec<_>>();
             let has_frame = fields.iter().any(|field| !field.view.frame.is_empty());
-            has_frame && words(&fields) == words(&own.fields)
+            has_frame && words(&fields) == words(&function.fields)
         };
-        let is_other = |own: &Function| match name.strip_prefix(own.name.as_str()) {
-            Some("") => own.fields != fields,
+        let is_other = |function: &Function| match name.strip_prefix(function.name.as_str()) {
+            Some("") => function.fields != fields,
             // A function and a frame: their names are its name.
-            Some(rest) if is_same(own) => {
-                let mut pairs = fields.iter().zip(&own.fields);
-                pairs.any(|(field, own)| field.name != format!("{}{rest}", own.name))
+            Some(rest) if is_same(function) => {
+                let mut pairs = fields.iter().zip(&function.fields);
+                pairs.any(|(field, original)| field.name != format!("{}{rest}", original.name))
             }
             _ => false,
         };
-        match all.iter().any(is_other) {
+        match functions.iter().any(is_other) {
             true => Err(format!("`{name}` has other results")),
             false => Ok(Function {
                 name: name.to_owned(),
@@ -330,7 +338,7 @@ impl Function {
     /// some.
     pub fn parameters(&self) -> Option<&'static str> {
         let mut fields = self.fields.iter();
-        fields.find_map(|own| match own.is {
+        fields.find_map(|field| match field.is {
             "y_base" => Some("BASE_PARAMETERS"),
             "y_passivity" => Some("PASSIVITY_PARAMETERS"),
             _ => None,

@@ -19,11 +19,11 @@ impl Search {
         for _ in 0..starts {
             let start = ranges
                 .iter()
-                .map(|[low, high]| low + (high - low) * next(&mut seed));
-            let start = start.collect();
-            let found = self.climb_from(start);
-            if found >= best {
-                best = found;
+                .map(|[low, high]| low + (high - low) * next(&mut seed))
+                .collect();
+            let height = self.climb_from(start);
+            if height >= best {
+                best = height;
                 top.clone_from(&self.top);
             }
         }
@@ -38,7 +38,9 @@ impl Search {
 
     pub(super) fn ranges(&self) -> Vec<[f64; 2]> {
         let levels = self.levels.iter();
-        levels.map(|own| own.range.unwrap_or([-PI, PI])).collect()
+        levels
+            .map(|level| level.range.unwrap_or([-PI, PI]))
+            .collect()
     }
 
     /// Returns F less what doubles may lose, with the angles from a level on put in anew.
@@ -65,9 +67,9 @@ impl Search {
                         Some([low, high]) => next.clamp(low, high),
                         None => next,
                     };
-                    let found = self.height(&angles, known.min(level));
-                    if found > highest {
-                        (highest, has_moved, known) = (found, true, count);
+                    let height = self.height(&angles, known.min(level));
+                    if height > highest {
+                        (highest, has_moved, known) = (height, true, count);
                     } else {
                         (angles[level], known) = (before, level);
                     }

@@ -29,19 +29,19 @@ pub fn corners(sums: &mut [f64]) -> [f64; 2] {
     // Two steps at once: loops over one and over two values take longer than the sums.
     let mut done = 1;
     if sums.len() >= 4 {
-        for own in sums.chunks_exact_mut(4) {
-            let x = [own[0] + own[1], own[0] - own[1]];
-            let y = [own[2] + own[3], own[2] - own[3]];
-            (own[0], own[1]) = (x[0] + y[0], x[1] + y[1]);
-            (own[2], own[3]) = (x[0] - y[0], x[1] - y[1]);
+        for chunk in sums.chunks_exact_mut(4) {
+            let x = [chunk[0] + chunk[1], chunk[0] - chunk[1]];
+            let y = [chunk[2] + chunk[3], chunk[2] - chunk[3]];
+            (chunk[0], chunk[1]) = (x[0] + y[0], x[1] + y[1]);
+            (chunk[2], chunk[3]) = (x[0] - y[0], x[1] - y[1]);
         }
         done = 4;
     }
     transform(sums, done);
     // Eight chains: one chain of comparisons takes as long as all sums.
     let [mut low, mut high] = [[f64::INFINITY; SIDE], [f64::NEG_INFINITY; SIDE]];
-    for own in sums.chunks(SIDE) {
-        for (k, x) in own.iter().enumerate() {
+    for chunk in sums.chunks(SIDE) {
+        for (k, x) in chunk.iter().enumerate() {
             low[k] = if *x < low[k] { *x } else { low[k] };
             high[k] = if *x > high[k] { *x } else { high[k] };
         }
@@ -53,8 +53,8 @@ pub fn corners(sums: &mut [f64]) -> [f64; 2] {
 /// Turns rows of so many sums by set into sums at corners.
 fn transform(sums: &mut [f64], mut half: usize) {
     while half < sums.len() {
-        for own in sums.chunks_exact_mut(2 * half) {
-            let (left, right) = own.split_at_mut(half);
+        for chunk in sums.chunks_exact_mut(2 * half) {
+            let (left, right) = chunk.split_at_mut(half);
             for (x, y) in left.iter_mut().zip(right) {
                 (*x, *y) = (*x + *y, *x - *y);
             }
@@ -118,11 +118,14 @@ impl Table {
             (end, f64::from(multiple(run[0].1, joint).0).powi(2))
         });
         let mut from = 0;
-        let others = level.iter().map(|&(end, square, group)| {
-            let run = (std::mem::replace(&mut from, end), end, square);
-            (factors[group as usize], run)
-        });
-        let others = others.filter(|own| own.0 == Factor::Other).map(|own| own.1);
+        let others = level
+            .iter()
+            .map(|&(end, square, group)| {
+                let run = (std::mem::replace(&mut from, end), end, square);
+                (factors[group as usize], run)
+            })
+            .filter(|entry| entry.0 == Factor::Other)
+            .map(|entry| entry.1);
         Some(Table {
             width,
             rows,
@@ -146,14 +149,14 @@ impl Table {
         transform(sums, width);
         let [mut most, mut bend] = [0.0f64; 2];
         for row in sums.chunks_exact(width) {
-            let ([mut own, mut bent], mut from) = ([0.0f64; 2], 0);
+            let ([mut total, mut bent], mut from) = ([0.0f64; 2], 0);
             for &(end, square) in &self.runs {
                 let length = length(&row[from..end as usize]);
-                own += length;
+                total += length;
                 bent += length * square;
                 from = end as usize;
             }
-            (most, bend) = (most.max(own), bend.max(bent));
+            (most, bend) = (most.max(total), bend.max(bent));
         }
         for &(from, end, square) in &self.others {
             let length = length(&values[from as usize..end as usize]);
@@ -168,6 +171,6 @@ impl Table {
 pub(super) fn length(run: &[f64]) -> f64 {
     match run {
         [one] => one.abs(),
-        _ => run.iter().map(|own| own * own).sum::<f64>().sqrt(),
+        _ => run.iter().map(|x| x * x).sum::<f64>().sqrt(),
     }
 }

@@ -30,39 +30,41 @@ pub fn is_definite(entries: &[Polynomial], errors: &[f64], ring: &Ring) -> bool 
     // A power of two: exact. The matrix has no units then.
     let unit = |size: f64| 0.5f64.powi((0.5 * size.log2()).round() as i32);
     let units: Vec<f64> = (0..size).map(|i| unit(diagonal(i))).collect();
-    let mut all = Terms::default();
+    let mut matrix = Terms::default();
     let [mut off, mut sizes] = [vec![0.0; entries.len()], vec![0.0; entries.len()]];
     for i in 0..size {
         for j in 0..=i {
             let (at, unit) = (place(i, j), units[i] * units[j]);
-            let own = Terms::new(&entries[at], ring, 0.0);
-            off[at] = (own.rest + errors[at]) * unit;
-            for &(key, value) in &own.terms {
+            let entry = Terms::new(&entries[at], ring, 0.0);
+            off[at] = (entry.rest + errors[at]) * unit;
+            for &(key, value) in &entry.terms {
                 let value = value * unit;
                 // What depends on a rate, or on the error of a sine, is at most so large.
-                match own.factors[group(key)] {
+                match entry.factors[group(key)] {
                     Factor::One => {
-                        all.terms.push((key - group(key) as Key + at as Key, value));
+                        matrix
+                            .terms
+                            .push((key - group(key) as Key + at as Key, value));
                         sizes[at] += value.abs();
                     }
                     _ => off[at] += value.abs(),
                 }
             }
-            all.factors.push(Factor::Place(at as u32));
+            matrix.factors.push(Factor::Place(at as u32));
         }
     }
     let largest = norm(&sizes, size);
-    all.rest = norm(&off, size);
-    if !(largest + all.rest).is_finite() {
+    matrix.rest = norm(&off, size);
+    if !(largest + matrix.rest).is_finite() {
         return false;
     }
-    let mut search = Search::new(&all, ring);
+    let mut search = Search::new(&matrix, ring);
     search.aim = Aim::Eigenvalue { size, largest };
     search.corner = vec![0.0; entries.len()];
     search.steps = PURSE;
-    let seen = search.sampled(size, largest);
-    search.least_loss = Some(LEAST_LOSS * seen);
-    let least = PART * seen;
+    let eigenvalue = search.sampled(size, largest);
+    search.least_loss = Some(LEAST_LOSS * eigenvalue);
+    let least = PART * eigenvalue;
     least > 0.0
         && match search.is_constant() {
             true => search.is_at_most((largest - least).next_down()),
@@ -74,24 +76,27 @@ impl Search {
     /// Returns true if the least eigenvalue is shown to be at least t whatever the angles are that are
     /// not put in, and a bound of the second derivative by the level's angle.
     pub(super) fn crude_matrix(&mut self, level: usize, size: usize, t: f64) -> (bool, f64) {
-        let own = &self.levels[level];
+        let layout = &self.levels[level];
         let column = &self.columns[level];
-        let values = &column[column.len() - own.parts.len()..];
+        let values = &column[column.len() - layout.parts.len()..];
         let [mut lengths, mut bends] = [vec![0.0; self.corner.len()], vec![0.0; self.corner.len()]];
-        let (mut from, mut next) = (0, own.constants.iter().peekable());
+        let (mut from, mut next) = (0, layout.constants.iter().peekable());
         self.corner.fill(0.0);
-        for &(end, square, entry) in &own.runs {
+        for &(end, square, entry) in &layout.runs {
             let run = &values[from..end as usize];
-            if next.next_if(|own| **own as usize == from).is_some() {
+            if next
+                .next_if(|constant| **constant as usize == from)
+                .is_some()
+            {
                 self.corner[entry as usize] += run[0];
             } else {
-                let length = run.iter().map(|own| own * own).sum::<f64>().sqrt();
+                let length = run.iter().map(|x| x * x).sum::<f64>().sqrt();
                 lengths[entry as usize] += length;
                 bends[entry as usize] += length * square;
             }
             from = end as usize;
         }
-        let degree = own.degree.powi(2);
+        let degree = layout.degree.powi(2);
         let bend = norm(&bends, size) + degree * self.slack;
         let most = norm(&lengths, size) + self.slack;
         self.steps = self.steps.saturating_sub((size * size * size) as u64);

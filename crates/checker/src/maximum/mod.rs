@@ -124,13 +124,13 @@ pub fn largest(polynomial: &Polynomial, ring: &Ring, wanted: f64, work: &Work) -
         // Where all is spent, the next purse is empty.
         let _ = work.spend((purse - search.steps) as usize, 1);
     };
-    let given = purse(&mut search, PURSE);
+    let budget = purse(&mut search, PURSE);
     let mut reached = search.climb(STARTS);
-    spent(&search, given);
+    spent(&search, budget);
     let mut bound = plain;
     // Shows B, or climbs on from where it is refuted.
     let shows = |search: &mut Search, reached: &mut f64, factor: f64, most: u64| {
-        let given = purse(search, most);
+        let budget = purse(search, most);
         let mut shown = false;
         for _ in 0..RETRIES {
             let goal = *reached * factor + 2.0 * search.slack;
@@ -138,9 +138,9 @@ pub fn largest(polynomial: &Polynomial, ring: &Ring, wanted: f64, work: &Work) -
                 Verdict::Yes => shown = true,
                 // Else it is above an inner B alone.
                 Verdict::Refuted => {
-                    let found = search.climb_on();
-                    if found > *reached {
-                        *reached = found;
+                    let height = search.climb_on();
+                    if height > *reached {
+                        *reached = height;
                         continue;
                     }
                 }
@@ -148,30 +148,30 @@ pub fn largest(polynomial: &Polynomial, ring: &Ring, wanted: f64, work: &Work) -
             }
             break;
         }
-        spent(search, given);
+        spent(search, budget);
         shown.then_some(*reached * factor + 2.0 * search.slack)
     };
     if reached <= wanted && wanted < plain {
-        let given = purse(&mut search, PURSE);
+        let budget = purse(&mut search, PURSE);
         match search.shows_all(wanted.next_down()) {
             Verdict::Yes => bound = wanted,
             Verdict::Refuted => reached = reached.max(search.climb_on()),
             Verdict::Unknown => {}
         }
-        spent(&search, given);
+        spent(&search, budget);
     }
     if bound == plain && wanted < plain {
         let loose = LOOSE.into_iter();
-        let mut found =
+        let mut limits =
             loose.filter_map(|factor| shows(&mut search, &mut reached, factor, PURSE / 4));
-        bound = found.next().map_or(plain, |own| own.min(plain));
+        bound = limits.next().map_or(plain, |limit| limit.min(plain));
     }
     for factor in TIGHTER {
         if reached * factor >= bound {
             continue;
         }
         match shows(&mut search, &mut reached, factor, PURSE_TIGHTER) {
-            Some(own) => bound = bound.min(own),
+            Some(limit) => bound = bound.min(limit),
             None => break,
         }
     }

@@ -79,35 +79,44 @@ pub(super) struct Search {
 }
 
 impl Search {
-    pub(super) fn new(own: &Terms, ring: &Ring) -> Search {
+    pub(super) fn new(expansion: &Terms, ring: &Ring) -> Search {
         let place = |key: Key| (without_phases(key), key);
-        let mut terms = own.terms.clone();
+        let mut terms = expansion.terms.clone();
         terms.sort_by_key(|term| place(term.0));
         let mass: f64 = terms.iter().map(|term| term.1.abs()).sum();
         let mut keys: Vec<Key> = terms.iter().map(|term| term.0).collect();
-        let mut longest = keys.len() + own.factors.len() + 64;
+        let mut longest = keys.len() + expansion.factors.len() + 64;
         let mut search = Search {
             columns: vec![terms.iter().map(|term| term.1).collect()],
-            corner: vec![0.0; 1 << own.velocities],
+            corner: vec![0.0; 1 << expansion.velocities],
             ..Search::default()
         };
-        for joint in order(&own.terms, ring.angles.len()) {
-            let degree = keys.iter().map(|key| multiple(*key, joint).0).max();
-            let degree = degree.unwrap_or(0);
+        for joint in order(&expansion.terms, ring.angles.len()) {
+            let degree = keys
+                .iter()
+                .map(|key| multiple(*key, joint).0)
+                .max()
+                .unwrap_or(0);
             if degree == 0 {
                 continue;
             }
             let is_constant = |key: Key| without_phases(key) >> 16 == 0;
-            let constants = keys.iter().zip(0..).filter(|(key, _)| is_constant(**key));
-            let constants = constants.map(|(_, at)| at).collect();
+            let constants = keys
+                .iter()
+                .zip(0..)
+                .filter(|(key, _)| is_constant(**key))
+                .map(|(_, at)| at)
+                .collect();
             let mut end = 0;
             let same = |a: &Key, b: &Key| without_phases(*a) == without_phases(*b);
-            let runs = keys.chunk_by(same).map(|run| {
-                end += run.len() as u32;
-                let square = f64::from(multiple(run[0], joint).0).powi(2);
-                (end, square, group(run[0]) as u32)
-            });
-            let runs: Vec<(u32, f64, u32)> = runs.collect();
+            let runs: Vec<(u32, f64, u32)> = keys
+                .chunk_by(same)
+                .map(|run| {
+                    end += run.len() as u32;
+                    let square = f64::from(multiple(run[0], joint).0).powi(2);
+                    (end, square, group(run[0]) as u32)
+                })
+                .collect();
             let mut bases: Vec<(u32, bool)> =
                 keys.iter().map(|key| multiple(*key, joint)).collect();
             bases.sort_unstable();
@@ -119,9 +128,9 @@ impl Search {
             let mut moves: Vec<((Key, Key), u32, u32)> = keys.iter().zip(0..).map(moved).collect();
             moves.sort_unstable();
             let mut end = 0;
-            let sums = moves.chunk_by(|a, b| a.0 == b.0).map(|own| {
-                end += own.len() as u32;
-                (end, own[0].0.1)
+            let sums = moves.chunk_by(|a, b| a.0 == b.0).map(|run| {
+                end += run.len() as u32;
+                (end, run[0].0.1)
             });
             let (ends, next) = sums.unzip();
             search.levels.push(Level {
@@ -129,10 +138,10 @@ impl Search {
                 range: ring.angles[joint],
                 degree: f64::from(degree),
                 ends,
-                parts: moves.iter().map(|own| (own.1, own.2)).collect(),
+                parts: moves.iter().map(|entry| (entry.1, entry.2)).collect(),
                 bases,
                 constants,
-                table: Table::new(&keys, &runs, own, joint),
+                table: Table::new(&keys, &runs, expansion, joint),
                 runs,
             });
             search.columns.push(Vec::new());
@@ -140,10 +149,13 @@ impl Search {
             longest += 16 * degree as usize + 4;
             keys = next;
         }
-        search.factors = keys.iter().map(|key| own.factors[group(*key)]).collect();
+        search.factors = keys
+            .iter()
+            .map(|key| expansion.factors[group(*key)])
+            .collect();
         search.angles = vec![0.0; search.levels.len()];
         search.slack = match mass < MOST_MASS {
-            true => (own.rest + mass * longest as f64 * f64::EPSILON) * (1.0 + 1e-9),
+            true => (expansion.rest + mass * longest as f64 * f64::EPSILON) * (1.0 + 1e-9),
             false => f64::INFINITY,
         };
         search
@@ -162,8 +174,8 @@ impl Search {
     }
 
     fn len(&self, level: usize) -> usize {
-        let own = self.levels.get(level);
-        own.map_or(self.factors.len(), |own| own.parts.len())
+        let layout = self.levels.get(level);
+        layout.map_or(self.factors.len(), |layout| layout.parts.len())
     }
 
     fn values(&self, level: usize) -> &[f64] {
@@ -173,11 +185,11 @@ impl Search {
 
     /// Returns bounds of F and of its second derivative by the level's angle, which is not put in.
     fn crude(&self, level: usize) -> (f64, f64) {
-        let own = &self.levels[level];
+        let layout = &self.levels[level];
         let values = self.values(level);
-        let (mut most, mut bend) = (self.slack, own.degree.powi(2) * self.slack);
+        let (mut most, mut bend) = (self.slack, layout.degree.powi(2) * self.slack);
         let mut from = 0;
-        for &(end, square, _) in &own.runs {
+        for &(end, square, _) in &layout.runs {
             let length = length(&values[from..end as usize]);
             most += length;
             bend += length * square;
@@ -189,15 +201,15 @@ impl Search {
     /// Bounds F over all angles that are not put in, corner by corner. Returns true if it is at most so
     /// much, and the smaller bound of the second derivative.
     fn at_corners(&mut self, level: usize, most: f64, bend: f64) -> (bool, f64) {
-        let own = &self.levels[level];
-        let Some(table) = &own.table else {
+        let layout = &self.levels[level];
+        let Some(table) = &layout.table else {
             return (false, bend);
         };
         let mut sums = std::mem::take(&mut self.sums);
         let (bound, bent) = table.bound(self.values(level), &mut sums);
         self.steps = self.steps.saturating_sub(sums.len() as u64);
         self.sums = sums;
-        let bent = bent + own.degree.powi(2) * self.slack;
+        let bent = bent + layout.degree.powi(2) * self.slack;
         let is_small = (bound + self.slack) * (1.0 + 1e-9) <= most;
         (is_small, bend.min(bent * (1.0 + 1e-9)))
     }
@@ -211,7 +223,7 @@ impl Search {
             return exceeds(self.corner.clone(), size, least);
         }
         let values = self.values(self.levels.len());
-        let plain = values.iter().map(|own| own.abs()).sum::<f64>() + self.slack;
+        let plain = values.iter().map(|x| x.abs()).sum::<f64>() + self.slack;
         plain <= most || self.worst() <= most
     }
 
@@ -246,32 +258,32 @@ impl Search {
     }
 
     fn lanes<const W: usize>(&mut self, level: usize, angles: &[f64]) {
-        let own = &self.levels[level];
+        let layout = &self.levels[level];
         let mut rows = [[0.0; W]; 32];
         for (lane, angle) in angles.iter().enumerate() {
             let (sin, cos) = sin_cos(*angle);
             let mut multiples = [(0.0, 1.0); 16];
-            for k in 1..=(own.degree as usize).min(15) {
+            for k in 1..=(layout.degree as usize).min(15) {
                 let (s, c) = multiples[k - 1];
                 multiples[k] = (s * cos + c * sin, c * cos - s * sin);
             }
-            for (row, &(k, is_sine)) in rows.iter_mut().zip(&own.bases) {
+            for (row, &(k, is_sine)) in rows.iter_mut().zip(&layout.bases) {
                 let (s, c) = multiples[k as usize & 15];
                 row[lane] = if is_sine { s } else { c };
             }
         }
-        let own = &self.levels[level];
+        let layout = &self.levels[level];
         let (before, behind) = self.columns.split_at_mut(level + 1);
         let column = &before[level];
-        let values = &column[column.len() - own.parts.len()..];
+        let values = &column[column.len() - layout.parts.len()..];
         let next = &mut behind[0];
-        let (start, count) = (next.len(), own.ends.len());
+        let (start, count) = (next.len(), layout.ends.len());
         next.resize(start + count * angles.len(), 0.0);
         let next = &mut next[start..];
         let mut from = 0;
-        for (to, end) in own.ends.iter().enumerate() {
+        for (to, end) in layout.ends.iter().enumerate() {
             let mut sums = [0.0; W];
-            for &(at, base) in &own.parts[from..*end as usize] {
+            for &(at, base) in &layout.parts[from..*end as usize] {
                 let (value, row) = (values[at as usize], &rows[base as usize & 31]);
                 for lane in 0..W {
                     sums[lane] += value * row[lane];
@@ -367,10 +379,10 @@ impl Search {
             // One part in 10¹² for the roundings of all this.
             let enough = most - lost * (1.0 + 1e-12) - 1e-12 * most;
             self.angles[level] = middle;
-            let found = self.shows(level + 1, enough);
+            let verdict = self.shows(level + 1, enough);
             let length = self.columns[level + 1].len() - self.len(level + 1);
             self.columns[level + 1].truncate(length);
-            match found {
+            match verdict {
                 Verdict::Yes => continue,
                 Verdict::Unknown => return Verdict::Unknown,
                 Verdict::Refuted if lost <= least => return Verdict::Refuted,
@@ -401,12 +413,13 @@ impl Search {
 /// Orders the angles by Σ |c| k²: those that bend most come first.
 fn order(terms: &[(Key, f64)], joints: usize) -> Vec<usize> {
     let bend = |joint: usize| -> f64 {
-        let all = terms.iter();
-        all.map(|(key, value)| value.abs() * f64::from(multiple(*key, joint).0).powi(2))
+        let entries = terms.iter();
+        entries
+            .map(|(key, value)| value.abs() * f64::from(multiple(*key, joint).0).powi(2))
             .sum()
     };
     let bends: Vec<f64> = (0..joints).map(bend).collect();
-    let mut all: Vec<usize> = (0..joints).collect();
-    all.sort_by(|&a, &b| bends[b].total_cmp(&bends[a]));
-    all
+    let mut order: Vec<usize> = (0..joints).collect();
+    order.sort_by(|&a, &b| bends[b].total_cmp(&bends[a]));
+    order
 }

@@ -26,8 +26,8 @@ fn shift(joint: usize) -> usize {
 
 /// Returns an angle's multiple, and whether it is a sine.
 pub(super) fn multiple(key: Key, joint: usize) -> (u32, bool) {
-    let own = (key >> shift(joint)) as u32;
-    (own & 15, own >> 4 & 1 == 1)
+    let bits = (key >> shift(joint)) as u32;
+    (bits & 15, bits >> 4 & 1 == 1)
 }
 
 pub(super) fn bits(joint: usize) -> Key {
@@ -36,8 +36,8 @@ pub(super) fn bits(joint: usize) -> Key {
 
 /// Returns the key of a term without its phases: those that differ by them stand together.
 pub(super) fn without_phases(key: Key) -> Key {
-    let each = (0..(Key::BITS as usize - GROUP) / WIDTH).fold(0, |all, k| all | 16 << shift(k));
-    key & !each
+    let phases = (0..(Key::BITS as usize - GROUP) / WIDTH).fold(0, |mask, k| mask | 16 << shift(k));
+    key & !phases
 }
 
 pub(super) fn group(key: Key) -> usize {
@@ -85,19 +85,20 @@ impl Terms {
             .map(|c| [0, 1].map(|s| of_power(c, s)))
             .collect();
         let mut known: HashMap<Powers, (f64, f64)> = HashMap::new();
-        let mut all: Vec<((Powers, Key), f64)> = Vec::new();
+        let mut summands: Vec<((Powers, Key), f64)> = Vec::new();
         let [mut parts, mut next] = [Vec::new(), Vec::new()];
         let mut mass = 0.0;
         for &(key, value) in &polynomial.terms {
             parts.clear();
             parts.push((0, value));
             for joint in 0..ring.angles.len() {
-                let [s, c] = [Variable::Sin, Variable::Cos].map(|own| exponent(key, own, joint));
+                let [s, c] =
+                    [Variable::Sin, Variable::Cos].map(|variable| exponent(key, variable, joint));
                 if s + c > 0 {
                     next.clear();
                     for &(key, value) in &parts {
-                        let own = powers[c as usize][s as usize].iter();
-                        next.extend(own.map(|&(k, part)| {
+                        let multiples = powers[c as usize][s as usize].iter();
+                        next.extend(multiples.map(|&(k, part)| {
                             let bits = Key::from(k | s << 4);
                             (key | bits << shift(joint), value * part)
                         }));
@@ -111,23 +112,24 @@ impl Terms {
             for &(key, value) in &parts {
                 mass += value.abs() * (middle.abs() + radius);
                 if middle != 0.0 {
-                    all.push(((Powers::default(), key), value * middle));
+                    summands.push(((Powers::default(), key), value * middle));
                 }
                 if radius != 0.0 {
-                    all.push(((group.marked(), key), value * radius));
+                    summands.push(((group.marked(), key), value * radius));
                 }
             }
         }
         // Stable: sums are taken in the order of the terms on every machine.
-        all.sort_by_key(|own| own.0);
-        let runs = all.chunk_by(|a, b| a.0 == b.0);
-        let sums = runs.map(|run| (run[0].0, run.iter().map(|own| own.1).sum::<f64>()));
-        let sums: Vec<((Powers, Key), f64)> = sums.collect();
-        let mut groups: Vec<Powers> = sums.iter().map(|own| own.0.0).collect();
+        summands.sort_by_key(|summand| summand.0);
+        let runs = summands.chunk_by(|a, b| a.0 == b.0);
+        let sums: Vec<((Powers, Key), f64)> = runs
+            .map(|run| (run[0].0, run.iter().map(|summand| summand.1).sum::<f64>()))
+            .collect();
+        let mut groups: Vec<Powers> = sums.iter().map(|sum| sum.0.0).collect();
         groups.dedup();
         // Beyond, the terms of all others count with their magnitudes.
         groups.truncate(MOST_GROUPS);
-        let sizes = sums.iter().map(|own| own.1.abs());
+        let sizes = sums.iter().map(|sum| sum.1.abs());
         let largest = sizes.fold(0.0, f64::max);
         let of_wanted = NEGLIGIBLE_OF_WANTED * wanted.max(0.0) / sums.len() as f64;
         let least = (NEGLIGIBLE * largest).min(of_wanted);
@@ -155,7 +157,7 @@ impl Terms {
         terms.sort_unstable_by_key(|term| without_phases(term.0));
         let same = |a: &(Key, f64), b: &(Key, f64)| without_phases(a.0) == without_phases(b.0);
         let runs = terms.chunk_by(same);
-        let lengths = runs.map(|run| run.iter().map(|own| own.1 * own.1).sum::<f64>().sqrt());
+        let lengths = runs.map(|run| run.iter().map(|term| term.1 * term.1).sum::<f64>().sqrt());
         (lengths.sum::<f64>() + self.rest) * (1.0 + 1e-9)
     }
 }
@@ -166,14 +168,18 @@ fn factors(groups: &[Powers], ring: &Ring) -> (Vec<Factor>, usize) {
     let joints = ring.width();
     // One or two velocities, with nothing else, that are as large backwards as forwards.
     let product = |group: &Powers| -> Option<Vec<usize>> {
-        let own = group.unmarked();
-        let power = |joint: usize| exponent(own, Variable::Velocity, joint);
+        let powers = group.unmarked();
+        let power = |joint: usize| exponent(powers, Variable::Velocity, joint);
         let others = [Acceleration, EvenError, OddError];
-        let is_bare = |joint: usize| others.iter().all(|other| exponent(own, *other, joint) == 0);
-        let is_product = own != Powers::default()
+        let is_bare = |joint: usize| {
+            others
+                .iter()
+                .all(|other| exponent(powers, *other, joint) == 0)
+        };
+        let is_product = powers != Powers::default()
             && (0..joints).all(|joint| power(joint) <= 1 && is_bare(joint))
-            && (0..MAX_LOADS).all(|entry| exponent(own, Variable::Load, entry) == 0)
-            && ring.factor(own).0 == 0.0;
+            && (0..MAX_LOADS).all(|entry| exponent(powers, Variable::Load, entry) == 0)
+            && ring.factor(powers).0 == 0.0;
         let list: Vec<usize> = (0..joints).filter(|joint| power(*joint) == 1).collect();
         (is_product && (1..=2).contains(&list.len())).then_some(list)
     };
@@ -181,7 +187,7 @@ fn factors(groups: &[Powers], ring: &Ring) -> (Vec<Factor>, usize) {
     let mut moving: Vec<usize> = products.iter().flatten().flatten().copied().collect();
     moving.sort_unstable();
     moving.dedup();
-    let is_linear = products.iter().flatten().any(|own| own.len() == 1);
+    let is_linear = products.iter().flatten().any(|product| product.len() == 1);
     // If nothing is linear, the last velocity may be one: all signs at once change nothing.
     let free = moving.len() - usize::from(!is_linear && !moving.is_empty());
     let bit = |joint: &usize| match moving.binary_search(joint) {
@@ -191,7 +197,7 @@ fn factors(groups: &[Powers], ring: &Ring) -> (Vec<Factor>, usize) {
     let factor = |(group, product): (&Powers, &Option<Vec<usize>>)| match product {
         _ if *group == Powers::default() => Factor::One,
         Some(list) if free <= MOST_VELOCITIES => {
-            Factor::Place(list.iter().fold(0, |all, joint| all ^ bit(joint)))
+            Factor::Place(list.iter().fold(0, |set, joint| set ^ bit(joint)))
         }
         _ => Factor::Other,
     };

@@ -53,28 +53,28 @@ impl<'r> Reader<'r> {
             false => ("void", ""),
         };
         let (parameters, macros) = (self.parameters(symbols), &symbols.macros);
-        let list = commas(parameters.iter().map(|own| {
-            let (kind, name, count) = (&own.0, &own.1, count(own));
+        let list = commas(parameters.iter().map(|parameter| {
+            let (kind, name, count) = (&parameter.0, &parameter.1, count(parameter));
             format!("{kind} {name}[{macros}_RESTRICT {count}]")
         }));
         let structure = self.structure(symbols);
         let head = |name: &str, far: &str| {
             format!("{structure} {inline} {returned} {name}({far}{list}) {{ {macros}_UNFUSED")
         };
-        let own = &symbols.any;
+        let any = &symbols.any;
         let mut heads = vec![head(&symbols.single, "")];
-        if !own.is_empty() {
-            heads.insert(0, head(own, "const int far, "));
+        if !any.is_empty() {
+            heads.insert(0, head(any, "const int far, "));
         }
         let is_told = self.begin(&heads)? + 1 < heads.len();
         self.c_statements(symbols, is_told)?;
         let results = self.c_results(symbols);
         self.results(&format!("{results} }}"))?;
         if is_told {
-            let passed = commas(parameters.iter().map(|own| own.1.clone()));
+            let passed = commas(parameters.iter().map(|parameter| parameter.1.clone()));
             let single = &symbols.single;
             self.expect_all(&format!(
-                "{inline} {returned} {single}({list}) {{ {back}{own}(1, {passed}); }}"
+                "{inline} {returned} {single}({list}) {{ {back}{any}(1, {passed}); }}"
             ))?;
         }
         if has_batch {
@@ -89,35 +89,40 @@ impl<'r> Reader<'r> {
             return String::new();
         };
         let float = self.head.float();
-        let fields = self.head.lengths();
-        let fields = fields.map(|(field, length)| format!("{float} {field}[{length}]; "));
-        let fields = fields.collect::<String>();
+        let fields = self
+            .head
+            .lengths()
+            .map(|(field, length)| format!("{float} {field}[{length}]; "))
+            .collect::<String>();
         format!("typedef struct {{ {fields} }} {name};")
     }
 
     fn is_number(&self) -> bool {
-        let is_struct = self.symbols.is_some_and(|own| own.structure.is_some());
+        let is_struct = self
+            .symbols
+            .is_some_and(|symbols| symbols.structure.is_some());
         !is_struct && self.head.fields.iter().all(|(_, shape)| shape.is_empty())
     }
 
     fn parameters(&self, symbols: &Symbols) -> Vec<Parameter> {
         let float = self.head.float();
-        let given = self.head.arguments.iter();
-        let given = given.map(|own| {
-            let kind = match own.is_struct() {
-                true => format!("const {}_{}_t", symbols.prefix, own.name),
+        let arguments = self.head.arguments.iter().map(|argument| {
+            let kind = match argument.is_struct() {
+                true => format!("const {}_{}_t", symbols.prefix, argument.name),
                 false => format!("const {float}"),
             };
-            (kind, own.name.to_owned(), own.length)
+            (kind, argument.name.to_owned(), argument.length)
         });
-        let results = self.head.lengths();
-        let results = results.map(|(name, length)| (float.to_owned(), name.to_owned(), length));
+        let results = self
+            .head
+            .lengths()
+            .map(|(name, length)| (float.to_owned(), name.to_owned(), length));
         let written = match &symbols.structure {
             Some(kind) => vec![(kind.clone(), "result".to_owned(), 1)],
             None if self.is_number() => Vec::new(),
             None => results.collect(),
         };
-        given.chain(written).collect()
+        arguments.chain(written).collect()
     }
 
     fn c_statements(&mut self, symbols: &Symbols, is_told: bool) -> Read<()> {
@@ -130,7 +135,7 @@ impl<'r> Reader<'r> {
             if self.take_all("for (int l = 0; l <")? {
                 let lanes = self.next();
                 self.expect_all("; ++l) {")?;
-                self.lanes(lanes, |own| own.c_statements(symbols, is_told))?;
+                self.lanes(lanes, |reader| reader.c_statements(symbols, is_told))?;
             } else if self.take(&forget) {
                 self.expect("(")?;
                 let name = self.next();
@@ -167,12 +172,17 @@ impl<'r> Reader<'r> {
             } else if self.peek(0) == "(" {
                 self.expect_all("( void )")?;
                 let name = self.next();
-                if self.head.arguments.iter().all(|own| own.name != name) {
+                if self
+                    .head
+                    .arguments
+                    .iter()
+                    .all(|argument| argument.name != name)
+                {
                     return self.refuse("an argument expected");
                 }
                 self.expect(";")?;
             } else if self.peek(0) == "const" && self.peek(1) == kind {
-                let joint = joint_of(self.peek(2)).filter(|own| *own < self.head.joints);
+                let joint = joint_of(self.peek(2)).filter(|joint| *joint < self.head.joints);
                 let (joint, prefix) = (joint.unwrap_or(0), &symbols.prefix);
                 let number = joint + 1;
                 self.expect_all(&format!(
@@ -184,7 +194,7 @@ impl<'r> Reader<'r> {
                 let name = self.c_array()?;
                 let mut values = self.arrays[name].iter().flatten().flatten();
                 if !name.starts_with('k')
-                    || values.any(|own| !matches!(own.1, Operand::Constant(_)))
+                    || values.any(|entry| !matches!(entry.1, Operand::Constant(_)))
                 {
                     return self.refuse("an array of numbers expected");
                 }
@@ -237,7 +247,7 @@ impl<'r> Reader<'r> {
         };
         let of_pair = format!("p{}.{function}", joint + 1);
         let mut is_called = pair == Some(joint) && self.take_all(&of_pair)?;
-        if let Some(place) = called.iter().position(|own| *own == joint)
+        if let Some(place) = called.iter().position(|angle| *angle == joint)
             && !is_called
         {
             is_called = self.take_all(&format!("{array}[{place}]"))?;
@@ -292,32 +302,32 @@ impl<'r> Reader<'r> {
         };
         let mut columns = "const size_t n".to_owned();
         let (mut state, mut stored, mut to) = (String::new(), String::new(), String::new());
-        for own in &self.head.arguments {
-            let loads = if own.name == "load" {
+        for argument in &self.head.arguments {
+            let loads = if argument.name == "load" {
                 ", const size_t loads"
             } else {
                 ""
             };
-            columns += &format!("{loads}, const {float} *{restrict} {}", own.name);
+            columns += &format!("{loads}, const {float} *{restrict} {}", argument.name);
         }
         // One load for all states, and one a state.
         let mut load = None;
-        for own in parameters {
-            let (kind, name, length) = own;
+        for parameter in parameters {
+            let (kind, name, length) = parameter;
             if name == "load" && kind.starts_with("const ") {
                 let one = commas((0..*length).map(|index| format!("load[{index}]")));
-                let each = (0..*length).map(|index| format!("load[{}]", entry(index, of_load)));
-                let declared = |own| format!("{kind} load_s[1] = {{{{{{{own}}}}}}}; ");
-                load = Some([one, commas(each)].map(declared));
+                let entries = (0..*length).map(|index| format!("load[{}]", entry(index, of_load)));
+                let declared = |list| format!("{kind} load_s[1] = {{{{{{{list}}}}}}}; ");
+                load = Some([one, commas(entries)].map(declared));
                 continue;
             }
             let entries = commas((0..*length).map(|index| format!("{name}[{}]", place(index))));
-            let given = match (kind.starts_with("const "), kind.ends_with("_t")) {
+            let initializer = match (kind.starts_with("const "), kind.ends_with("_t")) {
                 (true, true) => format!(" = {{{{{{{entries}}}}}}}"),
                 (true, false) => format!(" = {{{entries}}}"),
                 (false, _) => String::new(),
             };
-            state += &format!("{kind} {name}_s[{}]{given}; ", count(own));
+            state += &format!("{kind} {name}_s[{}]{initializer}; ", count(parameter));
         }
         for (field, length) in self.head.lengths() {
             columns += &format!(", {float} *{restrict} {field}");
@@ -333,15 +343,20 @@ impl<'r> Reader<'r> {
                 stored += &format!("{field}[{}] = {from}[{index}]; ", place(index));
             }
         }
-        let passed = commas(parameters.iter().map(|own| format!("{}_s", own.1)));
-        let each = |when: &str, call: &str| format!("{state}{when}{to}{call}{passed}); {stored}");
+        let passed = commas(
+            parameters
+                .iter()
+                .map(|parameter| format!("{}_s", parameter.1)),
+        );
+        let iteration =
+            |when: &str, call: &str| format!("{state}{when}{to}{call}{passed}); {stored}");
         let (single, batch) = (format!("{}(", symbols.single), &symbols.batch);
         if symbols.is_cuda {
             let first = "((size_t)blockIdx.x * blockDim.x) + threadIdx.x";
-            let of_load = load.map_or_else(String::new, |[_, own]| {
-                format!("const size_t l = (loads == 1U) ? 0U : s; {own}")
+            let of_load = load.map_or_else(String::new, |[_, declaration]| {
+                format!("const size_t l = (loads == 1U) ? 0U : s; {declaration}")
             });
-            let body = format!("{of_load}{}", each("", &single));
+            let body = format!("{of_load}{}", iteration("", &single));
             return format!(
                 "static __global__ void {batch}({columns}) {{
                 const size_t threads = (size_t)gridDim.x * blockDim.x; size_t s;
@@ -349,7 +364,7 @@ impl<'r> Reader<'r> {
             );
         }
         let looped = |load: &str, when: &str, call: &str| {
-            let body = each(when, call);
+            let body = iteration(when, call);
             format!("for (s = 0U; s < n; ++s) {{ {load}{body} }}")
         };
         let near = || {
@@ -358,25 +373,27 @@ impl<'r> Reader<'r> {
             let largest = if self.head.is_single { 100.0 } else { 8192.0 };
             let end = if self.head.is_single { "F" } else { "" };
             let most = largest / joints.next_power_of_two() as f64;
-            let near = (0..joints).map(|k| format!("(fabs{f}(q_s[{k}]) <= {most:?}{end})"));
-            let near = near.collect::<Vec<String>>().join(" && ");
+            let near = (0..joints)
+                .map(|k| format!("(fabs{f}(q_s[{k}]) <= {most:?}{end})"))
+                .collect::<Vec<String>>()
+                .join(" && ");
             format!("if ({near}) {{ continue; }} ")
         };
         let loops = |load: &str| {
-            let all = match is_told {
+            let statements = match is_told {
                 false => looped(load, "", &single),
                 true => {
                     let first = looped(load, "", &format!("{}(0, ", symbols.any));
                     first + &looped(load, &near(), &single)
                 }
             };
-            format!("{macros}_SIMD {all}")
+            format!("{macros}_SIMD {statements}")
         };
         let loops = match &load {
             None => loops(""),
-            Some([one, own]) => {
-                let (shared, own) = (loops(""), loops(own));
-                format!("if (loads == 1U) {{ {one}{shared} }} else {{ {own} }}")
+            Some([one, declaration]) => {
+                let (shared, per_state) = (loops(""), loops(declaration));
+                format!("if (loads == 1U) {{ {one}{shared} }} else {{ {per_state} }}")
             }
         };
         format!(

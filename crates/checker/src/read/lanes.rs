@@ -30,7 +30,7 @@ impl<'r> Reader<'r> {
     ) -> Read<()> {
         let mut rows: Vec<Vec<_>> = Vec::new();
         while self.take(open) {
-            rows.push(self.list(close, |own| Ok(Some((false, own.operand()?))))?);
+            rows.push(self.list(close, |reader| Ok(Some((false, reader.operand()?))))?);
             self.expect(",")?;
         }
         self.expect(close)?;

@@ -104,7 +104,9 @@ impl<'r> Reader<'r> {
 
     pub(super) fn take_all(&mut self, text: &str) -> Read<bool> {
         let words = tokens::read(text, self.symbols.is_some())?;
-        let is_next = words.first().is_some_and(|own| own.text == self.peek(0));
+        let is_next = words
+            .first()
+            .is_some_and(|token| token.text == self.peek(0));
         if is_next {
             self.expect_all(text)?;
         }
@@ -126,17 +128,21 @@ impl<'r> Reader<'r> {
 
     pub(super) fn expect_head(&mut self, text: &str) -> Read<()> {
         for token in tokens::read(text, self.symbols.is_some())? {
-            let (own, word) = (self.peek(0), token.text);
-            self.expect(if self.is_word(own, word) { own } else { word })?;
+            let (spelling, word) = (self.peek(0), token.text);
+            self.expect(if self.is_word(spelling, word) {
+                spelling
+            } else {
+                word
+            })?;
         }
         Ok(())
     }
 
     /// In Rust, an argument that nothing reads has an underscore.
-    fn is_word(&self, own: &str, word: &str) -> bool {
+    fn is_word(&self, spelling: &str, word: &str) -> bool {
         let mut arguments = self.head.arguments.iter();
-        let is_unread = self.symbols.is_none() && own.strip_prefix('_') == Some(word);
-        own == word || is_unread && arguments.any(|argument| argument.name == word)
+        let is_unread = self.symbols.is_none() && spelling.strip_prefix('_') == Some(word);
+        spelling == word || is_unread && arguments.any(|argument| argument.name == word)
     }
 
     pub(super) fn begin(&mut self, heads: &[String]) -> Read<usize> {
@@ -144,7 +150,7 @@ impl<'r> Reader<'r> {
             let words = tokens::read(head, self.symbols.is_some())?;
             let count = |place: usize| {
                 let both = self.tokens[place..].iter().zip(&words);
-                let same = both.take_while(|(own, word)| self.is_word(own.text, word.text));
+                let same = both.take_while(|(token, word)| self.is_word(token.text, word.text));
                 same.count()
             };
             let places = (0..self.tokens.len()).rev();
@@ -244,7 +250,7 @@ impl<'r> Reader<'r> {
         }
         let word = self.next();
         let mut arguments = self.head.arguments.iter();
-        let argument = arguments.find(|own| own.name == word);
+        let argument = arguments.find(|argument| argument.name == word);
         if self.symbols.is_some() && argument.is_some_and(Argument::is_struct) {
             self.expect_all(&format!("->{word}"))?;
         }
@@ -331,7 +337,7 @@ impl<'r> Reader<'r> {
         }
         let value = Operand::Step(count - 1);
         let number = name.strip_prefix('t').unwrap_or_default();
-        let is_name = !number.is_empty() && number.bytes().all(|own| own.is_ascii_digit());
+        let is_name = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
         match is_name && self.name(name, value) {
             true => Ok(()),
             false => self.refuse(&format!("`{name}` is no new name of an operation")),
@@ -399,7 +405,9 @@ impl<'r> Reader<'r> {
         let width = self.literal()?;
         self.expect(")")?;
         let mut arguments = self.head.arguments.iter();
-        let place = arguments.find(|own| own.name == "qd").map(|own| own.place);
+        let place = arguments
+            .find(|argument| argument.name == "qd")
+            .map(|argument| argument.place);
         let joint = match square {
             ('*', [Operand::Entry(a, i), Operand::Entry(b, k)])
                 if (a, i) == (b, k) && place == Some(a) =>
@@ -432,28 +440,28 @@ impl<'r> Reader<'r> {
         if name != format!("{letter}{}", joint + 1) || joint >= self.head.joints {
             return self.refuse(&format!("`{letter}{}` expected for `{name}`", joint + 1));
         }
-        let all = &mut self.function.sines;
-        let is_good = if all.iter().all(|own| own.joint != joint) {
+        let sines = &mut self.function.sines;
+        let is_good = if sines.iter().all(|pair| pair.joint != joint) {
             let needs = [is_sine, !is_sine];
-            all.push(Sines {
+            sines.push(Sines {
                 joint,
                 needs,
                 source,
             });
             true
-        } else if let Some(own) = all.last_mut()
-            && own.joint == joint
-            && own.needs == [true, false]
+        } else if let Some(last) = sines.last_mut()
+            && last.joint == joint
+            && last.needs == [true, false]
             && !is_sine
         {
             // The cosine stands behind the sine, and is computed in the same way.
-            own.needs[1] = true;
-            match (&mut own.source, source) {
-                (Source::Polynomial(all), Source::Polynomial(new)) => {
-                    all.outputs.extend(new.outputs);
-                    all.steps == new.steps
+            last.needs[1] = true;
+            match (&mut last.source, source) {
+                (Source::Polynomial(old), Source::Polynomial(new)) => {
+                    old.outputs.extend(new.outputs);
+                    old.steps == new.steps
                 }
-                (own, new) => *own == new,
+                (old, new) => *old == new,
             }
         } else {
             false

@@ -20,8 +20,8 @@ const TYPES: [(&str, &str); 4] = [
 ];
 
 fn type_of(argument: &Argument) -> Option<&'static str> {
-    let own = TYPES.iter().find(|(name, _)| *name == argument.name);
-    own.map(|(_, kind)| *kind)
+    let entry = TYPES.iter().find(|(name, _)| *name == argument.name);
+    entry.map(|(_, kind)| *kind)
 }
 
 impl<'r> Reader<'r> {
@@ -48,8 +48,9 @@ impl<'r> Reader<'r> {
     fn returned(&self) -> [String; 2] {
         let fields = self.head.fields.as_slice();
         if let Some(name) = self.head.structure() {
-            let fields = fields.iter();
-            let fields = fields.map(|(field, shape)| format!("{field}: {}, ", array(shape)));
+            let fields = fields
+                .iter()
+                .map(|(field, shape)| format!("{field}: {}, ", array(shape)));
             let value = format!("{name} {{ {} }}", fields.collect::<String>());
             return [name, value];
         }
@@ -65,7 +66,7 @@ impl<'r> Reader<'r> {
             if self.take_all("for l in")? {
                 let lanes = self.next().strip_prefix("0..").unwrap_or_default();
                 self.expect("{")?;
-                self.lanes(lanes, |own| own.statements(false))?;
+                self.lanes(lanes, |reader| reader.statements(false))?;
                 continue;
             }
             if self.takes_store()? {
@@ -166,19 +167,19 @@ impl<'r> Reader<'r> {
 
     fn listed(&mut self) -> Read<Vec<&'r str>> {
         self.expect("[")?;
-        self.list("]", |own| Ok(own.next()))
+        self.list("]", |reader| Ok(reader.next()))
     }
 
     fn name_together(&mut self, angles: &[usize], names: [&[&'r str]; 2]) -> Read<()> {
-        if names.iter().any(|own| own.len() != angles.len()) {
+        if names.iter().any(|list| list.len() != angles.len()) {
             return self.refuse("as many sines, cosines and angles are expected");
         }
         for (place, &joint) in angles.iter().enumerate() {
-            let own = names.map(|names| names[place]);
-            if own == ["_"; 2] {
+            let pair = names.map(|names| names[place]);
+            if pair == ["_"; 2] {
                 return self.refuse("neither sine nor cosine of an angle is taken");
             }
-            for (name, is_sine) in own.into_iter().zip([true, false]) {
+            for (name, is_sine) in pair.into_iter().zip([true, false]) {
                 if name != "_" {
                     self.name_sine(name, joint, is_sine, Source::Together)?;
                 }
@@ -214,28 +215,28 @@ impl<'r> Reader<'r> {
         let (head, scalar) = (self.head, self.head.scalar());
         let single = std::mem::take(&mut self.function);
         let sines = single.sines.iter();
-        let together = sines.filter(|own| own.source == Source::Together);
-        let taken: Vec<usize> = together.map(|own| own.joint).collect();
+        let together = sines.filter(|pair| pair.source == Source::Together);
+        let taken: Vec<usize> = together.map(|pair| pair.joint).collect();
         let (results, k) = (single.program.outputs.len(), taken.len());
         let kind = format!("{}Batch", camel(head.name));
         let is_fused = k > 0 && single.program.steps.iter().any(|step| step.0 == '×');
         let fused = ["", "const FUSED: bool = true;"][usize::from(is_fused)];
         let angles = commas(taken.iter().map(|joint| format!("entries[{joint}]")));
         let (mut slices, mut begin) = (String::new(), 0);
-        for own in &head.arguments {
-            let end = begin + own.length;
-            slices += &format!("let {} = &entries[{begin}..{end}]; ", own.name);
+        for argument in &head.arguments {
+            let end = begin + argument.length;
+            slices += &format!("let {} = &entries[{begin}..{end}]; ", argument.name);
             begin = end;
         }
-        let (given, sizes) = (begin, format!("{begin}, {results}, {k}"));
+        let (inputs, sizes) = (begin, format!("{begin}, {results}, {k}"));
         let method = "#[inline(always)] #[allow(unused_variables)] fn";
         self.expect_all(&format!(
             "#[derive(Clone, Copy, Debug)] pub struct {kind};
             impl dalembert_batch::Function<{sizes}> for {kind} {{
             type Scalar = {scalar}; {fused}
-            {method} angles<V: dalembert_batch::Floats<{scalar}>>(entries: &[V; {given}])
+            {method} angles<V: dalembert_batch::Floats<{scalar}>>(entries: &[V; {inputs}])
             -> [V; {k}] {{ [{angles}] }}
-            {method} vectors<V: dalembert_batch::Vector<{scalar}>>(entries: &[V; {given}], &"
+            {method} vectors<V: dalembert_batch::Vector<{scalar}>>(entries: &[V; {inputs}], &"
         ))?;
         self.forget_names(0, &[])?;
         let sines = self.listed()?;
@@ -249,26 +250,38 @@ impl<'r> Reader<'r> {
         self.statements(false)?;
         self.results(&array(&[results]))?;
         self.is_vectors = false;
-        let sorted = |mut own: Function| {
-            own.sines.sort_by_key(|sines| sines.joint);
+        let sorted = |mut function: Function| {
+            function.sines.sort_by_key(|sines| sines.joint);
             // Zeros are told apart by their signs.
-            format!("{own:?}")
+            format!("{function:?}")
         };
         let vectors = std::mem::replace(&mut self.function, single.clone());
         if sorted(vectors) != sorted(single) {
             return self.refuse("other operations over vectors than of one state");
         }
-        let parameters = head.arguments.iter().map(|own| match type_of(own) {
-            Some(kind) => format!("{}: &[{kind}], ", own.name),
-            None => format!("{}: &[&[{scalar}]; {}], ", own.name, own.length),
-        });
-        let passed = head.arguments.iter().map(|own| match type_of(own) {
-            Some(_) => format!("dalembert_batch::Argument::Rows(&{})", own.name),
-            None => format!("dalembert_batch::Argument::Columns({})", own.name),
-        });
+        let parameters = head
+            .arguments
+            .iter()
+            .map(|argument| match type_of(argument) {
+                Some(kind) => format!("{}: &[{kind}], ", argument.name),
+                None => format!("{}: &[&[{scalar}]; {}], ", argument.name, argument.length),
+            });
+        let passed = head
+            .arguments
+            .iter()
+            .map(|argument| match type_of(argument) {
+                Some(_) => format!("dalembert_batch::Argument::Rows(&{})", argument.name),
+                None => format!("dalembert_batch::Argument::Columns({})", argument.name),
+            });
         let (parameters, passed) = (parameters.collect::<String>(), commas(passed));
-        let rows = head.arguments.iter().filter(|own| type_of(own).is_some());
-        let (name, rows) = (head.name, rows.map(|own| own.length).sum::<usize>());
+        let rows = head
+            .arguments
+            .iter()
+            .filter(|argument| type_of(argument).is_some());
+        let (name, rows) = (
+            head.name,
+            rows.map(|argument| argument.length).sum::<usize>(),
+        );
         self.expect_all(&format!(
             "}} }} pub fn {name}_columns({parameters}results: &mut [&mut [{scalar}]; {results}])
             -> Result<(), dalembert_batch::Unequal> {{ let arguments = [{passed}];
@@ -287,7 +300,9 @@ fn array(shape: &[usize]) -> String {
 }
 
 pub(super) fn camel(name: &str) -> String {
-    let words = name.split('_').filter_map(|word| word.split_at_checked(1));
-    let words = words.map(|(first, rest)| first.to_ascii_uppercase() + rest);
+    let words = name
+        .split('_')
+        .filter_map(|word| word.split_at_checked(1))
+        .map(|(first, rest)| first.to_ascii_uppercase() + rest);
     words.collect()
 }

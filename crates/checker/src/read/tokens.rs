@@ -51,7 +51,7 @@ fn is_name(words: &str) -> bool {
 
 /// Refuses a line that is not of generated code: a compiler might read it otherwise.
 pub(crate) fn lines(source: &str, is_c: bool) -> Result<Vec<(usize, &str)>, TextError> {
-    let (mut all, mut is_comment) = (Vec::new(), false);
+    let (mut lines, mut is_comment) = (Vec::new(), false);
     for (number, line) in (1..).zip(source.split('\n')) {
         let words = line.trim_matches(' ');
         // A line that goes on in the next, and three characters for one, mean something else in C.
@@ -69,42 +69,42 @@ pub(crate) fn lines(source: &str, is_c: bool) -> Result<Vec<(usize, &str)>, Text
         } else if !words.is_empty() && (is_c || !is_plain(number, line)) {
             is_good &= match is_c {
                 true => {
-                    let has_other = DIGRAPHS.iter().any(|own| words.contains(own));
+                    let has_other = DIGRAPHS.iter().any(|digraph| words.contains(digraph));
                     words.starts_with('#') || has_only(words, SIGNS) && !has_other
                 }
                 false => has_only(words, RUST_SIGNS) || is_name(words),
             };
-            all.push((number, words));
-            is_good &= all.len() <= MOST_LINES;
+            lines.push((number, words));
+            is_good &= lines.len() <= MOST_LINES;
         }
         if !is_good {
             let why = format!("nothing that is generated: `{line}`");
             return Err(TextError::new(number, why));
         }
     }
-    Ok(all)
+    Ok(lines)
 }
 
 fn is_plain(number: usize, line: &str) -> bool {
     let words = line.trim_start_matches(' ');
-    let own = STAMP.get(number - 1);
-    let is_stamp = own.is_some_and(|start| line.starts_with(start));
+    let stamp = STAMP.get(number - 1);
+    let is_stamp = stamp.is_some_and(|start| line.starts_with(start));
     is_stamp || words.starts_with("///") || words.starts_with("//!")
 }
 
 pub(super) fn read(source: &str, is_c: bool) -> Result<Vec<Token<'_>>, TextError> {
-    let mut all = Vec::new();
+    let mut tokens = Vec::new();
     for (line, mut rest) in lines(source, is_c)? {
         while !rest.is_empty() {
             let (text, behind) = rest.split_at(length(rest, is_c));
-            all.push(Token { text, line });
-            if all.len() > MOST_WORDS {
+            tokens.push(Token { text, line });
+            if tokens.len() > MOST_WORDS {
                 return Err(TextError::new(line, "more words than are read"));
             }
             rest = behind.trim_start_matches(' ');
         }
     }
-    Ok(all)
+    Ok(tokens)
 }
 
 fn length(line: &str, is_c: bool) -> usize {

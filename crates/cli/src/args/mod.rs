@@ -48,11 +48,15 @@ impl<const ALL: bool> FromArgMatches for Options<ALL> {
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
-        let given =
+        let is_given =
             |row: &&OptionRow| matches.value_source(row.name) == Some(ValueSource::CommandLine);
-        for row in Self::rows().filter(given) {
-            let values = matches.get_many::<String>(row.name);
-            let values: Vec<&str> = values.into_iter().flatten().map(String::as_str).collect();
+        for row in Self::rows().filter(is_given) {
+            let values: Vec<&str> = matches
+                .get_many::<String>(row.name)
+                .into_iter()
+                .flatten()
+                .map(String::as_str)
+                .collect();
             // This cannot fail: the name is in the table.
             let _ = self.0.set(row.name, &values.join(","));
         }

@@ -71,7 +71,7 @@ pub fn states_parser() -> impl TypedValueParser<Value = usize> {
 pub fn scale_parser() -> impl TypedValueParser<Value = Scale> {
     PossibleValuesParser::new(Scale::WORDS.map(|(word, _)| word)).map(|word| {
         let mut words = Scale::WORDS.into_iter();
-        let found = words.find(|(own, _)| *own == word);
-        found.map_or(Scale::Actuator, |(_, scale)| scale)
+        let entry = words.find(|(name, _)| *name == word);
+        entry.map_or(Scale::Actuator, |(_, scale)| scale)
     })
 }

@@ -69,9 +69,9 @@ pub fn svg(robot: &Robot, q: &[f64]) -> Result<String, WrongLength> {
 /// A base that floats is a body, too, and its frame is that of the drawing.
 fn bodies(arm: &Arm<f64>, frames: &[Columns<f64>]) -> Vec<Body> {
     let body = |(link, frame): (&Link<f64>, &Columns<f64>)| {
-        let own = link.inertia.rows();
+        let inertia = link.inertia.rows();
         // R I Rᵀ
-        let half = own.map(|row| frame.rotate(&row));
+        let half = inertia.map(|row| frame.rotate(&row));
         let column = |k: usize| frame.rotate(&[half[0][k], half[1][k], half[2][k]]);
         Body {
             mass: link.mass,

@@ -17,8 +17,11 @@ pub(crate) fn lines(robot: &Robot, q: &[f64]) -> Vec<String> {
         Convention::Modified => "modified DH (Craig)",
     };
     let gravity = robot.gravity.each_ref().map(number).join(", ");
-    let at = q.iter().map(|&q| short(Some(q.to_string()), 7, q));
-    let at = at.collect::<Vec<String>>().join(", ");
+    let at = q
+        .iter()
+        .map(|&q| short(Some(q.to_string()), 7, q))
+        .collect::<Vec<String>>()
+        .join(", ");
     let axes = match robot.floating {
         Some(_) => " of the world",
         None => "",

@@ -226,7 +226,8 @@ impl Places {
                 height[carrier] = height[carrier].max(height[row] + 1);
             }
         }
-        let of_joints = |all: Vec<usize>| (0..n).map(|joint| all[robot.row_of(joint)]).collect();
+        let of_joints =
+            |levels: Vec<usize>| (0..n).map(|joint| levels[robot.row_of(joint)]).collect();
         Places {
             depth: of_joints(depth),
             height: of_joints(height),
@@ -253,7 +254,7 @@ fn scale_length(joint: &mut Joint, factor: &Rational) {
     let placed = joint
         .place
         .iter_mut()
-        .flat_map(|own| &mut own.placement.xyz);
+        .flat_map(|place| &mut place.placement.xyz);
     let lengths = lengths.chain(placed).chain(&mut joint.com);
     lengths.for_each(|x| *x *= factor);
     joint.inertia = joint.inertia.map(|entry| entry * factor * factor);

@@ -161,7 +161,7 @@ pub fn torques(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Ro
         return Ok(Vec::new());
     }
     let request = &anywhere(request, vec![Function::InverseDynamics]);
-    let own = (request.setup(robot)?, generated(robot, request)?);
+    let original = (request.setup(robot)?, generated(robot, request)?);
     let case = |(case, held, change, motion): &Case| {
         let Some(changed) = change.apply(robot) else {
             return Ok(Vec::new());
@@ -170,7 +170,7 @@ pub fn torques(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Ro
             Change::None => None,
             _ => Some((request.setup(&changed)?, generated(&changed, request)?)),
         };
-        let (setup, made) = other.as_ref().unwrap_or(&own);
+        let (setup, made) = other.as_ref().unwrap_or(&original);
         let draw = |motion: Motion, count| {
             let mut states = motion.draw(setup, count, SEED);
             if let Change::Weightless = change {
@@ -182,8 +182,8 @@ pub fn torques(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Ro
         let bench = Bench::new(setup.clone());
         Ok(rows(&bench, made, (case, *held), [&drawn, &scales]))
     };
-    let all: Result<Vec<Vec<Row>>, GenerateError> = each(&CASES, case).into_iter().collect();
-    Ok(all?.concat())
+    let rows: Result<Vec<Vec<Row>>, GenerateError> = each(&CASES, case).into_iter().collect();
+    Ok(rows?.concat())
 }
 
 /// Generates each scalar by itself where one of them cannot hold a constant.
@@ -216,9 +216,9 @@ fn generated(robot: &Robot, request: &Request) -> Result<AskedCode, GenerateErro
 pub fn divided(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Row>, GenerateError> {
     const CASE: (&str, BoundKind) = ("nearest to singular", BoundKind::Vector);
     // What is damped inverts other matrices, which are near singular at other states.
-    let is_damped = |own: &Function| own.arguments().contains(&Argument::Damping);
+    let is_damped = |function: &Function| function.arguments().contains(&Argument::Damping);
     let mut dividing = request.functions.clone();
-    dividing.retain(|own| own.inverts_inertia() && !is_damped(own));
+    dividing.retain(|function| function.inverts_inertia() && !is_damped(function));
     if dividing.is_empty() {
         return Ok(Vec::new());
     }
@@ -249,8 +249,10 @@ pub fn nearest_to_singular(bench: &Bench) -> (f64, Vec<f64>) {
         let within = |[low, high]: &[f64; 2]| low + (high - low) * random.unit();
         bounds.iter().map(within).collect()
     };
-    let drawn = (0..1000).map(|_| draw());
-    let mut drawn: Vec<(f64, Vec<f64>)> = drawn.map(|q| (condition(&q), q)).collect();
+    let mut drawn: Vec<(f64, Vec<f64>)> = (0..1000)
+        .map(|_| draw())
+        .map(|q| (condition(&q), q))
+        .collect();
     drawn.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     drawn.truncate(8);
     for (best, q) in &mut drawn {

@@ -49,8 +49,8 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Outcome {
         }
         Some(from) => Source::open(context, from, &args.chain)?.robot_file,
     };
-    let file = RobotFile::parse(&robot_file, "the robot file");
-    let file = file.map_err(|error| Failure::Input(error.to_string()))?;
+    let file = RobotFile::parse(&robot_file, "the robot file")
+        .map_err(|error| Failure::Input(error.to_string()))?;
     let robot = &file.robot;
     let manifest = texts::manifest(&name, &dependency(folder));
     let [code, claim] = code(&file)?;
@@ -86,13 +86,14 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Outcome {
 }
 
 fn code(file: &RobotFile) -> Result<[String; 2], Failure> {
-    let asked = texts::ASKED.parse::<Asked>();
-    let asked = asked.map_err(|error| Failure::Input(error.to_string()))?;
+    let asked = texts::ASKED
+        .parse::<Asked>()
+        .map_err(|error| Failure::Input(error.to_string()))?;
     let name = &file.robot.name;
     let made = ask(file, &asked, Language::Rust, name).map_err(|problems| {
         let why = |problem: &Problem| format!("error: {}", problem.complaint.message);
-        let each: Vec<String> = problems.iter().map(why).collect();
-        Failure::Input(each.join("\n\n"))
+        let messages: Vec<String> = problems.iter().map(why).collect();
+        Failure::Input(messages.join("\n\n"))
     })?;
     let (request, generated) = (&made.request, &made.generated);
     let files = generated.files(request, &format!("{name}.toml"), &file.source);
@@ -115,8 +116,9 @@ pub(crate) fn expected(robot: &Robot) -> Result<String, Failure> {
         let q = DVector::from_fn(n, |k, _| value(k, 1.5));
         let qd = DVector::from_fn(n, |k, _| value(k + 1, 2.0));
         let qdd = DVector::from_fn(n, |k, _| value(k + 2, 5.0));
-        let tau = runtime.inverse_dynamics(&q, &qd, &qdd);
-        let tau = tau.map_err(Failure::input)?;
+        let tau = runtime
+            .inverse_dynamics(&q, &qd, &qdd)
+            .map_err(Failure::input)?;
         Ok([q, qd, qdd, tau].map(|vector| vector.as_slice().to_vec()))
     };
     let states: Result<Vec<texts::State>, Failure> = (1..=texts::STATES).map(state).collect();

@@ -79,8 +79,8 @@ impl Barrier {
         let mut total = 0.0;
         for (i, (_, file)) in self.links.iter().enumerate() {
             let l = cholesky(&self.pseudo(theta, i))?;
-            let seen = solve(file, &l);
-            for (k, row) in seen.iter().enumerate() {
+            let quotient = solve(file, &l);
+            for (k, row) in quotient.iter().enumerate() {
                 total -= 2.0 * libm::log(row[k]);
                 total += row.iter().map(|x| x * x).sum::<f64>();
             }
@@ -101,18 +101,18 @@ impl Barrier {
         for (i, (_, file)) in self.links.iter().enumerate() {
             let l = cholesky(&self.pseudo(theta, i))?;
             let columns: [Pseudo; 10] = self.units.map(|unit| within(&l, &unit));
-            let seen = solve(file, &l);
+            let quotient = solve(file, &l);
             for row in 0..4 {
                 for column in 0..=row {
                     // Both of two entries that are equal.
                     let twice = if row == column { 1.0 } else { libm::sqrt(2.0) };
-                    let products = (0..4).map(|k| seen[k][row] * seen[k][column]);
-                    let own = f64::from(u8::from(row == column)) - products.sum::<f64>();
+                    let products = (0..4).map(|k| quotient[k][row] * quotient[k][column]);
+                    let residual = f64::from(u8::from(row == column)) - products.sum::<f64>();
                     let mut entries = vec![0.0; self.count + 1];
                     for (k, unit) in columns.iter().enumerate() {
                         entries[10 * i + k] = twice * unit[row][column];
                     }
-                    entries[self.count] = twice * own;
+                    entries[self.count] = twice * residual;
                     rows.push(entries);
                 }
             }
@@ -135,9 +135,9 @@ impl Barrier {
     }
 
     fn pseudo(&self, theta: &[f64], link: usize) -> Pseudo {
-        let own = &theta[10 * link..10 * link + 10];
+        let moments = &theta[10 * link..10 * link + 10];
         let mut sum = [[0.0; 4]; 4];
-        for (unit, value) in self.units.iter().zip(own) {
+        for (unit, value) in self.units.iter().zip(moments) {
             for (sum, unit) in sum.iter_mut().flatten().zip(unit.iter().flatten()) {
                 *sum += value * unit;
             }

@@ -54,13 +54,13 @@ pub(super) fn moments(j: &Pseudo) -> [f64; 10] {
 /// link that no body has gets second moments until one has; one without a mass gets some.
 pub(super) fn of_joint(joint: &Joint) -> (Pseudo, Pseudo) {
     let number = f64::nearest_rational;
-    let own = joint.own_body();
-    let (mass, size) = match number(&own.mass) {
+    let body = joint.own_body();
+    let (mass, size) = match number(&body.mass) {
         mass if mass > 0.0 => (mass, 0.1 * SOME_BODY.1),
         _ => SOME_BODY,
     };
-    let com = own.com.each_ref().map(number);
-    let tensor = own.inertia.map(number).rows();
+    let com = body.com.each_ref().map(number);
+    let tensor = body.inertia.map(number).rows();
     let half = 0.5 * (tensor[0][0] + tensor[1][1] + tensor[2][2]);
     let mut about: [[f64; 3]; 3] = core::array::from_fn(|i| {
         core::array::from_fn(|k| {
@@ -125,7 +125,7 @@ pub(super) fn bodies(
     let parameters: Vec<f64> = map.iter().map(|row| dot(row, theta)).collect();
     let moved = (parameters.iter().zip(&fit.parameters))
         .zip(&fit.standard_errors)
-        .map(|((own, free), error)| (own - free).abs() / error);
+        .map(|((parameter, free), error)| (parameter - free).abs() / error);
     let mut bodies = Bodies {
         links: vec![[0.0; 10]; model.first_link() + joints.len()],
         armature: file(|joint| &joint.armature),

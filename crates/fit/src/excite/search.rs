@@ -58,13 +58,13 @@ impl Search<'_> {
 
     fn factor(&self, trajectory: &Trajectory) -> Result<Vec<f64>, Error> {
         let width = self.model.columns().len();
-        let mut all = Triangle::new(width);
+        let mut triangle = Triangle::new(width);
         for time in self.times(trajectory) {
             for row in self.rows(&trajectory.at(time))?.chunks(width) {
-                all.push(row.iter().copied());
+                triangle.push(row.iter().copied());
             }
         }
-        Ok(all.reduced())
+        Ok(triangle.reduced())
     }
 
     pub(super) fn value(&self, trajectory: &Trajectory) -> Result<f64, Error> {
@@ -123,8 +123,8 @@ impl Search<'_> {
             let mut weights = Vec::with_capacity(n * width);
             for (row, noise) in rows.chunks(width).zip(self.noise) {
                 let products = crate::dense::apply(&g, row);
-                let own = products.iter().zip(&self.reference.norms);
-                weights.extend(own.map(|(w, norm)| w / (noise * norm)));
+                let pairs = products.iter().zip(&self.reference.norms);
+                weights.extend(pairs.map(|(w, norm)| w / (noise * norm)));
             }
             let [q, qd, qdd] = &state;
             let slopes = self.model.gradient([q, qd, qdd], &weights);
@@ -147,12 +147,12 @@ impl Search<'_> {
     /// Computes G: dF = tr(G dA)/2.
     fn metric(&self, trajectory: &Trajectory) -> Result<Vec<f64>, Error> {
         let width = self.model.columns().len();
-        let found = singular(&self.factor(trajectory)?, width);
-        let sum = |power: i32| -> f64 { found.values.iter().map(|s| s.powi(power)).sum() };
+        let decomposition = singular(&self.factor(trajectory)?, width);
+        let sum = |power: i32| -> f64 { decomposition.values.iter().map(|s| s.powi(power)).sum() };
         let [large, small] = [sum(2 * POWER), sum(-2 * POWER)];
         let weight = |s: f64| s.powi(2 * POWER - 2) / large - s.powi(-2 * POWER - 2) / small;
         let mut g = vec![0.0; width * width];
-        for (value, v) in found.values.iter().zip(&found.directions) {
+        for (value, v) in decomposition.values.iter().zip(&decomposition.directions) {
             let weight = weight(*value);
             for (row, vi) in g.chunks_mut(width).zip(v) {
                 for (g, vk) in row.iter_mut().zip(v) {
@@ -177,16 +177,19 @@ impl Search<'_> {
         let mut square = 0.0;
         for (i, of) in limits.iter().enumerate() {
             let place = coordinates(from, i, of.middle());
-            let mut own = coordinates(gradient, i, 0.0);
+            let mut direction = coordinates(gradient, i, 0.0);
             let (bound, slope) = &used[i];
-            let along = crate::dense::dot(&own, &place) / bound;
-            own.iter_mut().zip(slope).for_each(|(g, b)| *g -= along * b);
-            for (k, own) in own.iter_mut().enumerate() {
+            let along = crate::dense::dot(&direction, &place) / bound;
+            direction
+                .iter_mut()
+                .zip(slope)
+                .for_each(|(g, b)| *g -= along * b);
+            for (k, coordinate) in direction.iter_mut().enumerate() {
                 let unit = if k == 0 { of.reach() } else { of.velocity };
-                square += (*own * unit).powi(2);
-                *own *= unit * unit;
+                square += (*coordinate * unit).powi(2);
+                *coordinate *= unit * unit;
             }
-            steps.push(own);
+            steps.push(direction);
         }
         let factor = match square > 0.0 {
             true => length / libm::sqrt(square),
@@ -194,16 +197,16 @@ impl Search<'_> {
         };
         let mut next = from.clone();
         for (i, step) in steps.iter().enumerate() {
-            let own = next.cosines[i].iter_mut().chain(&mut next.sines[i]);
-            let own = [&mut next.middle[i]].into_iter().chain(own);
-            own.zip(step).for_each(|(x, step)| *x -= factor * step);
+            let harmonics = next.cosines[i].iter_mut().chain(&mut next.sines[i]);
+            let entries = [&mut next.middle[i]].into_iter().chain(harmonics);
+            entries.zip(step).for_each(|(x, step)| *x -= factor * step);
         }
         next.filling(limits)
     }
 }
 
 fn coordinates(of: &Trajectory, joint: usize, middle: f64) -> Vec<f64> {
-    let mut all = vec![of.middle[joint] - middle];
-    all.extend(of.cosines[joint].iter().chain(&of.sines[joint]));
-    all
+    let mut coordinates = vec![of.middle[joint] - middle];
+    coordinates.extend(of.cosines[joint].iter().chain(&of.sines[joint]));
+    coordinates
 }

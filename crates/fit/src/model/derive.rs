@@ -16,7 +16,7 @@ impl Model {
         let (n, width) = (self.coordinates(), self.columns.len());
         let mut random = Random::new(0x6669_7400);
         let mut largest = vec![0.0f64; n * width];
-        let mut all = Triangle::new(width);
+        let mut triangle = Triangle::new(width);
         for _ in 0..2 * width + 8 {
             let [q, qd, qdd] = self.state(2.0, &mut random);
             let Ok(y) = self.regressor(&q, &qd, &qdd) else {
@@ -26,10 +26,10 @@ impl Model {
                 *largest = largest.max(y.abs());
             }
             for row in y.chunks(width) {
-                all.push(row.iter().copied());
+                triangle.push(row.iter().copied());
             }
         }
-        let r = all.reduced();
+        let r = triangle.reduced();
         let norms = norms(&r, width);
         let independent = |column: usize| r[column * width + column] > 1e-9 * norms[column];
         let kept: Vec<usize> = (0..width)
@@ -39,8 +39,10 @@ impl Model {
         let scale = |k: usize| (0..n).fold(0.0f64, |max, i| max.max(largest[i * width + k]));
         for (i, row) in self.rows.iter_mut().enumerate() {
             // What is nothing but rounding next to the column's largest entry is zero.
-            let felt = kept.iter().enumerate();
-            let felt = felt.filter(|(_, k)| largest[i * width + **k] > 1e-12 * scale(**k));
+            let felt = kept
+                .iter()
+                .enumerate()
+                .filter(|(_, k)| largest[i * width + **k] > 1e-12 * scale(**k));
             *row = felt.map(|(new, _)| new).collect();
         }
     }

@@ -92,17 +92,17 @@ pub struct State {
 pub fn states(model: &Model, count: usize, seed: u64) -> Vec<State> {
     let mut random = Random::new(seed);
     let mut draw = |largest: &dyn Fn(usize) -> f64| -> Vec<f64> {
-        let each = (0..model.joints()).map(|i| within(&mut random, largest(i)));
-        each.collect()
+        let draws = (0..model.joints()).map(|i| within(&mut random, largest(i)));
+        draws.collect()
     };
-    let each = (0..count).map(|_| {
+    let states = (0..count).map(|_| {
         let q = draw(&|_| 2.5);
         let qd = draw(&|i| model.limits()[i].velocity);
         let qdd = draw(&|i| model.limits()[i].acceleration);
         let y = model.regressor(&q, &qd, &qdd).unwrap();
         State { q, qd, qdd, y }
     });
-    each.collect()
+    states.collect()
 }
 
 pub fn true_parameters(truth: &Robot) -> Vec<f64> {

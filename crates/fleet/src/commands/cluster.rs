@@ -67,10 +67,10 @@ pub(super) async fn executor(args: ExecutorArgs, going: &Going) -> Result<String
     let port = port.parse().map_err(|_| address())?;
     let parent = args.work.clone().unwrap_or_else(std::env::temp_dir);
     let scratch = Scratch::within(&parent)?;
-    let own = args.listen.ip().to_string();
+    let listen_host = args.listen.ip().to_string();
     let config = ExecutorProcessConfig {
-        bind_host: own.clone(),
-        external_host: Some(own),
+        bind_host: listen_host.clone(),
+        external_host: Some(listen_host),
         port: args.listen.port(),
         scheduler_host: host.to_owned(),
         scheduler_port: port,

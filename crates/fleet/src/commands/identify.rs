@@ -38,14 +38,15 @@ pub(super) async fn run(args: &IdentifyArgs, going: &Going) -> Result<Report, Er
     }
     let mut job = Job::new(&args.logs, true, going).await?;
     let progress = job.progress.clone();
-    let found = progress.shown(args.logs.progress, job.aggregates("_fit"));
-    let found = found.await?;
+    let aggregates = progress
+        .shown(args.logs.progress, job.aggregates("_fit"))
+        .await?;
     let robot = job.robot.clone();
     let logs = job.logs.clone();
     let is_written = args.output.is_some();
     let solved = going.blocking(move |_| {
         let model = robot.model().ok_or_else(no_model)?;
-        solve(model, &found, &logs, is_written)
+        solve(model, &aggregates, &logs, is_written)
     });
     let (text, robot) = going.unless_ended(solved).await?;
     let written = match (&args.output, robot) {
@@ -59,17 +60,17 @@ pub(super) async fn run(args: &IdentifyArgs, going: &Going) -> Result<Report, Er
 
 fn solve(
     model: &Model,
-    found: &[Vec<u8>],
+    aggregates: &[Vec<u8>],
     logs: &[Log],
     is_written: bool,
 ) -> Result<(String, Option<Result<Robot, Error>>), Error> {
     let read = |bytes: &Vec<u8>| Accumulator::from_bytes(model, bytes);
-    let files: Vec<Accumulator> = found.iter().map(read).collect::<Result<_, _>>()?;
-    let mut all = Accumulator::new(model);
+    let files: Vec<Accumulator> = aggregates.iter().map(read).collect::<Result<_, _>>()?;
+    let mut total = Accumulator::new(model);
     for file in &files {
-        all.merge(file)?;
+        total.merge(file)?;
     }
-    let fit = fit(model, &all)?;
+    let fit = fit(model, &total)?;
     let mut rows = Vec::new();
     for k in 0..model.columns().len() {
         let [value, error] = [fit.parameters[k], fit.standard_errors[k]].map(number);
@@ -91,8 +92,10 @@ fn solve(
     let mut rows = Vec::new();
     let mut add = |log: &Log, file: &Accumulator, [before, after]: [&[f64]; 2]| {
         let name = log.name.display().to_string();
-        let left = written.as_ref().map(|own| file.residual(model, own));
-        let left = left.transpose()?;
+        let left = written
+            .as_ref()
+            .map(|parameters| file.residual(model, parameters))
+            .transpose()?;
         for (i, (before, after)) in before.iter().zip(after).enumerate() {
             let [before, after] = [*before, *after].map(number);
             let left = left.as_ref().map_or(String::new(), |left| number(left[i]));
@@ -102,14 +105,14 @@ fn solve(
     };
     let what = match files.len() {
         1 => {
-            add(&logs[0], &all, [&fit.before, &fit.after])?;
+            add(&logs[0], &total, [&fit.before, &fit.after])?;
             "of the states of the fit: with more than one log, each is compared with what the \
              others say"
         }
         _ => {
-            let each = cross_validation(model, &files)?;
-            for ((log, file), own) in logs.iter().zip(&files).zip(&each) {
-                add(log, file, [&own.before, &own.after])?;
+            let residuals = cross_validation(model, &files)?;
+            for ((log, file), residual) in logs.iter().zip(&files).zip(&residuals) {
+                add(log, file, [&residual.before, &residual.after])?;
             }
             "of each log, with parameters from the others"
         }
@@ -119,30 +122,30 @@ fn solve(
     text += &format!("\n{}{what}\n", table(head, rows));
     let robot = bodies.map(|bodies| -> Result<Robot, Error> {
         let bodies = bodies?;
-        text += &judged(model, &all, &fit, &bodies)?;
+        text += &judged(model, &total, &fit, &bodies)?;
         Ok(identified(model, &bodies)?)
     });
     Ok((text, robot))
 }
 
-fn judged(model: &Model, all: &Accumulator, fit: &Fit, bodies: &Bodies) -> Result<String, Error> {
+fn judged(model: &Model, total: &Accumulator, fit: &Fit, bodies: &Bodies) -> Result<String, Error> {
     let mut text = String::new();
-    let written = all.residual(model, &bodies.file_parameters(model))?;
-    let with_offsets = all.residual(model, &bodies.parameters)?;
+    let written = total.residual(model, &bodies.file_parameters(model))?;
+    let with_offsets = total.residual(model, &bodies.parameters)?;
     for (i, left) in written.iter().enumerate() {
         let (before, after) = (fit.before[i], fit.after[i]);
         let is_worse = *left > WORSE * before;
         if !is_worse && *left <= BADLY * after {
             continue;
         }
-        let (joint, own) = (i + 1, number(*left));
+        let (joint, residual) = (i + 1, number(*left));
         text += &match is_worse {
             true => format!(
-                "warning: joint {joint}: the written file leaves {own}, more than the {} before: ",
+                "warning: joint {joint}: the written file leaves {residual}, more than the {} before: ",
                 number(before)
             ),
             false => format!(
-                "joint {joint}: the written file leaves {own}, the free parameters {}: ",
+                "joint {joint}: the written file leaves {residual}, the free parameters {}: ",
                 number(after)
             ),
         };

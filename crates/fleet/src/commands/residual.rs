@@ -60,18 +60,18 @@ pub(super) async fn run(args: &ResidualArgs, going: &Going) -> Result<String, Er
     }
     job.progress.expect(passes as u64 * job.rows());
     let progress = job.progress.clone();
-    let all = computed(args, &mut job);
-    progress.shown(args.logs.progress, all).await
+    let computation = computed(args, &mut job);
+    progress.shown(args.logs.progress, computation).await
 }
 
 async fn computed(args: &ResidualArgs, job: &mut Job) -> Result<String, Error> {
-    let found = summaries(job).await?;
-    let mut text = summary(job, &found);
+    let log_residuals = summaries(job).await?;
+    let mut text = summary(job, &log_residuals);
     if args.watch_for.is_some() {
-        text += &watched(args, job, &found).await?;
+        text += &watched(args, job, &log_residuals).await?;
     }
     let svg = match &args.svg {
-        Some(_) => Some(drawn(args, job, &found).await?),
+        Some(_) => Some(drawn(args, job, &log_residuals).await?),
         None => None,
     };
     if let Some(output) = &args.output {
@@ -85,11 +85,15 @@ async fn computed(args: &ResidualArgs, job: &mut Job) -> Result<String, Error> {
 
 async fn summaries(job: &mut Job) -> Result<Vec<Residuals>, Error> {
     let mut checked = Vec::new();
-    let found = job.aggregates("_residuals").await?;
-    let found = found.iter().map(|bytes| Residuals::from_bytes(bytes));
-    for (log, found) in job.logs.iter().zip(found.collect::<Result<Vec<_>, _>>()?) {
-        checked.push(match found.not_finite() {
-            0 => Ok(found),
+    let results = job
+        .aggregates("_residuals")
+        .await?
+        .iter()
+        .map(|bytes| Residuals::from_bytes(bytes))
+        .collect::<Result<Vec<_>, _>>()?;
+    for (log, residuals) in job.logs.iter().zip(results) {
+        checked.push(match residuals.not_finite() {
+            0 => Ok(residuals),
             count => {
                 let why = Error::new(format!("torques of {count} rows are not finite"));
                 Err(locate(log).unwrap_or_else(|| why.at(log.name.display())))
@@ -99,44 +103,48 @@ async fn summaries(job: &mut Job) -> Result<Vec<Residuals>, Error> {
     job.keep(checked)
 }
 
-fn summary(job: &Job, found: &[Residuals]) -> String {
+fn summary(job: &Job, log_residuals: &[Residuals]) -> String {
     let mut rows = Vec::new();
-    let mut all = Residuals::new(job.robot.joints());
-    for (log, found) in job.logs.iter().zip(found) {
-        all.merge(found);
-        rows.extend(lines(&log.name.display().to_string(), found, true));
+    let mut total = Residuals::new(job.robot.joints());
+    for (log, residuals) in job.logs.iter().zip(log_residuals) {
+        total.merge(residuals);
+        rows.extend(lines(&log.name.display().to_string(), residuals, true));
     }
-    if found.len() > 1 {
-        rows.extend(lines("all", &all, false));
+    if log_residuals.len() > 1 {
+        rows.extend(lines("all", &total, false));
     }
-    let (states, files) = (all.states(), found.len());
+    let (states, files) = (total.states(), log_residuals.len());
     let table = table(["file", "joint", "rms", "99 %", "worst", "at, s"], rows);
-    let told = |(log, found): (&Log, &Residuals)| log.told(found.states());
-    let told: String = job.logs.iter().zip(found).map(told).collect();
+    let told = |(log, residuals): (&Log, &Residuals)| log.told(residuals.states());
+    let told: String = job.logs.iter().zip(log_residuals).map(told).collect();
     format!("{table}{states} states in {files} files; N·m or N, 99 % within 0.8 % of it\n{told}")
 }
 
-fn lines(name: &str, found: &Residuals, time: bool) -> Vec<[String; 6]> {
+fn lines(name: &str, residuals: &Residuals, time: bool) -> Vec<[String; 6]> {
     let line = |(i, joint): (usize, &Joint)| {
         let at = time.then(|| format!("{:.3}", joint.time));
-        let sizes = [found.rms(i), found.quantile(i, 0.99), joint.worst];
+        let sizes = [residuals.rms(i), residuals.quantile(i, 0.99), joint.worst];
         let [rms, most, worst] = sizes.map(number);
         let at = at.unwrap_or_default();
         [name.to_owned(), (i + 1).to_string(), rms, most, worst, at]
     };
-    found.joints().iter().enumerate().map(line).collect()
+    residuals.joints().iter().enumerate().map(line).collect()
 }
 
-async fn watched(args: &ResidualArgs, job: &Job, found: &[Residuals]) -> Result<String, Error> {
+async fn watched(
+    args: &ResidualArgs,
+    job: &Job,
+    log_residuals: &[Residuals],
+) -> Result<String, Error> {
     let n = job.robot.joints();
     // Half of the residuals are below it, whatever a contact does to the others.
-    let noise = |found: &Residuals| -> Vec<f64> {
-        let half = (0..n).map(|i| found.quantile(i, 0.5));
+    let noise = |residuals: &Residuals| -> Vec<f64> {
+        let half = (0..n).map(|i| residuals.quantile(i, 0.5));
         half.map(|half| (half / 0.6745).max(f64::MIN_POSITIVE))
             .collect()
     };
     let (noises, bar): (Vec<Vec<f64>>, f64) = match &args.quiet {
-        None => (found.iter().map(noise).collect(), args.bar),
+        None => (log_residuals.iter().map(noise).collect(), args.bar),
         Some(quiet) => {
             let quiet = LogArgs {
                 logs: vec![quiet.display().to_string()],
@@ -144,22 +152,25 @@ async fn watched(args: &ResidualArgs, job: &Job, found: &[Residuals]) -> Result<
                 ..args.logs.clone()
             };
             let mut quiet = Job::new(&quiet, false, &job.going).await?;
-            let found = summaries(&mut quiet).await?;
-            let noise = noise(&found[0]);
-            let (robot, own) = (job.robot.clone(), noise.clone());
-            let level = quiet.each(move |_, log, going| {
-                Ok(contacts(robot.as_ref(), log, &own, f64::MAX / 4.0, going)?.1)
-            });
-            let level = level.await?.into_iter().fold(0.0, f64::max);
+            let quiet_residuals = summaries(&mut quiet).await?;
+            let noise = noise(&quiet_residuals[0]);
+            let (robot, quiet_noise) = (job.robot.clone(), noise.clone());
+            let level = quiet
+                .each(move |_, log, going| {
+                    Ok(contacts(robot.as_ref(), log, &quiet_noise, f64::MAX / 4.0, going)?.1)
+                })
+                .await?
+                .into_iter()
+                .fold(0.0, f64::max);
             (vec![noise; job.logs.len()], 2.0 * level)
         }
     };
     let (robot, noises) = (job.robot.clone(), Arc::new(noises));
-    let all = job.each(move |place, log, going| {
+    let search = job.each(move |place, log, going| {
         Ok(contacts(robot.as_ref(), log, &noises[place], bar, going)?.0)
     });
     let mut rows = Vec::new();
-    for (log, contacts) in job.logs.iter().zip(all.await?) {
+    for (log, contacts) in job.logs.iter().zip(search.await?) {
         let name = log.name.display().to_string();
         for one in contacts {
             let [start, end] = [one.start, one.end].map(|time| format!("{time:.3}"));
@@ -175,31 +186,38 @@ async fn watched(args: &ResidualArgs, job: &Job, found: &[Residuals]) -> Result<
     Ok(format!("\n{}", table(head, rows)))
 }
 
-async fn drawn(args: &ResidualArgs, job: &Job, found: &[Residuals]) -> Result<String, Error> {
+async fn drawn(
+    args: &ResidualArgs,
+    job: &Job,
+    log_residuals: &[Residuals],
+) -> Result<String, Error> {
     let n = job.robot.joints();
     // Joints have torques of other sizes: each counts by its own over all logs.
-    let mut all = Residuals::new(n);
-    found.iter().for_each(|found| all.merge(found));
-    let size = |found: &Residuals| {
-        let parts = (0..n).map(|i| found.rms(i) / all.rms(i).max(f64::MIN_POSITIVE));
+    let mut total = Residuals::new(n);
+    log_residuals
+        .iter()
+        .for_each(|residuals| total.merge(residuals));
+    let size = |residuals: &Residuals| {
+        let parts = (0..n).map(|i| residuals.rms(i) / total.rms(i).max(f64::MIN_POSITIVE));
         parts.fold(0.0, f64::max)
     };
-    let mut order: Vec<usize> = (0..found.len()).collect();
-    order.sort_by(|a, b| size(&found[*b]).total_cmp(&size(&found[*a])));
+    let mut order: Vec<usize> = (0..log_residuals.len()).collect();
+    order.sort_by(|a, b| size(&log_residuals[*b]).total_cmp(&size(&log_residuals[*a])));
     order.truncate(args.worst);
     let (robot, chosen) = (job.robot.clone(), order.clone());
-    let curves = job.each(move |place, log, going| {
-        if !chosen.contains(&place) {
-            return Ok(None);
-        }
-        let mut curves = Curves::new(&log.name.display().to_string(), n, log.rows);
-        walk(robot.as_ref(), log, going, |block, residuals| {
-            curves.add(&block.time, residuals);
-            Ok(())
-        })?;
-        Ok(Some(curves))
-    });
-    let curves = curves.await?;
+    let curves = job
+        .each(move |place, log, going| {
+            if !chosen.contains(&place) {
+                return Ok(None);
+            }
+            let mut curves = Curves::new(&log.name.display().to_string(), n, log.rows);
+            walk(robot.as_ref(), log, going, |block, residuals| {
+                curves.add(&block.time, residuals);
+                Ok(())
+            })?;
+            Ok(Some(curves))
+        })
+        .await?;
     let worst: Vec<&Curves> = order.iter().flat_map(|place| &curves[*place]).collect();
     Ok(picture(&worst))
 }
@@ -215,8 +233,8 @@ async fn write_residuals(job: &Job, output: &Path) -> Result<(), Error> {
         for log in &logs {
             let name = log.name.display().to_string();
             walk(robot.as_ref(), log, going, |block, residuals| {
-                let all = block.quantities.iter().map(Vec::as_slice);
-                table.write(&name, &block.time, all.chain([residuals]))
+                let quantities = block.quantities.iter().map(Vec::as_slice);
+                table.write(&name, &block.time, quantities.chain([residuals]))
             })?;
         }
         table.close()
@@ -246,7 +264,7 @@ fn contacts(
     going: &Going,
 ) -> Result<(Vec<Contact>, f64), Error> {
     let mut watch = Watch::new(noise, DRIFT, bar)?;
-    let (mut found, mut level): (Vec<Contact>, f64) = (Vec::new(), 0.0);
+    let (mut contacts, mut level): (Vec<Contact>, f64) = (Vec::new(), 0.0);
     let mut state = vec![0.0; noise.len()];
     walk(robot, log, going, |block, residuals| {
         for (s, time) in block.time.iter().enumerate() {
@@ -255,14 +273,14 @@ fn contacts(
             }
             let alarm = watch.push(&state)?;
             level = level.max(watch.level());
-            let last = found.last_mut().filter(|last| time - last.end < APART);
+            let last = contacts.last_mut().filter(|last| time - last.end < APART);
             if let Some(last) = last {
                 if alarm.is_some() {
                     last.end = *time;
                 }
                 last.largest = last.largest.max(state[last.joint].abs());
             } else if let Some(joint) = alarm {
-                found.push(Contact {
+                contacts.push(Contact {
                     start: *time,
                     end: *time,
                     joint,
@@ -272,5 +290,5 @@ fn contacts(
         }
         Ok(())
     })?;
-    Ok((found, level))
+    Ok((contacts, level))
 }

@@ -145,11 +145,13 @@ impl Scene {
         let mut tau = vec![0.0; n * count];
         loaded.inverse_dynamics(States { count, q, qd, qdd }, &mut tau)?;
         // A joint that holds nothing has some noise all the same.
-        let usual = tau.chunks_exact(count).map(|own| {
-            let squares: f64 = own.iter().map(|x| x * x).sum();
-            libm::sqrt(squares / count as f64).max(1e-3)
-        });
-        let usual: Vec<f64> = usual.collect();
+        let usual: Vec<f64> = tau
+            .chunks_exact(count)
+            .map(|torques| {
+                let squares: f64 = torques.iter().map(|x| x * x).sum();
+                libm::sqrt(squares / count as f64).max(1e-3)
+            })
+            .collect();
         let (mut truth, mut exact) = (robot.clone(), loaded.clone());
         if args.vary > 0.0 {
             truth = varied(robot, args.vary, &usual, &mut Random::new(args.seed))?;
@@ -189,7 +191,7 @@ impl Scene {
     /// Draws contacts of 0.1 s that a joint feels as a hundred times its noise.
     fn collisions(&self, random: &mut Random) -> Vec<Collision> {
         let count = self.args.collisions;
-        let each = (0..count).map(|k| {
+        let collisions = (0..count).map(|k| {
             let part = (f64::from(k) + 0.5 + within(random, 0.2)) / f64::from(count);
             let joint = (random.unit() * self.noise.len() as f64) as usize;
             let joint = joint.min(self.noise.len() - 1);
@@ -202,7 +204,7 @@ impl Scene {
                 torque,
             }
         });
-        each.collect()
+        collisions.collect()
     }
 
     fn record(
@@ -243,8 +245,10 @@ impl Scene {
                 }),
                 None => self.followed(&recording, &collisions, first, &time, &mut random)?,
             };
-            let chosen = columns.iter().enumerate();
-            let chosen = chosen.filter(|(k, _)| !self.args.encoders_only || [0, 3].contains(k));
+            let chosen = columns
+                .iter()
+                .enumerate()
+                .filter(|(k, _)| !self.args.encoders_only || [0, 3].contains(k));
             table.write("", &time, chosen.map(|(_, of)| &of[..]))?;
             progress.add((last - first) as u64);
         }
@@ -303,10 +307,10 @@ impl Scene {
             .inverse_dynamics(States { count, q, qd, qdd }, &mut tau)?;
         for (s, time) in time.iter().enumerate() {
             for i in 0..n {
-                let own = &mut tau[i * count + s];
-                *own += self.noise[i] * normal(random);
+                let torque = &mut tau[i * count + s];
+                *torque += self.noise[i] * normal(random);
                 for one in collisions {
-                    *own -= one.torque[i] * one.part(*time);
+                    *torque -= one.torque[i] * one.part(*time);
                 }
             }
         }
@@ -326,8 +330,8 @@ fn fill(states: &mut [Vec<f64>; 3], s: usize, count: usize, state: &[Vec<f64>; 3
 }
 
 fn rational(value: f64) -> Result<Rational, Error> {
-    let found = parse_decimal(&format!("{value:.6e}"));
-    found.map_err(|_| Error::new(format!("{value} is not a number of a robot file")))
+    let ratio = parse_decimal(&format!("{value:.6e}"));
+    ratio.map_err(|_| Error::new(format!("{value} is not a number of a robot file")))
 }
 
 /// Bodies keep their shape. Coulomb friction is added, up to a tenth of each usual torque.

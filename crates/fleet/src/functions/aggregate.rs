@@ -110,8 +110,8 @@ impl Accumulator for Keeping {
     }
 
     fn merge_batch(&mut self, states: &[ArrayRef]) -> Result<()> {
-        let all = states.iter().flat_map(|array| array.as_binary::<i32>());
-        for bytes in all.flatten() {
+        let entries = states.iter().flat_map(|array| array.as_binary::<i32>());
+        for bytes in entries.flatten() {
             self.kept.merge(self.robot.as_ref(), bytes)?;
         }
         Ok(())
@@ -163,9 +163,9 @@ impl Kept for Parameters {
         let Parameters { kept, parts, room } = self;
         for first in (0..piece.count).step_by(FEW) {
             let last = piece.count.min(first + FEW);
-            for (part, all) in parts.iter_mut().zip(&piece.quantities) {
+            for (part, quantity) in parts.iter_mut().zip(&piece.quantities) {
                 part.clear();
-                for column in all.chunks_exact(piece.count) {
+                for column in quantity.chunks_exact(piece.count) {
                     part.extend_from_slice(&column[first..last]);
                 }
             }

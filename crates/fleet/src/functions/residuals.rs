@@ -130,11 +130,11 @@ impl Residuals {
     pub fn merge(&mut self, other: &Residuals) {
         self.states += other.states;
         self.not_finite += other.not_finite;
-        for (own, other) in self.joints.iter_mut().zip(&other.joints) {
-            own.squares.merge(other.squares);
-            own.see(other.worst, other.time);
-            for (own, other) in own.bins.iter_mut().zip(&other.bins) {
-                *own += other;
+        for (joint, other) in self.joints.iter_mut().zip(&other.joints) {
+            joint.squares.merge(other.squares);
+            joint.see(other.worst, other.time);
+            for (bin, other) in joint.bins.iter_mut().zip(&other.bins) {
+                *bin += other;
             }
         }
     }
@@ -175,8 +175,8 @@ impl Kept for Residuals {
         let count = piece.count;
         // One that is not finite makes its sum so.
         let sums: Vec<f64> = residuals.chunks_exact(count).map(squares).collect();
-        let mut all = sums.iter().copied().chain([squares(&piece.time)]);
-        if all.all(f64::is_finite) {
+        let mut totals = sums.iter().copied().chain([squares(&piece.time)]);
+        if totals.all(f64::is_finite) {
             let columns = residuals.chunks_exact(count).zip(sums);
             for (joint, (column, squares)) in self.joints.iter_mut().zip(columns) {
                 joint.add(column, squares, &piece.time);
@@ -184,14 +184,14 @@ impl Kept for Residuals {
             self.states += count as u64;
         } else {
             let fine = |s: &usize| {
-                let mut own = residuals.iter().skip(*s).step_by(count);
-                own.all(|r| r.is_finite()) && piece.time[*s].is_finite()
+                let mut row = residuals.iter().skip(*s).step_by(count);
+                row.all(|r| r.is_finite()) && piece.time[*s].is_finite()
             };
             let kept: Vec<usize> = (0..count).filter(fine).collect();
             let time: Vec<f64> = kept.iter().map(|s| piece.time[*s]).collect();
             for (joint, column) in self.joints.iter_mut().zip(residuals.chunks_exact(count)) {
-                let own: Vec<f64> = kept.iter().map(|s| column[*s]).collect();
-                joint.add(&own, squares(&own), &time);
+                let entries: Vec<f64> = kept.iter().map(|s| column[*s]).collect();
+                joint.add(&entries, squares(&entries), &time);
             }
             self.states += kept.len() as u64;
             self.not_finite += (count - kept.len()) as u64;
@@ -212,8 +212,11 @@ impl Kept for Residuals {
             for number in [value, rest, joint.worst, joint.time] {
                 put(number.to_bits());
             }
-            let filled = joint.bins.iter().enumerate();
-            let filled = filled.filter(|(_, count)| **count > 0);
+            let filled = joint
+                .bins
+                .iter()
+                .enumerate()
+                .filter(|(_, count)| **count > 0);
             put(filled.clone().count() as u64);
             for (bin, count) in filled {
                 put(bin as u64);

@@ -58,20 +58,20 @@ impl Block {
     /// The row of the first one that is not, and what it is.
     pub fn check(&self) -> Result<(), Error> {
         let first = |column: &[f64]| column.iter().position(|x| !x.is_finite());
-        let mut found = Vec::new();
+        let mut defects = Vec::new();
         if let Some(place) = first(&self.time) {
-            found.push((place, format!("the time is {}", self.time[place])));
+            defects.push((place, format!("the time is {}", self.time[place])));
         }
         for (name, values) in QUANTITIES.iter().zip(&self.quantities) {
             for (i, column) in values.chunks_exact(self.len().max(1)).enumerate() {
                 if let Some(place) = first(column) {
                     let (joint, value) = (i + 1, column[place]);
-                    found.push((place, format!("the {name} of joint {joint} is {value}")));
+                    defects.push((place, format!("the {name} of joint {joint} is {value}")));
                 }
             }
         }
         // Of those in the same row the one that was found first.
-        match found.into_iter().min_by_key(|(place, _)| *place) {
+        match defects.into_iter().min_by_key(|(place, _)| *place) {
             Some((place, what)) => Err(Error::new(what).at_row(self.rows[place])),
             None => Ok(()),
         }
@@ -207,8 +207,8 @@ pub(crate) fn seconds(array: &ArrayRef, factor: f64) -> Result<ArrayRef, Error> 
     };
     // Whole numbers are cast as `as` casts them: to the nearest.
     let floats = cast(&array, &DataType::Float64)?;
-    let floats = floats.as_primitive::<Float64Type>();
-    Ok(Arc::new(floats.unary::<_, Float64Type>(|x| x * factor)))
+    let doubles = floats.as_primitive::<Float64Type>();
+    Ok(Arc::new(doubles.unary::<_, Float64Type>(|x| x * factor)))
 }
 
 fn length(array: &ArrayRef, row: usize) -> usize {

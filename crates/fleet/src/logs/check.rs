@@ -125,8 +125,8 @@ pub fn inspect(path: &Path, columns: &Columns, going: &Going) -> Result<Log, Err
     let mut row = 0;
     for batch in builder.build()? {
         let batch = batch.map_err(|why| Error::new(why).at(format!("after row {row}")))?;
-        let times = seconds(batch.column(0), columns.time_factor)?;
-        let times = times.as_primitive::<Float64Type>();
+        let seconds = seconds(batch.column(0), columns.time_factor)?;
+        let times = seconds.as_primitive::<Float64Type>();
         for (place, time) in times.values().iter().enumerate() {
             row += 1;
             if times.is_valid(place) {

@@ -51,8 +51,8 @@ fn attempt(
             block = rates.next(block)?;
         }
         if !block.is_empty() {
-            let all = block.quantities.iter().map(Vec::as_slice);
-            table.write("", &block.time, all)?;
+            let quantities = block.quantities.iter().map(Vec::as_slice);
+            table.write("", &block.time, quantities)?;
             written += block.len() as u64;
         }
         going.check()?;

@@ -126,7 +126,7 @@ impl Mapping {
             None => Mapping::default(),
         };
         let n = robot.joints.len();
-        let own = |flag: &Option<String>, file: &Option<String>, default: &str| {
+        let choice = |flag: &Option<String>, file: &Option<String>, default: &str| {
             flag.clone().or(file.clone()).unwrap_or(default.to_owned())
         };
         let units = self.units.or(file.units).unwrap_or(Units::Rad);
@@ -135,8 +135,11 @@ impl Mapping {
             _ => 1.0,
         };
         let angles: Vec<f64> = robot.joints.iter().map(|joint| angle(joint.kind)).collect();
-        let constants = self.torque_constants.clone().or(file.torque_constants);
-        let constants = constants.unwrap_or_else(|| vec![1.0; n]);
+        let constants = self
+            .torque_constants
+            .clone()
+            .or(file.torque_constants)
+            .unwrap_or_else(|| vec![1.0; n]);
         length("torque constants", constants.len(), n)?;
         if constants.iter().any(|x| !x.is_finite() || *x == 0.0) {
             let why = "torque constants have to be finite and not zero";
@@ -151,7 +154,7 @@ impl Mapping {
         }
         Ok(Columns {
             joints: n,
-            time: own(&self.time, &file.time, "time"),
+            time: choice(&self.time, &file.time, "time"),
             time_factor: match self.time_unit.or(file.time_unit).unwrap_or(TimeUnit::S) {
                 TimeUnit::S => 1.0,
                 TimeUnit::Ms => 1e-3,
@@ -159,10 +162,10 @@ impl Mapping {
                 TimeUnit::Ns => 1e-9,
             },
             patterns: [
-                own(&self.position, &file.position, "q{}"),
-                own(&self.velocity, &file.velocity, "qd{}"),
-                own(&self.acceleration, &file.acceleration, "qdd{}"),
-                own(&self.effort, &file.effort, "tau{}"),
+                choice(&self.position, &file.position, "q{}"),
+                choice(&self.velocity, &file.velocity, "qd{}"),
+                choice(&self.acceleration, &file.acceleration, "qdd{}"),
+                choice(&self.effort, &file.effort, "tau{}"),
             ],
             factors: [angles.clone(), angles.clone(), angles, constants],
             motion_frequency: frequency.unwrap_or(5.0),
@@ -234,14 +237,14 @@ impl Columns {
     fn source(&self, quantity: usize, schema: &Schema) -> Result<Option<Source>, Error> {
         let mut names = self.names(quantity);
         let n = self.joints;
-        let found = |name: &String| schema.field_with_name(name).ok();
+        let field_of = |name: &String| schema.field_with_name(name).ok();
         // Without `q1` and others `q{}` is `q`, if that is a list.
         let list = self.patterns[quantity].replace("{}", "");
-        let is_list = found(&list).is_some_and(|field| item(field.data_type()).is_some());
-        if is_list && names.iter().all(|name| found(name).is_none()) {
+        let is_list = field_of(&list).is_some_and(|field| item(field.data_type()).is_some());
+        if is_list && names.iter().all(|name| field_of(name).is_none()) {
             names = vec![list];
         }
-        let Some(first) = names.iter().find_map(found) else {
+        let Some(first) = names.iter().find_map(field_of) else {
             // Rates can be differentiated.
             return match quantity {
                 1 | 2 => Ok(None),
@@ -275,7 +278,8 @@ impl Columns {
             )));
         }
         for name in &names {
-            let field = found(name).ok_or_else(|| missing(name, QUANTITIES[quantity], schema))?;
+            let field =
+                field_of(name).ok_or_else(|| missing(name, QUANTITIES[quantity], schema))?;
             if !field.data_type().is_numeric() {
                 return Err(unexpected(field, "a number"));
             }
@@ -302,9 +306,9 @@ fn unexpected(field: &Field, expected: &str) -> Error {
 
 fn missing(name: &str, quantity: &str, schema: &Schema) -> Error {
     let fields = schema.fields().iter();
-    let all: Vec<&str> = fields.map(|field| field.name().as_str()).collect();
-    let few = all[..all.len().min(12)].join(", ");
-    let more = if all.len() > 12 { ", …" } else { "" };
+    let names: Vec<&str> = fields.map(|field| field.name().as_str()).collect();
+    let few = names[..names.len().min(12)].join(", ");
+    let more = if names.len() > 12 { ", …" } else { "" };
     Error::new(format!(
         "there is no column `{name}`; there are {few}{more}: say which it is by `--{quantity}`"
     ))

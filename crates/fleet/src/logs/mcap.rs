@@ -105,8 +105,8 @@ impl<'a> Messages<'a> {
                     return Err(place(Error::new(why)));
                 }
                 let factors = &self.columns.factors[quantity];
-                let own = order.iter().zip(factors);
-                states.extend(own.map(|(from, factor)| values[*from] * factor));
+                let sources = order.iter().zip(factors);
+                states.extend(sources.map(|(from, factor)| values[*from] * factor));
             }
         }
         let count = block.len();
@@ -157,13 +157,13 @@ impl JointState {
     /// By name, or in order if the message or the robot has no names.
     fn order(&self, columns: &Columns) -> Result<Vec<usize>, Error> {
         let wanted = &columns.joint_names;
-        let own = self.names.join(", ");
+        let names = self.names.join(", ");
         if wanted.is_empty() || self.names.is_empty() {
             let count = self.joints();
             return match count == columns.joints {
                 true => Ok((0..count).collect()),
                 false => Err(Error::new(format!(
-                    "it is of {count} joints ({own}), and the robot has {}: name those of the robot by \
+                    "it is of {count} joints ({names}), and the robot has {}: name those of the robot by \
                      `--joint-names`",
                     columns.joints
                 ))),
@@ -173,13 +173,13 @@ impl JointState {
         let lost: Vec<&str> = wanted.iter().filter(is_lost).map(String::as_str).collect();
         if !lost.is_empty() {
             return Err(Error::new(format!(
-                "it has no joint {}: its joints are {own}, those of the robot {}; say which of its joints \
+                "it has no joint {}: its joints are {names}, those of the robot {}; say which of its joints \
                  are the robot's, in the robot's order, by `--joint-names`",
                 lost.join(", "),
                 wanted.join(", ")
             )));
         }
-        let place = |name: &String| self.names.iter().position(|own| own == name);
+        let place = |name: &String| self.names.iter().position(|joint| joint == name);
         Ok(wanted.iter().filter_map(place).collect())
     }
 }

@@ -69,9 +69,9 @@ impl Rates {
         self.rows.extend(&block.rows);
         self.time.extend(&block.time);
         for (joint, states) in self.states.iter_mut().enumerate() {
-            for (quantity, own) in states.iter_mut().enumerate() {
+            for (quantity, column) in states.iter_mut().enumerate() {
                 if used[quantity] && !block.is_empty() {
-                    own.extend(block.column(quantity, joint));
+                    column.extend(block.column(quantity, joint));
                 }
             }
         }
@@ -111,9 +111,9 @@ impl Rates {
             let [q, mut qd, mut qdd] = differentiate(filter, &states[0])?;
             if velocity {
                 let [smooth, slope, _] = differentiate(filter, &states[1])?;
-                for (rate, own) in qd.iter().zip(&smooth) {
+                for (rate, speed) in qd.iter().zip(&smooth) {
                     squares[0] += rate * rate;
-                    squares[1] += (own - rate).powi(2);
+                    squares[1] += (speed - rate).powi(2);
                 }
                 (qd, qdd) = (smooth, slope);
             }
@@ -124,8 +124,8 @@ impl Rates {
             for (to, from) in out.quantities.iter_mut().zip([q, qd, qdd, torque]) {
                 to.extend(from);
             }
-            for own in states.iter_mut() {
-                own.drain(..count.min(own.len()));
+            for column in states.iter_mut() {
+                column.drain(..count.min(column.len()));
             }
         }
         Ok(out)

@@ -25,8 +25,8 @@ pub struct Table {
 /// Returns the columns of a log as this program writes it.
 pub fn canonical_names(joints: usize) -> Vec<String> {
     let quantities = ["q", "qd", "qdd", "tau"].iter();
-    let each = quantities.flat_map(|name| (1..=joints).map(move |i| format!("{name}{i}")));
-    std::iter::once("time".to_owned()).chain(each).collect()
+    let names = quantities.flat_map(|name| (1..=joints).map(move |i| format!("{name}{i}")));
+    std::iter::once("time".to_owned()).chain(names).collect()
 }
 
 impl Table {
@@ -43,8 +43,9 @@ impl Table {
         compression: Compression,
     ) -> Result<Table, Error> {
         let first = file.then(|| Field::new("file", DataType::Utf8, false));
-        let numbers = names.iter();
-        let numbers = numbers.map(|name| Field::new(name, DataType::Float64, false));
+        let numbers = names
+            .iter()
+            .map(|name| Field::new(name, DataType::Float64, false));
         let fields: Vec<Field> = first.into_iter().chain(numbers).collect();
         let schema = Arc::new(Schema::new(fields));
         // Numbers of a log do not repeat, names of files do.
@@ -76,8 +77,9 @@ impl Table {
             let names = std::iter::repeat_n(file, rows);
             arrays.push(Arc::new(StringArray::from_iter_values(names)));
         }
-        let columns = quantities.into_iter();
-        let columns = columns.flat_map(|of| of.chunks_exact(rows.max(1)));
+        let columns = quantities
+            .into_iter()
+            .flat_map(|of| of.chunks_exact(rows.max(1)));
         for column in std::iter::once(time).chain(columns) {
             arrays.push(Arc::new(Float64Array::from(column.to_vec())));
         }

@@ -36,9 +36,9 @@ fn bad_files_are_named_and_skipped_only_if_asked() {
     table.close().unwrap();
     let table = Table::create(&folder.file("empty.parquet"), &names, false).unwrap();
     table.close().unwrap();
-    let (all, arm) = (folder.file("*.parquet"), robot_file("planar2r"));
+    let (pattern, arm) = (folder.file("*.parquet"), robot_file("planar2r"));
     let out = folder.file("out.parquet");
-    let base = over("residual", &all, &arm, &[]);
+    let base = over("residual", &pattern, &arm, &[]);
     let said = fails(&[&base[..], &["-o", text(&out)]].concat());
     let parts = [
         "back.parquet: row 12345: time goes back from 12.343 s to 1 s",
@@ -145,11 +145,11 @@ fn what_is_ended_leaves_nothing() {
     assert!(folder.names().is_empty(), "{:?}", folder.names());
 
     simulated(&folder, "--files 1 --exact --seconds 2000 --encoders-only");
-    let (all, out) = (folder.file("logs/*.parquet"), folder.file("out.parquet"));
+    let (pattern, out) = (folder.file("logs/*.parquet"), folder.file("out.parquet"));
     let work = folder.file("work");
     fs::create_dir(&work).unwrap();
     let more = ["-o", text(&out), "--work", text(&work)];
-    ended(&over("residual", &all, &arm, &more), &work);
+    ended(&over("residual", &pattern, &arm, &more), &work);
     assert_eq!(folder.names(), ["logs", "work"]);
     assert_eq!(fs::read_dir(&work).unwrap().count(), 0);
 }

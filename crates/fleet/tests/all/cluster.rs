@@ -23,8 +23,9 @@ struct Process(Child);
 
 impl Process {
     fn start(arguments: &[&str]) -> Process {
-        let mut command = command(arguments);
-        let command = command.stdout(Stdio::null()).stderr(Stdio::null());
+        let command = command(arguments)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null());
         Process(command.spawn().unwrap())
     }
 
@@ -77,8 +78,13 @@ impl Cluster {
             let port = ports();
             let work = folder.file(name);
             std::fs::create_dir(&work).unwrap();
-            let own = format!("127.0.0.1:{port}");
-            let at = ["--scheduler", address.as_str(), "--listen", own.as_str()];
+            let listen_address = format!("127.0.0.1:{port}");
+            let at = [
+                "--scheduler",
+                address.as_str(),
+                "--listen",
+                listen_address.as_str(),
+            ];
             let base = ["executor", "--robot", text(&arm), "--threads", "1"];
             let work_in = ["--work", text(&work)];
             let executor = Process::start(&[&base[..], &at, &work_in].concat());
@@ -95,11 +101,11 @@ impl Cluster {
 
 fn files(folder: &Path) -> usize {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let each = entries.map(|entry| match entry.path() {
+    let counts = entries.map(|entry| match entry.path() {
         path if path.is_dir() => files(&path),
         _ => 1,
     });
-    each.sum()
+    counts.sum()
 }
 
 fn has_worked(work: &Path, before: usize, client: &mut Child) {
@@ -125,7 +131,7 @@ fn a_cluster_returns_what_one_process_returns() {
     let folder = Folder::new();
     logs(&folder, 3, 40_000);
     let cluster = Cluster::start(&folder);
-    let (all, arm) = (folder.file("*.parquet"), robot_file("planar2r"));
+    let (pattern, arm) = (folder.file("*.parquet"), robot_file("planar2r"));
     let loaded = robot("planar2r", true);
     let name = RobotArgs {
         robot: arm.clone(),
@@ -133,7 +139,7 @@ fn a_cluster_returns_what_one_process_returns() {
         without_rotors: false,
     }
     .function_name(&loaded);
-    let own: Arc<dyn Dynamics> = loaded.clone();
+    let dynamics: Arc<dyn Dynamics> = loaded.clone();
     let (memory, partitions) = (1 << 30, 4);
     let limits = Limits { memory, partitions };
     let columns = Columns::canonical(2);
@@ -143,15 +149,15 @@ fn a_cluster_returns_what_one_process_returns() {
         .collect();
     let runtime = tokio::runtime::Runtime::new().unwrap();
     let [here, there] = runtime.block_on(async {
-        let here = Engine::embedded(&name, &own, limits).unwrap();
-        let there = Engine::cluster(&cluster.address, &name, &own, limits).await;
-        let mut found = Vec::new();
+        let here = Engine::embedded(&name, &dynamics, limits).unwrap();
+        let there = Engine::cluster(&cluster.address, &name, &dynamics, limits).await;
+        let mut results = Vec::new();
         for engine in [here, there.unwrap()] {
             let residuals = engine.over("_residuals", &logs, &going, |_| ()).await;
             let fits = engine.over("_fit", &logs, &going, |_| ()).await;
-            found.push((residuals.unwrap(), fits.unwrap()));
+            results.push((residuals.unwrap(), fits.unwrap()));
         }
-        <[_; 2]>::try_from(found).unwrap()
+        <[_; 2]>::try_from(results).unwrap()
     });
     let near = |x: f64, y: f64| (x - y).abs() <= 1e-12 * y.abs();
     for (here, there) in here.0.iter().zip(&there.0) {
@@ -177,14 +183,14 @@ fn a_cluster_returns_what_one_process_returns() {
         assert!(apart <= 1e-12 * size, "{apart} of {size}");
     }
     for command in ["residual", "identify"] {
-        let base = over(command, &all, &arm, &[]);
+        let base = over(command, &pattern, &arm, &[]);
         let here = succeeds(&base);
         let there = succeeds(&[&base[..], &["--scheduler", &cluster.address]].concat());
         assert_eq!(here, there);
     }
     let out = folder.file("out.parquet");
     let more = ["--scheduler", cluster.address.as_str(), "-o", text(&out)];
-    let local = fleet(&over("residual", &all, &arm, &more));
+    let local = fleet(&over("residual", &pattern, &arm, &more));
     let said = String::from_utf8_lossy(&local.stderr);
     says(&said, &["computed by this machine"]);
     assert!(out.exists());
@@ -201,13 +207,14 @@ fn executors_that_are_killed_change_no_table() {
     let folder = Folder::new();
     logs(&folder, 24, 40_000);
     let mut cluster = Cluster::start(&folder);
-    let (all, arm) = (folder.file("*.parquet"), robot_file("planar2r"));
-    let base = over("identify", &all, &arm, &[]);
+    let (pattern, arm) = (folder.file("*.parquet"), robot_file("planar2r"));
+    let base = over("identify", &pattern, &arm, &[]);
     let here = succeeds(&base);
     let there = [&base[..], &["--scheduler", &cluster.address]].concat();
     let run = || {
-        let mut command = command(&there);
-        let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        let command = command(&there)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
         command.spawn().unwrap()
     };
     let mut client = run();

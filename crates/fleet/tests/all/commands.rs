@@ -20,9 +20,9 @@ fn identification_closes_the_loop() {
     let folder = Folder::new();
     simulated(&folder, "--files 3 --seconds 12 --rate 500 --vary 0.2");
     let (old, new) = (robot_file("planar2r"), folder.file("new.toml"));
-    let seen = folder.file("logs/log000[01].parquet");
+    let training_logs = folder.file("logs/log000[01].parquet");
     let unseen = folder.file("logs/log0002.parquet");
-    let said = succeeds(&over("identify", &seen, &old, &["-o", text(&new)]));
+    let said = succeeds(&over("identify", &training_logs, &old, &["-o", text(&new)]));
     says(&said, &["std. error", "with parameters from the others"]);
     let rms = |robot: &std::path::Path| -> Vec<f64> {
         let table = succeeds(&over("residual", &unseen, robot, &[]));
@@ -36,16 +36,16 @@ fn identification_closes_the_loop() {
         assert!(after < &(0.1 * before), "{before} -> {after}");
     }
     // As right as the arm's own file: what is left is the sensors' noise.
-    let own = rms(&folder.file("logs/truth.toml"));
-    for (after, own) in after.iter().zip(&own) {
-        assert!(*after < 1.05 * own, "{after} {own}");
+    let truth_rms = rms(&folder.file("logs/truth.toml"));
+    for (after, truth) in after.iter().zip(&truth_rms) {
+        assert!(*after < 1.05 * truth, "{after} {truth}");
     }
     let generated = dalembert_jit::Arm::load(&new, &Default::default());
     assert!(generated.is_ok(), "the new file is not read");
     // Whoever edits the file keeps the edits.
     let edited = std::fs::read_to_string(&new).unwrap() + "# mine\n";
     std::fs::write(&new, &edited).unwrap();
-    let said = fails(&over("identify", &seen, &old, &["-o", text(&new)]));
+    let said = fails(&over("identify", &training_logs, &old, &["-o", text(&new)]));
     says(&said, &["new.toml: the file was edited since"]);
     assert_eq!(std::fs::read_to_string(&new).unwrap(), edited);
 }
@@ -105,17 +105,18 @@ fn tables_and_rows_are_those_of_the_states() {
     let more = ["-o", text(&out), "--svg", text(&svg), "--worst", "1"];
     let table = succeeds(&over("residual", &pattern, &arm, &more));
     for (sample, name) in samples.iter().zip(["a.parquet", "b.parquet"]) {
-        let found = rows(&table, name);
-        for (i, row) in found.iter().enumerate() {
-            let own = sample.residuals(robot.as_ref(), i);
-            let rms = (own.iter().map(|r| r * r).sum::<f64>() / own.len() as f64).sqrt();
-            let worst = own.iter().fold(0.0f64, |max, r| max.max(r.abs()));
-            let place = own.iter().position(|r| r.abs() == worst).unwrap();
+        let rows = rows(&table, name);
+        for (i, row) in rows.iter().enumerate() {
+            let residuals = sample.residuals(robot.as_ref(), i);
+            let rms =
+                (residuals.iter().map(|r| r * r).sum::<f64>() / residuals.len() as f64).sqrt();
+            let worst = residuals.iter().fold(0.0f64, |max, r| max.max(r.abs()));
+            let place = residuals.iter().position(|r| r.abs() == worst).unwrap();
             assert!((row[1] / rms - 1.0).abs() < 1e-3, "{row:?} {rms}");
             assert!((row[3] / worst - 1.0).abs() < 1e-3, "{row:?} {worst}");
             assert!((row[4] - sample.time[place]).abs() < 1e-3, "{row:?}");
         }
-        assert_eq!(found.len(), 2);
+        assert_eq!(rows.len(), 2);
     }
     says(&table, &["40000 states in 2 files"]);
     let drawn = std::fs::read_to_string(&svg).unwrap();
@@ -159,13 +160,13 @@ fn collisions_are_found_and_nothing_else() {
     let table = succeeds(&over("residual", &logs, &arm, &more));
     let (_, listed) = table.split_once("contact in").expect("contacts");
     let words = listed.lines().skip(1).map(str::split_whitespace);
-    let found: Vec<Vec<&str>> = words.map(|words| words.collect()).collect();
-    assert_eq!(found.len(), 4, "{table}");
-    for ((name, from, joint), found) in happened.iter().zip(&found) {
-        assert!(found[0].ends_with(name), "{found:?}");
-        let start: f64 = found[1].parse().unwrap();
-        assert!(start >= *from && start < from + 0.1, "{from}: {found:?}");
-        assert_eq!(found[3], joint.to_string(), "{found:?}");
+    let contacts: Vec<Vec<&str>> = words.map(|words| words.collect()).collect();
+    assert_eq!(contacts.len(), 4, "{table}");
+    for ((name, from, joint), contact) in happened.iter().zip(&contacts) {
+        assert!(contact[0].ends_with(name), "{contact:?}");
+        let start: f64 = contact[1].parse().unwrap();
+        assert!(start >= *from && start < from + 0.1, "{from}: {contact:?}");
+        assert_eq!(contact[3], joint.to_string(), "{contact:?}");
     }
 }
 
@@ -189,7 +190,7 @@ fn a_payload_is_found() {
         "SELECT arm_rms({columns}), arm_fit({columns}) FROM log GROUP BY time >= 10 \
          ORDER BY time >= 10"
     );
-    let found = tokio::runtime::Runtime::new().unwrap().block_on(async {
+    let batch = tokio::runtime::Runtime::new().unwrap().block_on(async {
         let log = folder.file("logs/log0000.parquet");
         let read = ParquetReadOptions::default();
         let registered = context.register_parquet("log", text(&log), read);
@@ -197,21 +198,25 @@ fn a_payload_is_found() {
         let batches = context.sql(&sql).await.unwrap().collect().await.unwrap();
         concat_batches(&batches[0].schema(), &batches).unwrap()
     });
-    let rms = found.column(0).as_fixed_size_list().values().clone();
-    let rms = rms.as_primitive::<Float64Type>().values();
-    let fits = found.column(1).as_binary::<i32>();
+    let rows = batch.column(0).as_fixed_size_list().values().clone();
+    let rms = rows.as_primitive::<Float64Type>().values();
+    let fits = batch.column(1).as_binary::<i32>();
     for half in 0..2 {
         assert!(rms[2 + half] > 10.0 * rms[half], "{rms:?}");
-        let found = fitted(model, fits.value(half));
+        let fit = fitted(model, fits.value(half));
         let away = |right: &[f64]| -> f64 {
-            let parts = found.parameters.iter().zip(right);
-            let parts = parts.zip(&found.standard_errors);
+            let parts = fit.parameters.iter().zip(right).zip(&fit.standard_errors);
             let squares = parts.map(|((x, right), error)| ((x - right) / error).powi(2));
             (squares.sum::<f64>() / right.len() as f64).sqrt()
         };
-        let [own, other] = [away(right[half]), away(right[1 - half])];
-        println!("half {half}: {own:.2} standard errors from its own, {other:.1} from the other");
-        assert!(own < 3.0 && other > 10.0 * own, "{own} {other}");
+        let [distance, other] = [away(right[half]), away(right[1 - half])];
+        println!(
+            "half {half}: {distance:.2} standard errors from its own, {other:.1} from the other"
+        );
+        assert!(
+            distance < 3.0 && other > 10.0 * distance,
+            "{distance} {other}"
+        );
     }
 }
 

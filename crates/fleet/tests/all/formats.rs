@@ -33,8 +33,10 @@ fn rows_with_a_null_are_left_out() {
     let columns = quantities.flat_map(|of| of.chunks_exact(count));
     let columns = columns.map(|column| -> ArrayRef {
         // More than are read at once.
-        let some = column.iter().enumerate();
-        let some = some.map(|(row, x)| (row >= 8500).then_some(*x));
+        let some = column
+            .iter()
+            .enumerate()
+            .map(|(row, x)| (row >= 8500).then_some(*x));
         Arc::new(some.collect::<Float64Array>())
     });
     let time: ArrayRef = Arc::new(Float64Array::from(sample.time.clone()));
@@ -72,8 +74,8 @@ fn columns_and_units_are_the_logs() {
             columns.push(values.map(|x| x * factor).collect());
         }
     }
-    let all = columns.iter().map(Vec::as_slice);
-    table.write("", &stamps, all).unwrap();
+    let slices = columns.iter().map(Vec::as_slice);
+    table.write("", &stamps, slices).unwrap();
     table.close().unwrap();
     let mapping = folder.file("mapping.toml");
     let flags = "time = 'stamp'\ntime-unit = 'ms'\nposition = 'pa, pb'\nvelocity = 'va,vb'\n\
@@ -156,28 +158,31 @@ fn lists_of_any_length_are_read() {
     let sample = Sample::new(robot("planar2r", false).as_ref(), count, 14);
     sample.write(&folder.file("plain.parquet"));
     let row = |quantity: usize, s: usize| -> Row {
-        let each = (0..2).map(|i| Some(sample.column(quantity, i)[s]));
-        each.collect()
+        let entries = (0..2).map(|i| Some(sample.column(quantity, i)[s]));
+        entries.collect()
     };
     let written = |name: &str, change: &dyn Fn(usize, &mut Option<Row>)| {
         let time: ArrayRef = Arc::new(Float64Array::from(sample.time.clone()));
-        let columns = ["q", "qd", "qdd", "tau"].into_iter().enumerate();
-        let columns = columns.map(|(quantity, name)| {
-            let rows = (0..count).map(|s| {
-                let mut own = Some(row(quantity, s));
-                if quantity == 0 {
-                    change(s, &mut own);
-                }
-                own
+        let columns = ["q", "qd", "qdd", "tau"]
+            .into_iter()
+            .enumerate()
+            .map(|(quantity, name)| {
+                let rows: Vec<_> = (0..count)
+                    .map(|s| {
+                        let mut list = Some(row(quantity, s));
+                        if quantity == 0 {
+                            change(s, &mut list);
+                        }
+                        list
+                    })
+                    .collect();
+                type Large = LargeListArray;
+                let lists: ArrayRef = match quantity % 2 {
+                    0 => Arc::new(ListArray::from_iter_primitive::<Float64Type, _, _>(rows)),
+                    _ => Arc::new(Large::from_iter_primitive::<Float64Type, _, _>(rows)),
+                };
+                (name, lists)
             });
-            let rows: Vec<_> = rows.collect();
-            type Large = LargeListArray;
-            let lists: ArrayRef = match quantity % 2 {
-                0 => Arc::new(ListArray::from_iter_primitive::<Float64Type, _, _>(rows)),
-                _ => Arc::new(Large::from_iter_primitive::<Float64Type, _, _>(rows)),
-            };
-            (name, lists)
-        });
         let columns = std::iter::once(("time", time)).chain(columns);
         let path = folder.file(name);
         write(&path, &RecordBatch::try_from_iter(columns).unwrap());
@@ -193,17 +198,17 @@ fn lists_of_any_length_are_read() {
         let said = succeeds(&over("residual", &lists, &arm, more));
         assert_eq!(rows(&said, "lists.parquet"), rows(&plain, "plain.parquet"));
     }
-    let short = written("short.parquet", &|s, own| {
-        if let (17, Some(own)) = (s, own) {
-            own.pop();
+    let short = written("short.parquet", &|s, list| {
+        if let (17, Some(numbers)) = (s, list) {
+            numbers.pop();
         }
     });
     let why = fails(&over("residual", &short, &arm, &[]));
     let wanted = "short.parquet: row 18: column `q` has 1 numbers; expected 2";
     says(&why, &[wanted]);
-    let gaps = written("gaps.parquet", &|s, own| match (s % 100, own) {
-        (3, own) => *own = None,
-        (4, Some(own)) => own[1] = None,
+    let gaps = written("gaps.parquet", &|s, list| match (s % 100, list) {
+        (3, list) => *list = None,
+        (4, Some(numbers)) => numbers[1] = None,
         _ => {}
     });
     let said = succeeds(&over("residual", &gaps, &arm, &[]));
@@ -224,8 +229,8 @@ fn without_accelerations(log: &Path, to: &Path, factor: Option<f64>) {
         } = block.unwrap();
         let [q, qd, _, tau] = quantities;
         let scaled = factor.map(|factor| qd.iter().map(|qd| factor * qd).collect::<Vec<f64>>());
-        let columns = [Some(q), scaled, Some(tau)];
-        let columns = columns.iter().flatten().map(Vec::as_slice);
+        let vectors = [Some(q), scaled, Some(tau)];
+        let columns = vectors.iter().flatten().map(Vec::as_slice);
         table.write("", &time, columns).unwrap();
     }
     table.close().unwrap();

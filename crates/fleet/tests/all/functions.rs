@@ -38,8 +38,8 @@ fn table(sample: &Sample, joints: usize, batch: usize, partitions: usize) -> Mem
     columns.push(("half".to_owned(), half));
     for (quantity, name) in NAMES.iter().enumerate() {
         for i in 0..joints {
-            let own = numbers(sample.column(quantity, i));
-            columns.push((format!("{name}{}", i + 1), own));
+            let column = numbers(sample.column(quantity, i));
+            columns.push((format!("{name}{}", i + 1), column));
         }
         columns.push(((*name).into(), lists(sample, quantity, joints, false)));
         columns.push((format!("{name}_f32"), lists(sample, quantity, joints, true)));
@@ -96,18 +96,18 @@ fn columns_and_lists_give_the_robots_own_torques() {
          arm_residual(q, qd1, qd2, qdd, tau), arm_residual(q_f32, qd_f32, qdd_f32, tau_f32), \
          arm_inverse_dynamics({COLUMNS}) FROM logs"
     );
-    let found = query(&context, &sql).unwrap();
+    let batch = query(&context, &sql).unwrap();
     let wanted = [0, 1].map(|i| sample.residuals(robot.as_ref(), i));
     for (column, bound) in [(0, 0.0), (1, 0.0), (2, 0.0), (3, 2e-4)] {
-        let found = floats(found.column(column));
-        for (s, own) in found.chunks(2).enumerate() {
+        let residuals = floats(batch.column(column));
+        for (s, row) in residuals.chunks(2).enumerate() {
             for i in 0..2 {
-                let error = (own[i] - wanted[i][s]).abs();
+                let error = (row[i] - wanted[i][s]).abs();
                 assert!(error <= bound, "column {column}, state {s}, {i}: {error}");
             }
         }
     }
-    let torque = floats(found.column(4))[7];
+    let torque = floats(batch.column(4))[7];
     let other = sample.column(3, 1)[3] - wanted[1][3];
     assert!((torque - other).abs() < 1e-12, "{torque} {other}");
 }
@@ -119,13 +119,13 @@ fn nulls_propagate_in_functions_and_are_skipped_by_aggregates() {
     let context = context(&robot, table(&sample, 2, 300, 1), 1);
     let some = "CASE WHEN time < 0.3 THEN NULL ELSE qd2 END";
     let sql = format!("SELECT arm_residual(q, qd1, {some}, qdd, tau) AS r FROM logs");
-    let found = query(&context, &sql).unwrap();
-    assert_eq!(found.column(0).null_count(), 300);
-    assert!(found.column(0).is_null(299) && found.column(0).is_valid(300));
+    let batch = query(&context, &sql).unwrap();
+    assert_eq!(batch.column(0).null_count(), 300);
+    assert!(batch.column(0).is_null(299) && batch.column(0).is_valid(300));
     let rms = |arguments: &str, from: &str| {
         let sql = format!("SELECT arm_rms({arguments}) FROM {from}");
-        let found = query(&context, &sql).unwrap();
-        (found.column(0).is_null(0), floats(found.column(0)))
+        let result = query(&context, &sql).unwrap();
+        (result.column(0).is_null(0), floats(result.column(0)))
     };
     let skipped = rms(&format!("q, qd1, {some}, qdd, tau"), "logs");
     let without = rms("q, qd, qdd, tau", "(SELECT * FROM logs WHERE time >= 0.3)");
@@ -220,31 +220,31 @@ fn aggregates_do_not_depend_on_partitions() {
         let context = context(&robot, table(&sample, 2, batch, partitions), partitions);
         let sql = "SELECT arm_rms(q, qd, qdd, tau), arm_residuals(time, q, qd, qdd, tau), \
                    arm_fit(q, qd, qdd, tau) FROM logs";
-        let found = query(&context, sql).unwrap();
-        let rms = floats(found.column(0));
-        let all = Residuals::from_bytes(bytes(found.column(1))).unwrap();
+        let output = query(&context, sql).unwrap();
+        let rms = floats(output.column(0));
+        let residuals = Residuals::from_bytes(bytes(output.column(1))).unwrap();
         let model = robot.model().unwrap();
-        let parameters = fitted(model, bytes(found.column(2))).parameters;
+        let parameters = fitted(model, bytes(output.column(2))).parameters;
         for (i, rms) in rms.iter().enumerate() {
-            let own = sample.residuals(robot.as_ref(), i);
-            let wanted = (own.iter().map(|r| r * r).sum::<f64>() / 5000.0).sqrt();
+            let joint_residuals = sample.residuals(robot.as_ref(), i);
+            let wanted = (joint_residuals.iter().map(|r| r * r).sum::<f64>() / 5000.0).sqrt();
             assert!((rms - wanted).abs() < 1e-12 * wanted, "{rms} {wanted}");
-            assert!((all.rms(i) - wanted).abs() < 1e-12 * wanted);
-            let mut sizes: Vec<f64> = own.iter().map(|r| r.abs()).collect();
+            assert!((residuals.rms(i) - wanted).abs() < 1e-12 * wanted);
+            let mut sizes: Vec<f64> = joint_residuals.iter().map(|r| r.abs()).collect();
             let worst = sizes.iter().copied().fold(0.0, f64::max);
-            assert_eq!(all.joints()[i].worst, worst);
+            assert_eq!(residuals.joints()[i].worst, worst);
             let place = sizes.iter().position(|size| *size == worst).unwrap();
-            assert_eq!(all.joints()[i].time, sample.time[place]);
+            assert_eq!(residuals.joints()[i].time, sample.time[place]);
             sizes.sort_by(f64::total_cmp);
-            let quantile = all.quantile(i, 0.99);
+            let quantile = residuals.quantile(i, 0.99);
             let off = quantile / sizes[4949] - 1.0;
             assert!(off.abs() < 8e-3, "{quantile} {}", sizes[4949]);
         }
         let Some((_, one, others)) = &first else {
-            first = Some((rms, all, parameters));
+            first = Some((rms, residuals, parameters));
             continue;
         };
-        assert_eq!(one.quantile(0, 0.9), all.quantile(0, 0.9));
+        assert_eq!(one.quantile(0, 0.9), residuals.quantile(0, 0.9));
         let size = others.iter().map(|x| x * x).sum::<f64>().sqrt();
         let parts = parameters.iter().zip(others);
         let apart = parts.map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt();
@@ -259,19 +259,24 @@ fn fits_by_machine_code_are_those_of_the_library() {
         let n = robot.joints();
         let sample = Sample::new(robot.as_ref(), 600, 6);
         let context = context(&robot, table(&sample, n, 250, 2), 2);
-        let found = query(&context, "SELECT arm_fit(q, qd, qdd, tau) FROM logs").unwrap();
+        let batch = query(&context, "SELECT arm_fit(q, qd, qdd, tau) FROM logs").unwrap();
         let model = robot.model().unwrap();
-        let kept = fitted(model, bytes(found.column(0)));
-        let mut own = Accumulator::new(model);
+        let kept = fitted(model, bytes(batch.column(0)));
+        let mut accumulator = Accumulator::new(model);
         for s in 0..sample.count {
             let at =
                 |quantity| -> Vec<f64> { (0..n).map(|i| sample.column(quantity, i)[s]).collect() };
-            own.add(model, [&at(0), &at(1), &at(2)], &at(3)).unwrap();
+            accumulator
+                .add(model, [&at(0), &at(1), &at(2)], &at(3))
+                .unwrap();
         }
         assert_eq!(kept.states, 600);
-        let own = fit(model, &own).unwrap();
-        let parts = kept.parameters.iter().zip(&own.parameters);
-        let parts = parts.zip(&own.standard_errors);
+        let fit = fit(model, &accumulator).unwrap();
+        let parts = kept
+            .parameters
+            .iter()
+            .zip(&fit.parameters)
+            .zip(&fit.standard_errors);
         for (k, ((x, y), error)) in parts.enumerate() {
             let what = model.name(k);
             assert!((x - y).abs() <= 1e-8 * error, "{name}, {what}: {x} {y}");
@@ -290,9 +295,9 @@ fn generated_functions_are_registered() {
     let values = [&generated, &loaded].map(|robot| {
         let context = context(robot, table(&sample, 2, 256, 2), 2);
         let sql = "SELECT arm_residual(q, qd, qdd, tau), 1 FROM logs ORDER BY time";
-        let own = floats(query(&context, sql).unwrap().column(0));
-        let found = query(&context, "SELECT arm_fit(q, qd, qdd, tau) FROM logs").unwrap();
-        (own, fitted(&model, bytes(found.column(0))).parameters)
+        let residuals = floats(query(&context, sql).unwrap().column(0));
+        let batch = query(&context, "SELECT arm_fit(q, qd, qdd, tau) FROM logs").unwrap();
+        (residuals, fitted(&model, bytes(batch.column(0))).parameters)
     });
     for (x, y) in values[0].0.iter().zip(&values[1].0) {
         assert!((x - y).abs() < 1e-12, "{x} {y}");

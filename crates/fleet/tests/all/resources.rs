@@ -38,7 +38,7 @@ fn memory_does_not_grow_with_the_states() {
         std::fs::hard_link(&log, folder.file(&format!("logs/log000{k}.parquet"))).unwrap();
     }
     for command in ["residual", "identify"] {
-        let [one, all] = ["logs/log0000.parquet", "logs/*.parquet"].map(|logs| {
+        let [one, eight] = ["logs/log0000.parquet", "logs/*.parquet"].map(|logs| {
             let logs = folder.file(logs);
             peak(&over(
                 command,
@@ -47,8 +47,8 @@ fn memory_does_not_grow_with_the_states() {
                 &["--memory", "64M"],
             ))
         });
-        println!("{command}: {one} KiB, of eight times as many states {all} KiB");
-        assert!(all < one + (24 << 10), "{command}: {one} {all}");
+        println!("{command}: {one} KiB, of eight times as many states {eight} KiB");
+        assert!(eight < one + (24 << 10), "{command}: {one} {eight}");
     }
 }
 
@@ -56,12 +56,15 @@ fn memory_does_not_grow_with_the_states() {
 #[cfg(target_os = "linux")]
 fn peak(arguments: &[&str]) -> u64 {
     let mut command = crate::support::command(arguments);
-    let command = command.stdout(std::process::Stdio::null());
-    let mut child = command.stderr(std::process::Stdio::null()).spawn().unwrap();
+    let mut child = command
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
     let mut peak = 0;
     loop {
-        let status = std::fs::read_to_string(format!("/proc/{}/status", child.id()));
-        let status = status.unwrap_or_default();
+        let status =
+            std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
         let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
         let size = line.and_then(|line| line.split_whitespace().next()?.parse().ok());
         peak = size.unwrap_or(0).max(peak);

@@ -78,16 +78,19 @@ fn record(log: &Path, to: &Path, joints: &Joints, is_little: bool) {
         let header = header(channel_id, (time * 1e9) as u64);
         writer.write_to_known_channel(&header, data).unwrap();
     };
-    let names = joints.iter().map(|(name, _)| *name);
-    let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
+    let names: Vec<&str> = joints
+        .iter()
+        .map(|(name, _)| *name)
+        .filter(|name| !name.is_empty())
+        .collect();
     let columns = Columns::canonical(2);
     for block in Blocks::open(log, &columns).unwrap() {
         let block = block.unwrap();
         for (s, time) in block.time.iter().enumerate() {
             let at = |of| -> Vec<f64> {
                 let value = |joint| block.column(of, joint)[s];
-                let each = joints.iter().map(|(_, joint)| joint.map_or(0.5, value));
-                each.collect()
+                let entries = joints.iter().map(|(_, joint)| joint.map_or(0.5, value));
+                entries.collect()
             };
             let data = message(*time, &names, [&at(0), &[], &at(3)], is_little);
             put(other, *time, b"\0\x01\0\0");
@@ -109,10 +112,10 @@ fn joints_of_other_names_are_refused() {
         "it has no joint shoulder, elbow: its joints are b, a, those of the robot shoulder, elbow";
     says(&why, &[said, "--joint-names"]);
     record(&log, &path, &[("", Some(0)), ("", Some(1))], true);
-    let found = rows(&succeeds(&residual), "log.mcap");
+    let unnamed_rows = rows(&succeeds(&residual), "log.mcap");
     let named = over("residual", &path, &arm, &["--joint-names", "a,b"]);
     record(&log, &path, &[("b", Some(1)), ("a", Some(0))], true);
-    assert_eq!(found, rows(&succeeds(&named), "log.mcap"));
+    assert_eq!(unnamed_rows, rows(&succeeds(&named), "log.mcap"));
 }
 
 #[test]
@@ -145,11 +148,11 @@ fn recordings_give_what_parquet_files_give() {
         record(&log, &path, &joints, is_little);
         let base = over("residual", &path, &arm, &[]);
         let named = [&base[..], &["--joint-names", "a,b"]].concat();
-        let found = rows(&succeeds(&named), "log.mcap");
-        assert_eq!(found.len(), 2);
-        for (found, wanted) in found.iter().zip(&wanted) {
-            for (x, y) in found.iter().zip(wanted) {
-                assert!((x - y).abs() <= 2e-3 * y.abs(), "{found:?} {wanted:?}");
+        let rows = rows(&succeeds(&named), "log.mcap");
+        assert_eq!(rows.len(), 2);
+        for (row, wanted) in rows.iter().zip(&wanted) {
+            for (x, y) in row.iter().zip(wanted) {
+                assert!((x - y).abs() <= 2e-3 * y.abs(), "{row:?} {wanted:?}");
             }
         }
         says(&fails(&base), &["--joint-names", "b, gripper, a"]);

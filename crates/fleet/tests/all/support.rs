@@ -38,8 +38,9 @@ impl Folder {
 
     pub fn names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(&self.0).unwrap();
-        let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
-        let mut names: Vec<String> = names.collect();
+        let mut names: Vec<String> = entries
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
         names.sort();
         names
     }
@@ -63,8 +64,8 @@ impl Sample {
         let n = robot.joints();
         let mut random = Random::new(seed);
         let mut draw = |largest: f64| -> Vec<f64> {
-            let each = (0..n * count).map(|_| within(&mut random, largest));
-            each.collect()
+            let draws = (0..n * count).map(|_| within(&mut random, largest));
+            draws.collect()
         };
         let [q, qd, qdd, mut noise] = [3.0, 2.0, 5.0, 1.0].map(&mut draw);
         let mut sample = Sample {
@@ -93,16 +94,16 @@ impl Sample {
 
     pub fn residuals(&self, robot: &dyn Dynamics, joint: usize) -> Vec<f64> {
         let tau = self.torques(robot);
-        let own = tau[joint * self.count..].iter();
+        let torques = tau[joint * self.count..].iter();
         let measured = self.column(3, joint).iter();
-        measured.zip(own).map(|(x, y)| x - y).collect()
+        measured.zip(torques).map(|(x, y)| x - y).collect()
     }
 
     pub fn write(&self, path: &Path) {
         let n = self.quantities[0].len() / self.count;
         let mut table = Table::create(path, &canonical_names(n), false).unwrap();
-        let all = self.quantities.iter().map(Vec::as_slice);
-        table.write("", &self.time, all).unwrap();
+        let quantities = self.quantities.iter().map(Vec::as_slice);
+        table.write("", &self.time, quantities).unwrap();
         table.close().unwrap();
     }
 }
@@ -179,9 +180,9 @@ pub fn text(path: &Path) -> &str {
 pub fn rows(table: &str, name: &str) -> Vec<Vec<f64>> {
     let lines = table.lines().filter_map(|line| {
         let mut words = line.split_whitespace();
-        let own = words.next()?.ends_with(name);
+        let is_match = words.next()?.ends_with(name);
         let numbers: Result<Vec<f64>, _> = words.map(str::parse).collect();
-        own.then_some(numbers.ok()).flatten()
+        is_match.then_some(numbers.ok()).flatten()
     });
     lines.collect()
 }

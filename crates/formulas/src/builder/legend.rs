@@ -13,14 +13,14 @@ impl Builder<'_> {
     /// Lists the symbols that occur, constants first, then base parameters, then the file's.
     pub(super) fn legend(&self, sections: &[Section]) -> Legend {
         let mut legend = Legend::default();
-        let mut seen: BTreeSet<String> = BTreeSet::new();
+        let mut codes: BTreeSet<String> = BTreeSet::new();
         for line in sections.iter().flat_map(|section| &section.lines) {
-            see(&line.sum, &mut seen);
+            see(&line.sum, &mut codes);
         }
         let names = self.names(self.constants_table());
         for (place, form) in self.shared.forms.iter().enumerate() {
             let sum = names.form(form);
-            see(&sum, &mut seen);
+            see(&sum, &mut codes);
             legend.constants.push(Entry {
                 symbol: SharedConstants::symbol(place),
                 sum,
@@ -35,9 +35,9 @@ impl Builder<'_> {
         };
         for table in &self.tables[1..] {
             for (definition, (_, value)) in table.definitions.iter().zip(&table.parameters) {
-                if seen.contains(&definition.symbol.code) && !is_of_file(&definition.symbol) {
+                if codes.contains(&definition.symbol.code) && !is_of_file(&definition.symbol) {
                     let sum = of_file.form(&form_of(&definition.value));
-                    see(&sum, &mut seen);
+                    see(&sum, &mut codes);
                     legend.parameters.push(Entry {
                         symbol: definition.symbol.clone(),
                         sum,
@@ -55,7 +55,7 @@ impl Builder<'_> {
         entries.sort_by_key(|entry| entry.row);
         for entry in entries
             .into_iter()
-            .filter(|entry| seen.contains(&entry.symbol.code))
+            .filter(|entry| codes.contains(&entry.symbol.code))
         {
             legend.entry(self.label(entry.row), entry);
         }
@@ -82,13 +82,13 @@ impl Builder<'_> {
 }
 
 /// Notes the symbols of a sum, by their identifiers.
-fn see(sum: &[Term], seen: &mut BTreeSet<String>) {
+fn see(sum: &[Term], codes: &mut BTreeSet<String>) {
     for factor in sum.iter().flat_map(|term| &term.factors) {
         match factor {
             Factor::Symbol(symbol, _) => {
-                seen.insert(symbol.code.clone());
+                codes.insert(symbol.code.clone());
             }
-            Factor::Sum(sum) => see(sum, seen),
+            Factor::Sum(sum) => see(sum, codes),
             Factor::Number(_) | Factor::Exact(_) | Factor::Wave(..) => {}
         }
     }

@@ -41,7 +41,7 @@ impl Inventory {
         let posed = arm.chain(&arm.arm);
         let coefficients = arm.coefficients(&setup, &posed, &posed.chain)?;
         let mut distinct: Vec<(Entry, &Polynomial)> = Vec::new();
-        let mut all = Vec::new();
+        let mut inventory = Vec::new();
         for (entry, polynomial) in entries(&coefficients) {
             let mut earlier = distinct
                 .iter()
@@ -62,9 +62,9 @@ impl Inventory {
                     }
                 }
             };
-            all.push((entry, value));
+            inventory.push((entry, value));
         }
-        Ok(Inventory(all))
+        Ok(Inventory(inventory))
     }
 
     /// Counts the coefficients of one quantity: all, those that vanish, and the others, with equal and

@@ -130,8 +130,9 @@ impl Definitions {
                 }
             }
             let inertias = || {
-                let all = self.arm.parameters.iter().enumerate();
-                all.filter(|(_, moment)| of_row(&moment.row, row) && is_inertia(&moment.symbol))
+                let parameters = self.arm.parameters.iter().enumerate();
+                parameters
+                    .filter(|(_, moment)| of_row(&moment.row, row) && is_inertia(&moment.symbol))
             };
             let largest = inertias()
                 .map(|(_, moment)| moment.value.magnitude())
@@ -289,7 +290,7 @@ fn alive(
     let powers: Vec<Quadratic> = parameters
         .map(|parameter| definitions.in_one(parameter, candidate.place))
         .collect();
-    let mut found: Vec<(Number, Alive)> = Vec::new();
+    let mut roots: Vec<(Number, Alive)> = Vec::new();
     for (entry, conditions) in living {
         let Some(root) = common_root(conditions, &powers, &candidate.value) else {
             continue;
@@ -299,12 +300,12 @@ fn alive(
         if part >= FAR {
             continue;
         }
-        match found
+        match roots
             .iter_mut()
             .find(|(other, _)| other.residue() == root.residue())
         {
             Some((_, alive)) => alive.entries.push(entry.clone()),
-            None => found.push((
+            None => roots.push((
                 root,
                 Alive {
                     symbol: candidate.symbol.clone(),
@@ -316,7 +317,7 @@ fn alive(
             )),
         }
     }
-    found.into_iter().map(|(_, alive)| alive).collect()
+    roots.into_iter().map(|(_, alive)| alive).collect()
 }
 
 /// Returns the value at which all conditions hold: zero, or the root of one that is linear.
@@ -332,8 +333,10 @@ fn common_root(conditions: &[Condition], powers: &[Quadratic], now: &Number) -> 
         })
         .collect();
     let at = |[c, b, a]: &Quadratic, x: &Number| c.add(&x.mul(&b.add(&a.mul(x))));
-    let linear = sums.iter().find(|[_, b, a]| a.is_zero() && !b.is_zero());
-    let linear = linear.and_then(|[c, b, _]| c.neg().over(b));
+    let linear = sums
+        .iter()
+        .find(|[_, b, a]| a.is_zero() && !b.is_zero())
+        .and_then(|[c, b, _]| c.neg().over(b));
     let roots = [Some(Number::zero()), linear].into_iter().flatten();
     let common = roots.filter(|x| sums.iter().all(|sum| at(sum, x).is_zero()));
     let change = |x: &Number| now.sub(x).magnitude();

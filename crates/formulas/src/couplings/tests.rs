@@ -46,14 +46,14 @@ fn facts_are_needed_and_suffice() {
         let robot = read(path);
         let setup = Setup::whole(&robot);
         let mut finder = Finder::new(&setup).unwrap();
-        let all = finder.facts.clone();
+        let arm_facts = finder.facts.clone();
         let in_numbers = finder.in_numbers.clone();
         for (entry, _) in entries(&in_numbers).iter().filter(|(_, x)| x.is_zero()) {
-            let is_of_geometry = finder.zeros(&all).contains(entry);
+            let is_of_geometry = finder.zeros(&arm_facts).contains(entry);
             if !is_of_geometry || finder.zeros(&[]).contains(entry) {
                 continue;
             }
-            let kept = fewest(&all, |facts| finder.zeros(facts).contains(entry));
+            let kept = fewest(&arm_facts, |facts| finder.zeros(facts).contains(entry));
             // Other facts may be anything.
             assert!(finder.zeros(&kept).contains(entry), "{path}: {entry:?}");
             for fact in &kept {

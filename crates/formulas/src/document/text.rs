@@ -139,11 +139,12 @@ impl Formulas {
 
     fn sums(&self) -> Vec<(&'static str, &[Entry])> {
         let legend = &self.legend;
-        let all = [
+        let groups = [
             (CONSTANTS, legend.constants.as_slice()),
             (BASE_PARAMETERS, legend.parameters.as_slice()),
         ];
-        all.into_iter()
+        groups
+            .into_iter()
             .filter(|(_, entries)| !entries.is_empty())
             .collect()
     }

@@ -42,8 +42,9 @@ fn general_arms_have_the_relations_of_every_arm() {
 fn the_relations_are_named() {
     let inventory = Inventory::new(&general(&["revolute", "prismatic", "revolute"])).unwrap();
     let value = |name: &str| {
-        let mut all = inventory.0.iter();
-        all.find(|(entry, _)| entry.name().text == name)
+        let mut entries = inventory.0.iter();
+        entries
+            .find(|(entry, _)| entry.name().text == name)
             .unwrap()
             .1
             .clone()
@@ -199,31 +200,42 @@ fn a_change_of_what_a_reason_names_makes_couplings() {
     // Axis 6 is principal of link 6, in the xz plane.
     let product = appeared(&|robot| robot.joints[5].inertia.xz = small(3));
     let body = Couplings::new(&puma).unwrap();
-    let named = body.zeros.iter().filter(|zero| match &zero.reason {
-        Reason::Body { conditions, .. } => conditions
-            .iter()
-            .any(|own| own.contains("axis 6 is a principal axis")),
-        _ => false,
-    });
-    let named: Vec<String> = named.map(|zero| zero.entry.name().text).collect();
+    let named: Vec<String> = body
+        .zeros
+        .iter()
+        .filter(|zero| match &zero.reason {
+            Reason::Body { conditions, .. } => conditions
+                .iter()
+                .any(|condition| condition.contains("axis 6 is a principal axis")),
+            _ => false,
+        })
+        .map(|zero| zero.entry.name().text)
+        .collect();
     assert_eq!(product, named);
     // Its moments across the axis.
     let moment = appeared(&|robot| robot.joints[5].inertia.xx += small(5));
-    let named = body.zeros.iter().filter(|zero| match &zero.reason {
-        Reason::Body { conditions, .. } => {
-            conditions.iter().any(|own| own.contains("equal moments"))
-        }
-        _ => false,
-    });
-    let named: Vec<String> = named.map(|zero| zero.entry.name().text).collect();
+    let named: Vec<String> = body
+        .zeros
+        .iter()
+        .filter(|zero| match &zero.reason {
+            Reason::Body { conditions, .. } => conditions
+                .iter()
+                .any(|condition| condition.contains("equal moments")),
+            _ => false,
+        })
+        .map(|zero| zero.entry.name().text)
+        .collect();
     assert_eq!(moment, named);
     // Axes 2 and 3 are parallel; of gravity the first joint feels nothing.
     let twist = Angle::Radians(Rational::new(1.into(), 10.into()));
     let turned = appeared(&|robot| robot.joints[1].alpha = twist.clone());
     for name in ["h_213", "h_312", "h_236", "h_623"] {
-        assert!(turned.iter().any(|own| own == name), "{name}: {turned:?}");
+        assert!(
+            turned.iter().any(|entry| entry == name),
+            "{name}: {turned:?}"
+        );
     }
-    assert!(!turned.iter().any(|own| own == "c_1"));
+    assert!(!turned.iter().any(|entry| entry == "c_1"));
     assert_eq!(appeared(&|robot| robot.gravity[0] = small(100)), ["c_1"]);
 }
 
@@ -267,7 +279,11 @@ fn near_misses_are_found() {
         (nearest.symbol.code.as_str(), nearest.vanishing),
         ("z5", 0.0)
     );
-    let entries: Vec<String> = nearest.entries.iter().map(|own| own.name().text).collect();
+    let entries: Vec<String> = nearest
+        .entries
+        .iter()
+        .map(|entry| entry.name().text)
+        .collect();
     assert_eq!(entries, ["D_45", "h_455"]);
     // One small number alone does it.
     assert!(near.small.is_none());

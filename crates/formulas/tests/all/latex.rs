@@ -18,7 +18,10 @@ fn documents_compile() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let quantities: Vec<Quantity> = Quantity::all().into_iter().map(|(_, own)| own).collect();
+    let quantities: Vec<Quantity> = Quantity::all()
+        .into_iter()
+        .map(|(_, quantity)| quantity)
+        .collect();
     let names = [
         "generated/robots/puma560",
         "codegen/tests/data/rprpr",

@@ -47,7 +47,7 @@ impl Module {
                 continue;
             } else if right.starts_with('[') {
                 let entries = right.split(|c: char| "[], ".contains(c));
-                for (place, entry) in entries.filter(|own| !own.is_empty()).enumerate() {
+                for (place, entry) in entries.filter(|entry| !entry.is_empty()).enumerate() {
                     let from = module.places[entry];
                     let to = module.place(&format!("{name}[{place}]"));
                     module.lines.push((to, vec![Step::Load(from)]));
@@ -78,10 +78,10 @@ impl Module {
     }
 
     /// Runs the module from these values of its symbols.
-    pub fn run(&self, given: &HashMap<String, f64>) -> Values<'_> {
+    pub fn run(&self, inputs: &HashMap<String, f64>) -> Values<'_> {
         let mut values = vec![f64::NAN; self.places.len()];
         values[self.places["pi"]] = std::f64::consts::PI;
-        for (name, value) in given {
+        for (name, value) in inputs {
             if let Some(place) = self.places.get(name) {
                 values[*place] = *value;
             }
@@ -204,8 +204,11 @@ impl Reader<'_> {
     fn rational(&mut self) {
         let (inside, rest) = self.rest[1..].split_once(')').unwrap();
         self.rest = rest;
-        let parts = inside.trim_matches('\'').split([',', '/']);
-        let parts: Vec<f64> = parts.map(|x| x.trim().parse().unwrap()).collect();
+        let parts: Vec<f64> = inside
+            .trim_matches('\'')
+            .split([',', '/'])
+            .map(|x| x.trim().parse().unwrap())
+            .collect();
         self.steps
             .push(Step::Push(parts[0] / parts.get(1).copied().unwrap_or(1.0)));
     }

@@ -54,7 +54,7 @@ fn large_entries_are_written_by_rows() {
     let formulas = formulas(&robot, Style::Names, &COEFFICIENTS[..1]);
     assert!(formulas.sections[0].title.starts_with("Rows of the axes"));
     let sizes = formulas.sections.iter().flat_map(|section| &section.lines);
-    let all: usize = sizes
+    let total: usize = sizes
         .clone()
         .map(|line| dalembert_formulas::products(&line.sum))
         .sum();
@@ -62,7 +62,7 @@ fn large_entries_are_written_by_rows() {
         .map(|line| dalembert_formulas::products(&line.sum))
         .max();
     // Expanded they have 3069.
-    assert!(all < 1313, "{all}");
+    assert!(total < 1313, "{total}");
     assert!(largest < Some(80), "{largest:?}");
 }
 
@@ -97,7 +97,10 @@ fn a_textbooks_arm_reads_as_in_the_book() {
         "joint 2: a2 = 0.4, m2 = 2.3",
     ];
     for line in wanted {
-        assert!(text.lines().any(|own| own == line), "{line}\n{text}");
+        assert!(
+            text.lines().any(|text_line| text_line == line),
+            "{line}\n{text}"
+        );
     }
 }
 
@@ -114,14 +117,14 @@ fn constants_of_the_puma_are_the_published_ones() {
         .legend
         .constants
         .iter()
-        .map(|own| own.value.to_f64())
+        .map(|constant| constant.value.to_f64())
         .collect();
     assert_eq!(values.len(), 27);
     for published in [0.744, 0.333, 0.298, -0.0213 * 0.5, 8.44] {
-        let near = |own: &f64| {
+        let near = |constant: &f64| {
             [0.5, 1.0, 2.0]
                 .iter()
-                .any(|x| (x * own.abs() / f64::abs(published) - 1.0).abs() < 4e-3)
+                .any(|x| (x * constant.abs() / f64::abs(published) - 1.0).abs() < 4e-3)
         };
         assert!(values.iter().any(near), "{published}: {values:?}");
     }
@@ -130,10 +133,14 @@ fn constants_of_the_puma_are_the_published_ones() {
 #[test]
 fn every_format_and_style_is_deterministic() {
     let (robot, _) = read("generated/robots/stanford.toml");
-    let all: Vec<Quantity> = Quantity::all().into_iter().map(|(_, own)| own).collect();
+    let quantities: Vec<Quantity> = Quantity::all()
+        .into_iter()
+        .map(|(_, quantity)| quantity)
+        .collect();
     for (_, style) in Style::all() {
         for (_, layout) in Layout::all() {
-            let texts = [0, 1].map(|_| formulas(&robot, style, &all).write(layout, Digits::All));
+            let texts =
+                [0, 1].map(|_| formulas(&robot, style, &quantities).write(layout, Digits::All));
             assert_eq!(texts[0], texts[1]);
             assert!(!texts[0].contains("NaN"));
         }

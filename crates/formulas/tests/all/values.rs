@@ -36,7 +36,7 @@ fn agrees(robot: &Robot, scene: Option<&Scene>, style: Style) {
     let quantities = [Quantity::Inertia, Quantity::Christoffel, Quantity::Gravity];
     let module = module(robot, scene, style, &quantities);
     let runtime =
-        Reference::<f64>::from_robot(&scene.map_or(robot.clone(), |own| own.apply(robot)));
+        Reference::<f64>::from_robot(&scene.map_or(robot.clone(), |scene| scene.apply(robot)));
     let n = robot.joints.len();
     let lock = |joint: usize| match scene?.locked(joint)? {
         Position::Angle(angle) => Some(angle.to_f64()),
@@ -48,34 +48,34 @@ fn agrees(robot: &Robot, scene: Option<&Scene>, style: Style) {
         let q: Vec<f64> = (0..n)
             .map(|i| lock(i).unwrap_or(3.0 * random.unit()))
             .collect();
-        let mut given = HashMap::new();
+        let mut inputs = HashMap::new();
         for (i, value) in q.iter().enumerate() {
-            given.insert(format!("q{}", i + 1), *value);
-            given.insert(format!("dq{}", i + 1), random.unit());
-            given.insert(format!("ddq{}", i + 1), random.unit());
+            inputs.insert(format!("q{}", i + 1), *value);
+            inputs.insert(format!("dq{}", i + 1), random.unit());
+            inputs.insert(format!("ddq{}", i + 1), random.unit());
         }
-        let found = module.run(&given);
+        let values = module.run(&inputs);
         let at = DVector::from_column_slice(&q);
         let (d, c) = (runtime.inertia(&at).unwrap(), runtime.gravity(&at).unwrap());
         let h = runtime.christoffel(&at).unwrap();
         let m = rows.len();
-        let all = || (0..m).flat_map(|i| (0..m).map(move |k| (i, k)));
-        let wanted: Vec<f64> = all().map(|(i, k)| d[(rows[i], rows[k])]).collect();
-        close(&found, "D", &wanted, robot);
-        let wanted = (0..m).flat_map(|i| all().map(move |(k, l)| (i, k, l)));
-        let wanted: Vec<f64> = wanted
+        let pairs = || (0..m).flat_map(|i| (0..m).map(move |k| (i, k)));
+        let wanted: Vec<f64> = pairs().map(|(i, k)| d[(rows[i], rows[k])]).collect();
+        close(&values, "D", &wanted, robot);
+        let wanted: Vec<f64> = (0..m)
+            .flat_map(|i| pairs().map(move |(k, l)| (i, k, l)))
             .map(|(i, k, l)| h[rows[i]][(rows[k], rows[l])])
             .collect();
-        close(&found, "h", &wanted, robot);
+        close(&values, "h", &wanted, robot);
         let wanted: Vec<f64> = rows.iter().map(|&i| c[i]).collect();
-        close(&found, "c", &wanted, robot);
+        close(&values, "c", &wanted, robot);
     }
 }
 
-fn close(found: &Values<'_>, list: &str, wanted: &[f64], robot: &Robot) {
+fn close(values: &Values<'_>, list: &str, wanted: &[f64], robot: &Robot) {
     let size = wanted.iter().fold(1e-3f64, |size, x| size.max(x.abs()));
     for (place, wanted) in wanted.iter().enumerate() {
-        let found = found.of(&format!("{list}[{place}]"));
+        let found = values.of(&format!("{list}[{place}]"));
         let off = (found - wanted).abs();
         let name = &robot.name;
         assert!(
@@ -237,7 +237,10 @@ fn names_are_escaped() {
 /// Energies, torques, pose and Jacobian, and the parts of generalized D'Alembert, which add up.
 #[test]
 fn everything_else() {
-    let all: Vec<Quantity> = Quantity::all().into_iter().map(|(_, own)| own).collect();
+    let quantities: Vec<Quantity> = Quantity::all()
+        .into_iter()
+        .map(|(_, quantity)| quantity)
+        .collect();
     for name in [
         "generated/robots/planar2r",
         "generated/robots/puma560",
@@ -248,42 +251,50 @@ fn everything_else() {
         let runtime = Reference::<f64>::from_robot(&robot);
         let mut random = Random::new(7);
         for style in STYLES {
-            let module = module(&robot, None, style, &all);
-            let mut given = HashMap::new();
+            let module = module(&robot, None, style, &quantities);
+            let mut inputs = HashMap::new();
             let mut drawn = |name: &str| {
                 let values: Vec<f64> = (0..n).map(|_| random.unit()).collect();
                 for (i, value) in values.iter().enumerate() {
-                    given.insert(format!("{name}{}", i + 1), *value);
+                    inputs.insert(format!("{name}{}", i + 1), *value);
                 }
                 DVector::from_vec(values)
             };
             let [q, qd, qdd] = ["q", "dq", "ddq"].map(&mut drawn);
-            let found = module.run(&given);
+            let values = module.run(&inputs);
             let at = JointVectors::new([
                 (Argument::Position, q.clone()),
                 (Argument::Velocity, qd.clone()),
                 (Argument::Acceleration, qdd.clone()),
             ]);
             let entries = |output| runtime.entries(output, &at).unwrap();
-            let damping = robot.joints.iter().zip(&qd);
-            let damping = damping.map(|(joint, qd)| f64::nearest_rational(&joint.viscous) * qd);
-            let torques = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
-            let torques: Vec<f64> = torques.iter().zip(damping).map(|(x, b)| x - b).collect();
-            close(&found, "tau", &torques, &robot);
-            close(&found, "J", &entries(Output::Jacobian), &robot);
-            close(&found, "Drot", &entries(Output::RotationInertia), &robot);
+            let damping = robot
+                .joints
+                .iter()
+                .zip(&qd)
+                .map(|(joint, qd)| f64::nearest_rational(&joint.viscous) * qd);
+            let torques: Vec<f64> = runtime
+                .inverse_dynamics(&q, &qd, &qdd)
+                .unwrap()
+                .iter()
+                .zip(damping)
+                .map(|(x, b)| x - b)
+                .collect();
+            close(&values, "tau", &torques, &robot);
+            close(&values, "J", &entries(Output::Jacobian), &robot);
+            close(&values, "Drot", &entries(Output::RotationInertia), &robot);
             close(
-                &found,
+                &values,
                 "Dtran",
                 &entries(Output::TranslationInertia),
                 &robot,
             );
             let single = |name: &str, wanted: f64| {
-                let off = (found.of(name) - wanted).abs();
+                let off = (values.of(name) - wanted).abs();
                 assert!(
                     off <= 1e-12 * (1.0 + wanted.abs()),
                     "{name}: {} {wanted}",
-                    found.of(name)
+                    values.of(name)
                 );
             };
             single("T", entries(Output::KineticEnergy)[0]);
@@ -294,10 +305,10 @@ fn everything_else() {
             }
             let rows = (0..3).flat_map(|r| (0..3).map(move |c| (r, c)));
             let rotation: Vec<f64> = rows.map(|(r, c)| hand.axes[c][r]).collect();
-            close(&found, "Rot", &rotation, &robot);
+            close(&values, "Rot", &rotation, &robot);
             for place in 0..n * n * n {
                 let [whole, rot, tran] =
-                    ["h", "hrot", "htran"].map(|list| found.of(&format!("{list}[{place}]")));
+                    ["h", "hrot", "htran"].map(|list| values.of(&format!("{list}[{place}]")));
                 assert!((whole - rot - tran).abs() <= 1e-12, "{name}: {place}");
             }
         }

@@ -258,11 +258,14 @@ pub(crate) fn bound(written: &Tree, snapped: &Tree, model: &Model, options: &Opt
         let turned = Pair::new(1.0, root_of_squares(&turned));
         (one.0, [vectors(&tools[0].origin, &tools[1].origin), turned])
     });
-    let gravity = model.gravity.as_ref().map(|gravity| {
-        let sizes = gravity.each_ref().map(|x| upper(&x.value));
-        root_of_squares(&sizes)
-    });
-    let gravity = gravity.unwrap_or(9.81);
+    let gravity = model
+        .gravity
+        .as_ref()
+        .map(|gravity| {
+            let sizes = gravity.each_ref().map(|x| upper(&x.value));
+            root_of_squares(&sizes)
+        })
+        .unwrap_or(9.81);
     // Each component at most as of joints without limits: of three, and of ω × v.
     let (speed, rise) = (3.0 * ROOT_3, otherwise * ROOT_3);
     let base = match snapped.base {

@@ -30,15 +30,18 @@ pub(crate) enum Verdict {
 
 impl Table {
     fn of(text: &'static str) -> Table {
-        let rows = text.lines().skip(1).map(|line| {
-            let mut cells = line
-                .split('\t')
-                .map(|cell| cell.split_ascii_whitespace().collect());
-            let mut cell = || cells.next().unwrap_or_default();
-            let (elements, names) = (cell(), [cell(), cell(), cell()]);
-            Row { elements, names }
-        });
-        let rows = rows.collect();
+        let rows = text
+            .lines()
+            .skip(1)
+            .map(|line| {
+                let mut cells = line
+                    .split('\t')
+                    .map(|cell| cell.split_ascii_whitespace().collect());
+                let mut cell = || cells.next().unwrap_or_default();
+                let (elements, names) = (cell(), [cell(), cell(), cell()]);
+                Row { elements, names }
+            })
+            .collect();
         Table { rows }
     }
 
@@ -64,15 +67,15 @@ impl Table {
 
 impl Row {
     pub(crate) fn verdict(&self, name: &str) -> Verdict {
-        let found = self.listed(name).or_else(|| self.listed("*"));
-        found.unwrap_or(Verdict::Unknown)
+        let verdict = self.listed(name).or_else(|| self.listed("*"));
+        verdict.unwrap_or(Verdict::Unknown)
     }
 
     /// Returns the verdict on a name that the row has by itself.
     pub(crate) fn listed(&self, name: &str) -> Option<Verdict> {
         const VERDICTS: [Verdict; 3] = [Verdict::Read, Verdict::LeftOut, Verdict::Irrelevant];
-        let found = self.names.iter().position(|names| names.contains(&name));
-        found.map(|index| VERDICTS[index])
+        let column = self.names.iter().position(|names| names.contains(&name));
+        column.map(|index| VERDICTS[index])
     }
 
     /// True if the element has an effect by none of its names.

@@ -101,21 +101,27 @@ fn fill(
 ) {
     let mut named = |key: &str| {
         let class = element.get(key)?;
-        let found = classes.get(&class.value);
-        if found.is_none() {
+        let defaults = classes.get(&class.value);
+        if defaults.is_none() {
             let help = instead(&class.value, classes.keys());
             reader.say("no_class", &class.at, &[&class.value, &help]);
         }
-        found
+        defaults
     };
     let kind = kind(parent, &element.tag);
     let values = kind.and_then(|_| named("class")).unwrap_or(around);
     let has_children = matches!(element.tag.as_str(), "body" | "frame" | "worldbody");
-    let inside = has_children.then(|| named("childclass")).flatten();
-    let inside = inside.unwrap_or(around);
-    let more = kind.and_then(|kind| values.get(kind)).into_iter().flatten();
-    let more = more.filter(|value| !has(element, value));
-    let more: Vec<Attribute> = more.cloned().collect();
+    let inside = has_children
+        .then(|| named("childclass"))
+        .flatten()
+        .unwrap_or(around);
+    let more: Vec<Attribute> = kind
+        .and_then(|kind| values.get(kind))
+        .into_iter()
+        .flatten()
+        .filter(|value| !has(element, value))
+        .cloned()
+        .collect();
     element.attributes.extend(more);
     for below in &mut element.inside {
         fill(below, &element.tag, inside, classes, reader);

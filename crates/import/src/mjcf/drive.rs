@@ -24,8 +24,9 @@ impl Mjcf<'_, '_, '_> {
             let at = self.model.joints[joint].at.clone();
             let around = self.reader.problems.enter(&at);
             self.reader.check("actuator", element, &of);
-            let gear = self.reader.first(element, "gear");
-            let gear = gear
+            let gear = self
+                .reader
+                .first(element, "gear")
                 .unwrap_or_else(|| Number::constant("1", &element.at))
                 .map(|value| value * coefficient);
             let force = self
@@ -58,8 +59,11 @@ impl Mjcf<'_, '_, '_> {
 
     /// Returns the joint that an actuator drives, and how far its tendon goes with the joint.
     fn driven(&mut self, element: &Element, tendons: &Tendons) -> Option<(usize, Rational)> {
-        let targets = ["joint", "jointinparent", "tendon"].map(|key| element.get(key));
-        let targets: Vec<&Attribute> = targets.into_iter().flatten().collect();
+        let targets: Vec<&Attribute> = ["joint", "jointinparent", "tendon"]
+            .map(|key| element.get(key))
+            .into_iter()
+            .flatten()
+            .collect();
         let [target] = targets[..] else {
             let second = targets.get(1)?;
             return self

@@ -40,10 +40,14 @@ impl Mjcf<'_, '_, '_> {
                 none,
             );
         }
-        let kind = self.reader.word(element, "type", &KINDS);
-        let kind = kind.unwrap_or(Kind::Revolute);
-        let axis = self.reader.numbers(element, "axis");
-        let axis = axis.unwrap_or_else(|| Number::constants(["0", "0", "1"], &element.at));
+        let kind = self
+            .reader
+            .word(element, "type", &KINDS)
+            .unwrap_or(Kind::Revolute);
+        let axis = self
+            .reader
+            .numbers(element, "axis")
+            .unwrap_or_else(|| Number::constants(["0", "0", "1"], &element.at));
         let (axis, pos) = (frame.rotate(&axis), self.reader.vector(element, "pos"));
         let anchor = match kind {
             // The place of a slide has no effect.

@@ -109,17 +109,17 @@ impl Mjcf<'_, '_, '_> {
         } else {
             "density"
         };
-        let given = self.reader.number(element, key);
-        let is_nothing = given.as_ref().is_some_and(|given| given.value.is_zero());
+        let amount = self.reader.number(element, key);
+        let is_nothing = amount.as_ref().is_some_and(|number| number.value.is_zero());
         let is_flat = matches!(element.value("type"), Some("plane" | "hfield"));
         if is_nothing || is_flat || !(low..=high).contains(&&group) {
             return Weight::Nothing;
         }
-        let solid = self.solid(item, key, given);
+        let solid = self.solid(item, key, amount);
         solid.map_or(Weight::Unknown, |solid| Weight::Something(Box::new(solid)))
     }
 
-    fn solid(&mut self, item: &Item, key: &str, given: Option<Number>) -> Option<Inertial> {
+    fn solid(&mut self, item: &Item, key: &str, amount: Option<Number>) -> Option<Inertial> {
         let Item { element, frame } = item;
         let word = element.get("type").map_or("sphere", |word| &word.value);
         let (_, count) = SHAPES.iter().find(|(shape, _)| *shape == word)?;
@@ -146,14 +146,14 @@ impl Mjcf<'_, '_, '_> {
             return None;
         }
         let (volume, moments) = moments(word, sizes);
-        let given = given.unwrap_or_else(|| Number::constant("1000", &element.at));
+        let amount = amount.unwrap_or_else(|| Number::constant("1000", &element.at));
         let mass = match key {
-            "mass" => given.value.clone(),
-            _ => rounded(&(&given.value * volume)),
+            "mass" => amount.value.clone(),
+            _ => rounded(&(&amount.value * volume)),
         };
         let number = |value: Rational| Number {
             value,
-            ..given.clone()
+            ..amount.clone()
         };
         let [xx, yy, zz] = moments.map(|moment| number(rounded(&(moment * &mass))));
         let zero = Number::constant("0", &element.at);

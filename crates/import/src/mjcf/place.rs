@@ -26,17 +26,19 @@ impl Mjcf<'_, '_, '_> {
 
     /// Reads an orientation with its place; the identity where there is none or a mistake.
     fn orientation(&mut self, element: &Element) -> (Both, Span) {
-        let found = ORIENTATIONS.into_iter().filter_map(|key| element.get(key));
-        let found: Vec<&Attribute> = found.collect();
-        let Some(Attribute { key, at, .. }) = found.first() else {
+        let orientations: Vec<&Attribute> = ORIENTATIONS
+            .into_iter()
+            .filter_map(|key| element.get(key))
+            .collect();
+        let Some(Attribute { key, at, .. }) = orientations.first() else {
             return (both_identities(), element.at.clone());
         };
-        if let Some(second) = found.get(1) {
-            let keys: Vec<&str> = found
+        if let Some(second) = orientations.get(1) {
+            let keys = orientations
                 .iter()
                 .map(|orientation| orientation.key.as_str())
-                .collect();
-            let keys = keys.join("` and `");
+                .collect::<Vec<&str>>()
+                .join("` and `");
             self.reader.say("two_orientations", &second.at, &[&keys]);
         }
         let reader = &mut *self.reader;

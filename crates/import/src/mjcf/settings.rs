@@ -100,8 +100,8 @@ impl Settings {
 
     fn compiler(&mut self, element: &Element, reader: &mut Reader) {
         let mut is = |key, words: [&str; 2], before| {
-            let found = reader.word(element, key, &[(words[0], false), (words[1], true)]);
-            found.unwrap_or(before)
+            let choice = reader.word(element, key, &[(words[0], false), (words[1], true)]);
+            choice.unwrap_or(before)
         };
         self.degrees = is("angle", ["radian", "degree"], self.degrees);
         self.auto_limits = is("autolimits", ["false", "true"], self.auto_limits);

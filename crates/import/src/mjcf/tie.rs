@@ -176,13 +176,13 @@ impl Mjcf<'_, '_, '_> {
 
     pub(super) fn joint_named(&mut self, name: &str, at: &Span) -> Option<usize> {
         let joints = || self.model.joints.iter();
-        let found = joints().position(|joint| joint.name == name);
-        if found.is_none() {
+        let place = joints().position(|joint| joint.name == name);
+        if place.is_none() {
             let moving = joints().filter(|joint| joint.kind != Kind::Fixed);
             let help = instead(name, moving.map(|joint| &joint.name));
             self.reader.say("no_joint", at, &[&name, &help]);
         }
-        found
+        place
     }
 
     /// Reads a joint that follows another; returns one that stands still.
@@ -195,13 +195,13 @@ impl Mjcf<'_, '_, '_> {
         let other = self.joint_named(&leader.value, &leader.at)?;
         let mut terms = vec![Rational::zero(); 5];
         terms[1] = Rational::one();
-        if let Some(given) = element.get("polycoef") {
-            let numbers = self.reader.list(given)?;
+        if let Some(coefficients) = element.get("polycoef") {
+            let numbers = self.reader.list(coefficients)?;
             if numbers.len() > terms.len() {
-                return self.reader.refuse("polycoef", &given.at, &[]);
+                return self.reader.refuse("polycoef", &coefficients.at, &[]);
             }
-            let given = terms.iter_mut().zip(numbers);
-            given.for_each(|(term, number)| *term = number.value);
+            let pairs = terms.iter_mut().zip(numbers);
+            pairs.for_each(|(term, number)| *term = number.value);
         }
         // Both are counted from their positions in the model's first pose.
         let [start, from] = [follower, other].map(|joint| &self.model.joints[joint].start);

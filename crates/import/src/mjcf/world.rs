@@ -112,11 +112,10 @@ impl Mjcf<'_, '_, '_> {
     }
 
     fn say_weightless(&mut self, root: &Element) {
-        let held = root
+        let held: Vec<_> = root
             .all_inside("body")
             .into_iter()
-            .filter_map(|body| body.get("gravcomp"));
-        let held: Vec<_> = held
+            .filter_map(|body| body.get("gravcomp"))
             .filter(|part| part.value.trim().parse() != Ok(0.0))
             .collect();
         if let Some(first) = held.first() {
@@ -214,8 +213,8 @@ impl Mjcf<'_, '_, '_> {
         names: &mut Names,
     ) {
         let is_joint = |item: &&Item| ["joint", "freejoint"].contains(&item.element.tag.as_str());
-        let found: Vec<&Item> = items.iter().filter(is_joint).collect();
-        for (index, item) in found.iter().enumerate() {
+        let joints: Vec<&Item> = items.iter().filter(is_joint).collect();
+        for (index, item) in joints.iter().enumerate() {
             let name = match item.element.value("name") {
                 Some(name) => name.to_owned(),
                 None => fresh(&mut names.joints, format!("{body}_joint")),
@@ -223,7 +222,7 @@ impl Mjcf<'_, '_, '_> {
             let (joint, anchor) = self.joint(item, name, &at);
             let back = anchor.each_ref().map(|x| -x);
             at = Pose::identity(joint.at.clone()).shift(&back);
-            let is_last = index + 1 == found.len() && anchor.iter().all(Rational::is_zero);
+            let is_last = index + 1 == joints.len() && anchor.iter().all(Rational::is_zero);
             let child = match is_last {
                 true => body.to_owned(),
                 false => {

@@ -14,8 +14,8 @@ impl<'m> Select<'m, '_, '_> {
     /// Checks that no joint which `others` holds follows one that moves.
     pub(super) fn check_followers_beside(&mut self, selection: &Selection) {
         for joint in &self.held {
-            let found = &self.model.joints[*joint];
-            let mimic = found.mimic.as_ref().filter(|mimic| {
+            let follower = &self.model.joints[*joint];
+            let mimic = follower.mimic.as_ref().filter(|mimic| {
                 let mut moving = selection.moving().into_iter();
                 moving.any(|leader| self.model.joints[leader].name == mimic.leader)
             });
@@ -23,7 +23,7 @@ impl<'m> Select<'m, '_, '_> {
                 self.problems.say(
                     "follows_beside",
                     at,
-                    &[&found.name, leader, &advised(found)],
+                    &[&follower.name, leader, &advised(follower)],
                 );
             }
         }
@@ -85,11 +85,13 @@ impl<'m> Select<'m, '_, '_> {
     pub(super) fn say_held(&mut self, selection: &Selection) {
         let mut order = selection.order.clone();
         order.sort_unstable();
-        let held = order.iter().filter_map(|joint| match &self.states[*joint] {
-            State::Stays(Some(at)) => Some((&self.model.joints[*joint], at)),
-            _ => None,
-        });
-        let held: Vec<(&Joint, &Position)> = held.collect();
+        let held: Vec<(&Joint, &Position)> = order
+            .iter()
+            .filter_map(|joint| match &self.states[*joint] {
+                State::Stays(Some(at)) => Some((&self.model.joints[*joint], at)),
+                _ => None,
+            })
+            .collect();
         if let Some((first, _)) = held.first() {
             let name = |(joint, at): &(&Joint, &Position)| {
                 format!(

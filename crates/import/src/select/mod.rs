@@ -349,15 +349,15 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
 
     /// Holds a joint that leads to no tip.
     fn hold(&mut self, joint: usize) -> Option<State> {
-        let found = &self.model.joints[joint];
-        let Joint { name, kind, at, .. } = found;
+        let model_joint = &self.model.joints[joint];
+        let Joint { name, kind, at, .. } = model_joint;
         let is_held = kind.has_one_axis() || *kind == Kind::Ball;
         let Some(text) = self.others.clone().filter(|_| is_held) else {
-            let follows = found
+            let follows = model_joint
                 .mimic
                 .as_ref()
-                .map(|mimic| format!(", mimics `{}`", mimic.leader));
-            let follows = follows.unwrap_or_default();
+                .map(|mimic| format!(", mimics `{}`", mimic.leader))
+                .unwrap_or_default();
             let id = if kind.has_one_axis() {
                 "hangs_beside"
             } else {
@@ -367,8 +367,8 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
                 name,
                 &kind.word(),
                 &follows,
-                &advised(found),
-                &found.child.0,
+                &advised(model_joint),
+                &model_joint.child.0,
             ];
             return self.problems.refuse(id, at, &words);
         };
@@ -385,7 +385,7 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
                     &lines,
                 )
             }
-            None => position::nearest(found, &text, self.problems)?,
+            None => position::nearest(model_joint, &text, self.problems)?,
         };
         self.held.insert(joint);
         Some(State::Stays(Some(at)))
@@ -433,18 +433,18 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
 
     /// Checks that a joint of the robot has one axis, and a coordinate if it follows another.
     fn check_axis(&mut self, joint: usize, wanted: &BTreeSet<usize>) {
-        let found = &self.model.joints[joint];
-        let (name, kind) = (&found.name, found.kind);
+        let model_joint = &self.model.joints[joint];
+        let (name, kind) = (&model_joint.name, model_joint.kind);
         if !kind.has_one_axis() {
             self.problems.say(
                 "more_axes",
-                &found.at,
-                &[name, &kind.word(), &found.child.0],
+                &model_joint.at,
+                &[name, &kind.word(), &model_joint.child.0],
             );
-        } else if let Some(mimic) = found.mimic.as_ref().filter(|_| !self.stays(joint))
+        } else if let Some(mimic) = model_joint.mimic.as_ref().filter(|_| !self.stays(joint))
             && let Some(why) = self.cannot_follow(joint, mimic, wanted)
         {
-            let words: [&dyn Display; 4] = [name, &mimic.leader, &why, &advised(found)];
+            let words: [&dyn Display; 4] = [name, &mimic.leader, &why, &advised(model_joint)];
             self.problems.say("mimics", &mimic.at, &words);
         }
     }

@@ -90,10 +90,10 @@ impl Select<'_, '_, '_> {
                 }
             }
         }
-        let carries = moving
+        let carries: BTreeSet<usize> = moving
             .iter()
-            .flat_map(|joint| self.way(self.model.ends[*joint][0]));
-        let carries: BTreeSet<usize> = carries.collect();
+            .flat_map(|joint| self.way(self.model.ends[*joint][0]))
+            .collect();
         moving.retain(|joint| !carries.contains(joint));
         moving.sort_unstable();
         let ends: Vec<usize> = moving
@@ -118,11 +118,13 @@ impl Select<'_, '_, '_> {
         let heights = self.heights(base);
         let (tips, _) = self.chain_ends(base, &heights, true);
         let mut last = BTreeSet::new();
-        let tips = tips.into_iter().filter(|tip| {
-            let link = self.moved_with(*tip, base);
-            link != base && last.insert(link)
-        });
-        let mut tips: Vec<usize> = tips.collect();
+        let mut tips: Vec<usize> = tips
+            .into_iter()
+            .filter(|tip| {
+                let link = self.moved_with(*tip, base);
+                link != base && last.insert(link)
+            })
+            .collect();
         tips.sort_unstable();
         match tips.is_empty() {
             true => self.problems.refuse("no_arm", &self.model.at, &[]),
@@ -140,7 +142,7 @@ impl Select<'_, '_, '_> {
     }
 
     /// Returns the ends, and whether there are fingers, which hold something, on some of them.
-    fn chain_ends(&self, base: usize, heights: &[usize], all: bool) -> (Vec<usize>, bool) {
+    fn chain_ends(&self, base: usize, heights: &[usize], every_arm: bool) -> (Vec<usize>, bool) {
         let mut tips = Vec::new();
         let mut palms = Vec::new();
         let mut open = vec![(base, 0)];
@@ -171,7 +173,7 @@ impl Select<'_, '_, '_> {
                 tips.extend(leaves.filter(is_hand));
             } else {
                 // A head is no arm; of what is short everywhere, the longest.
-                let least = if all { ARM.min(longest) } else { longest };
+                let least = if every_arm { ARM.min(longest) } else { longest };
                 let next = joints.into_iter().filter(|joint| left(*joint) >= least);
                 open.extend(next.map(|joint| (self.model.ends[joint][1], moved + 1)));
             }
@@ -258,8 +260,8 @@ impl Select<'_, '_, '_> {
         };
         let above = |joint: &usize| self.model.above[self.model.ends[*joint][0]];
         // In a circle there is no end.
-        let mut all = std::iter::successors(above(&joint), above).take(self.model.ends.len());
-        all.all(|above| self.model.joints[above].name != mimic.leader)
+        let mut ancestors = std::iter::successors(above(&joint), above).take(self.model.ends.len());
+        ancestors.all(|above| self.model.joints[above].name != mimic.leader)
     }
 
     fn is_finger(&self, joint: usize) -> bool {

@@ -119,11 +119,11 @@ fn only<'e>(element: &'e Element, tag: &'e str, reader: &mut Reader) -> Option<&
 
 fn inertial(element: &Element, link: &str, reader: &mut Reader) -> Option<Inertial> {
     let [mass, inertia] = ["mass", "inertia"].map(|tag| {
-        let found = element.first(tag);
-        if found.is_none() {
+        let part = element.first(tag);
+        if part.is_none() {
             reader.say("no_inertial_part", &element.at, &[&link, &tag]);
         }
-        found
+        part
     });
     let origin = origin(element, reader);
     let mass = mass.map(|mass| reader.required_number(mass, "value"));

@@ -137,8 +137,11 @@ pub fn flat(json: &Value) -> Vec<f64> {
 pub fn relative(found: &[f64], expected: &[f64]) -> f64 {
     assert_eq!(found.len(), expected.len());
     let size = largest(expected);
-    let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs());
-    let off = off.fold(0.0f64, f64::max);
+    let off = found
+        .iter()
+        .zip(expected)
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0f64, f64::max);
     if size == 0.0 { off } else { off / size }
 }
 
@@ -195,13 +198,14 @@ pub fn motion(golden: &Golden) -> Motion {
 pub fn bounded(name: &str, imported: &Import, golden: &Golden, rounding: f64) -> f64 {
     let runtime = Reference::<f64>::from_robot(&imported.robot);
     let change = imported.change.as_ref();
-    let bounds = change.map(|change| change.torques(&motion(golden)));
-    let bounds = bounds.unwrap_or_else(|| vec![0.0; golden.joints.len()]);
+    let bounds = change
+        .map(|change| change.torques(&motion(golden)))
+        .unwrap_or_else(|| vec![0.0; golden.joints.len()]);
     let sizes = golden.states.iter().map(|state| largest(&state.tau));
     let rounding = rounding * sizes.fold(0.0f64, f64::max);
     for state in &golden.states {
-        let found = torques(&imported.robot, &runtime, state);
-        for ((torque, known), bound) in found.iter().zip(&state.tau).zip(&bounds) {
+        let torques = torques(&imported.robot, &runtime, state);
+        for ((torque, known), bound) in torques.iter().zip(&state.tau).zip(&bounds) {
             let off = (torque - known).abs();
             assert!(off <= bound + rounding, "{name}: {off:e} > {bound:e}");
         }

@@ -44,9 +44,9 @@ fn every_fault_is_found<T: Real>() {
         native.many(states).unwrap();
     }
     let operations: Vec<_> = native.program.dag.operations().collect();
-    for (id, own, operands) in operations {
+    for (id, operation, operands) in operations {
         for other in [Operation::Add, Operation::Sub, Operation::Mul] {
-            if other != own {
+            if other != operation {
                 let fault = format!("{other:?} at node {id}");
                 let wrong = Node::Apply(other, operands);
                 refused::<T>(&mut native, &fault, |p| p.dag.nodes[id as usize] = wrong);
@@ -56,7 +56,7 @@ fn every_fault_is_found<T: Real>() {
         let mut others = (0..id).filter(|other| *other != operands[0]);
         if let Some(other) = others.next_back() {
             let fault = format!("another operand of node {id}");
-            let wrong = Node::Apply(own, [other, operands[1]]);
+            let wrong = Node::Apply(operation, [other, operands[1]]);
             refused::<T>(&mut native, &fault, |p| p.dag.nodes[id as usize] = wrong);
         }
     }
@@ -77,13 +77,15 @@ fn a_wrong_instruction_is_found() {
 #[cfg(target_os = "linux")]
 fn permissions(addresses: &[usize]) -> Vec<Option<String>> {
     let maps = std::fs::read_to_string("/proc/self/maps").unwrap();
-    let regions = maps.lines().map(|line| {
-        let (range, rest) = line.split_once(' ').unwrap();
-        let (begin, end) = range.split_once('-').unwrap();
-        let number = |text| usize::from_str_radix(text, 16).unwrap();
-        (number(begin)..number(end), rest[..4].to_owned())
-    });
-    let regions: Vec<_> = regions.collect();
+    let regions: Vec<_> = maps
+        .lines()
+        .map(|line| {
+            let (range, rest) = line.split_once(' ').unwrap();
+            let (begin, end) = range.split_once('-').unwrap();
+            let number = |text| usize::from_str_radix(text, 16).unwrap();
+            (number(begin)..number(end), rest[..4].to_owned())
+        })
+        .collect();
     let at = |address| regions.iter().find(|(range, _)| range.contains(address));
     addresses
         .iter()
@@ -95,25 +97,27 @@ fn permissions(addresses: &[usize]) -> Vec<Option<String>> {
 #[cfg(target_os = "linux")]
 fn code_is_never_writable_and_is_unmapped_when_dropped() {
     let native = torques(ScalarType::F64);
-    let compiled = (0..50).map(|_| {
-        let other = Native::compile(native.program.clone(), native.signature.clone());
-        let other = other.unwrap();
-        for states in LAYOUTS {
-            other.many(states).unwrap();
-        }
-        other
-    });
-    let compiled: Vec<Native> = compiled.collect();
-    let entries = |own: &Native| {
-        let [apart, adjacent] = LAYOUTS.map(|states| own.many(states).unwrap().entry as usize);
-        [own.one.entry as usize, apart, adjacent]
+    let compiled: Vec<Native> = (0..50)
+        .map(|_| {
+            let other = Native::compile(native.program.clone(), native.signature.clone()).unwrap();
+            for states in LAYOUTS {
+                other.many(states).unwrap();
+            }
+            other
+        })
+        .collect();
+    let entries = |native: &Native| {
+        let [apart, adjacent] = LAYOUTS.map(|states| native.many(states).unwrap().entry as usize);
+        [native.one.entry as usize, apart, adjacent]
     };
     let addresses: Vec<usize> = compiled.iter().flat_map(entries).collect();
     let executable = Some("r-xp".to_owned());
     assert_eq!(permissions(&addresses), vec![executable.clone(); 150]);
     drop(compiled);
     // Another test may have been given the place of some.
-    let left = permissions(&addresses);
-    let left = left.iter().filter(|own| **own == executable).count();
+    let left = permissions(&addresses)
+        .iter()
+        .filter(|permission| **permission == executable)
+        .count();
     assert!(left < 50, "{left} of 150 are left");
 }

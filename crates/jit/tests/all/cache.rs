@@ -23,15 +23,19 @@ fn gravity(arm: &Arm) -> [f64; 2] {
 }
 
 fn files(folder: &Folder, extension: &str) -> Vec<PathBuf> {
-    let all = fs::read_dir(&folder.0).unwrap();
-    let all = all.map(|entry| entry.unwrap().path());
-    all.filter(|path| path.extension().is_some_and(|e| e == extension))
+    let paths = fs::read_dir(&folder.0)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    paths
+        .filter(|path| path.extension().is_some_and(|e| e == extension))
         .collect()
 }
 
 fn hashed(json: &str) -> String {
-    let hash = hmac_sha256::Hash::hash(json.as_bytes());
-    let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
+    let hash: String = hmac_sha256::Hash::hash(json.as_bytes())
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect();
     format!("{hash}\n{json}")
 }
 
@@ -126,11 +130,11 @@ fn what_others_may_write_is_not_trusted() {
         fs::write(&entry, &forged).unwrap();
         allow(&folder.0, folder_mode);
         allow(&entry, file_mode);
-        let found = arm(&folder.load());
-        assert_eq!(gravity(&found), expected);
-        assert!(!found.is_from_cache());
-        let note = found.notes().iter().any(|note| note.contains("chmod go-w"));
-        assert_eq!(note, folder_mode != 0o700, "{:?}", found.notes());
+        let arm = arm(&folder.load());
+        assert_eq!(gravity(&arm), expected);
+        assert!(!arm.is_from_cache());
+        let note = arm.notes().iter().any(|note| note.contains("chmod go-w"));
+        assert_eq!(note, folder_mode != 0o700, "{:?}", arm.notes());
     }
     // What was made anew is the user's alone.
     assert!(arm(&folder.load()).is_from_cache());

@@ -37,9 +37,9 @@ impl<P: Put, const N: usize> Put for [P; N] {
 }
 fn read<const N: usize>(bytes: &mut &[u8]) -> [f64; N] {
     [(); N].map(|()| {
-        let (own, rest) = bytes.split_first_chunk().unwrap();
+        let (first, rest) = bytes.split_first_chunk().unwrap();
         *bytes = rest;
-        f64::from_le_bytes(*own)
+        f64::from_le_bytes(*first)
     })
 }
 ";
@@ -50,8 +50,10 @@ fn program(arm: &Arm) -> String {
         let scalar = function.scalar().name();
         let module = format!("in_{scalar}");
         let arguments = &function.native().signature().arguments;
-        let names = arguments.iter().map(|(a, _)| format!("&{}", a.name()));
-        let names: Vec<String> = names.collect();
+        let names: Vec<String> = arguments
+            .iter()
+            .map(|(a, _)| format!("&{}", a.name()))
+            .collect();
         writeln!(main, "for _ in 0..{STATES} {{").unwrap();
         for (argument, length) in arguments {
             let name = argument.name();
@@ -69,8 +71,10 @@ fn program(arm: &Arm) -> String {
         }
         writeln!(main, "}}").unwrap();
     }
-    let modules = arm.rust().iter().zip(["in_f64", "in_f32"]);
-    let modules: String = modules
+    let modules: String = arm
+        .rust()
+        .iter()
+        .zip(["in_f64", "in_f32"])
         .map(|(text, name)| format!("pub mod {name} {{\n{text}}}\n"))
         .collect();
     format!(
@@ -87,14 +91,14 @@ fn library(folder: &Path, name: &str) -> PathBuf {
         let file = path.file_name().unwrap().to_string_lossy();
         file.starts_with(&format!("lib{name}-")) && file.ends_with(".rlib")
     };
-    let found = files.map(|file| file.path()).filter(is_it);
+    let libraries = files.map(|file| file.path()).filter(is_it);
     let modified = |path: &PathBuf| path.metadata().unwrap().modified().unwrap();
-    found.max_by_key(modified).unwrap()
+    libraries.max_by_key(modified).unwrap()
 }
 
 fn compiled(text: &str, folder: &Folder) -> PathBuf {
-    let own = std::env::current_exe().unwrap();
-    let dependencies = own.parent().unwrap();
+    let executable = std::env::current_exe().unwrap();
+    let dependencies = executable.parent().unwrap();
     std::fs::create_dir_all(&folder.0).unwrap();
     let (source, program) = (folder.0.join("main.rs"), folder.0.join("main"));
     std::fs::write(&source, text).unwrap();
@@ -121,14 +125,14 @@ fn put<T: Real>(function: &Function, input: &mut Vec<u8>) {
 
 fn compare<T: Real>(name: &str, function: &Function, output: &mut &[u8]) {
     let native = function.native();
-    let mut found = vec![T::default(); native.program().dag.outputs.len()];
+    let mut results = vec![T::default(); native.program().dag.outputs.len()];
     for state in drawn::<T>(native, STATES, 7) {
         let arguments = arguments(native, &state);
         let slices: Vec<&[T]> = arguments.iter().map(Vec::as_slice).collect();
-        native.call(&slices, &mut found).unwrap();
-        for (entry, &found) in found.iter().enumerate() {
-            let (own, rest) = output.split_first_chunk().unwrap();
-            let expected = f64::from_le_bytes(*own);
+        native.call(&slices, &mut results).unwrap();
+        for (entry, &found) in results.iter().enumerate() {
+            let (bytes, rest) = output.split_first_chunk().unwrap();
+            let expected = f64::from_le_bytes(*bytes);
             *output = rest;
             let function = function.name();
             assert!(

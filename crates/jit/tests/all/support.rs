@@ -34,7 +34,9 @@ pub fn all_outputs_in_both() -> String {
 }
 
 pub fn of_fixed_bases() -> Vec<&'static str> {
-    let outputs = Output::ALL.into_iter().filter(|own| own.takes_fixed_base());
+    let outputs = Output::ALL
+        .into_iter()
+        .filter(|output| output.takes_fixed_base());
     outputs.map(Output::name).collect()
 }
 
@@ -84,19 +86,19 @@ fn entry(random: &mut Random, reach: f64) -> f64 {
 
 pub fn drawn<T: Real>(native: &Native, states: usize, seed: u64) -> Vec<State<T>> {
     let mut random = Random::new(seed);
-    let mut all: Vec<State<T>> = vec![State::default(); states];
+    let mut samples: Vec<State<T>> = vec![State::default(); states];
     for &(argument, entries) in &native.signature().arguments {
         let reach = match argument {
             Argument::Position => 7.0,
             other => other.reach(),
         };
         for _ in 0..entries {
-            for state in &mut all {
+            for state in &mut samples {
                 state[argument.index()].push(T::literal(entry(&mut random, reach)));
             }
         }
     }
-    all
+    samples
 }
 
 pub fn is_same<T: Real>(left: T, right: T) -> bool {
@@ -123,37 +125,43 @@ pub fn called<T: Real>(
         false => Place::columns(entries, states),
     };
     let flat = |&(argument, entries): &(Argument, usize)| -> Vec<T> {
-        let own = || drawn.iter().map(|state| &state[argument.index()]);
+        let vectors = || drawn.iter().map(|state| &state[argument.index()]);
         match in_rows {
-            true => own().flatten().copied().collect(),
+            true => vectors().flatten().copied().collect(),
             false => (0..entries)
-                .flat_map(|entry| own().map(move |own| own[entry]))
+                .flat_map(|entry| vectors().map(move |vector| vector[entry]))
                 .collect(),
         }
     };
     let data: Vec<Vec<T>> = signature.arguments.iter().map(flat).collect();
-    let rows = data.iter().zip(&signature.arguments);
-    let rows = rows.map(|(data, &(_, entries))| (data.as_slice(), place(entries)));
-    let rows: Vec<(&[T], Place)> = rows.collect();
-    let found = signature.results.iter();
-    let found = found.map(|entries| vec![T::default(); entries * states]);
-    let mut found: Vec<Vec<T>> = found.collect();
-    let results = found.iter_mut().zip(&signature.results);
-    let results = results.map(|(data, &entries)| (data.as_mut_slice(), place(entries)));
-    let mut results: Vec<(&mut [T], Place)> = results.collect();
+    let rows: Vec<(&[T], Place)> = data
+        .iter()
+        .zip(&signature.arguments)
+        .map(|(data, &(_, entries))| (data.as_slice(), place(entries)))
+        .collect();
+    let mut outputs: Vec<Vec<T>> = signature
+        .results
+        .iter()
+        .map(|entries| vec![T::default(); entries * states])
+        .collect();
+    let mut results: Vec<(&mut [T], Place)> = outputs
+        .iter_mut()
+        .zip(&signature.results)
+        .map(|(data, &entries)| (data.as_mut_slice(), place(entries)))
+        .collect();
     let done = native.call_rows(&rows, &mut results, states, threads);
     done.unwrap();
-    let mut all = Vec::new();
-    for (found, &entries) in found.iter().zip(&signature.results) {
+    let mut series = Vec::new();
+    for (output, &entries) in outputs.iter().zip(&signature.results) {
         for entry in 0..entries {
             let at = |state: usize| match in_rows {
-                true => found[state * entries + entry],
-                false => found[entry * states + state],
+                true => output[state * entries + entry],
+                false => output[entry * states + state],
             };
-            all.push((0..states).map(at).collect());
+            series.push((0..states).map(at).collect());
         }
     }
-    all
+    series
 }
 
 pub fn compare<T: Real>(name: &str, native: &Native, states: usize) {
@@ -183,8 +191,8 @@ pub fn compare<T: Real>(name: &str, native: &Native, states: usize) {
 
 pub fn compare_all(name: &str, arm: &Arm, states: usize) {
     for function in arm.functions() {
-        let (own, scalar) = (function.name(), function.scalar());
-        let name = format!("{name}: {own} in {}", scalar.name());
+        let (function_name, scalar) = (function.name(), function.scalar());
+        let name = format!("{name}: {function_name} in {}", scalar.name());
         match scalar {
             Scalar::F64 => compare::<f64>(&name, function.native(), states),
             Scalar::F32 => compare::<f32>(&name, function.native(), states),

@@ -121,12 +121,12 @@ impl<S> Arm<S> {
     /// Walks from the base to the tips: returns what follows for each link from what the one that
     /// carries it has.
     pub(super) fn outward<T>(&self, base: &T, mut next: impl FnMut(usize, &T) -> T) -> Vec<T> {
-        let mut all: Vec<T> = Vec::with_capacity(self.links.len());
+        let mut results: Vec<T> = Vec::with_capacity(self.links.len());
         for link in 0..self.links.len() {
-            let before = self.carrier(link).map_or(base, |carrier| &all[carrier]);
-            all.push(next(link, before));
+            let before = self.carrier(link).map_or(base, |carrier| &results[carrier]);
+            results.push(next(link, before));
         }
-        all
+        results
     }
 
     /// Walks from the tips to the base: `whole` takes what the links that a link carries have sent,
@@ -264,7 +264,11 @@ impl<S> Arm<S> {
             tool: self.tool.as_ref().map(|pose| pose.map(&mut *f)),
             floats: self.floats,
             links: self.links.iter().map(|link| link.map(&mut *f)).collect(),
-            following: self.following.iter().map(|own| own.map(&mut *f)).collect(),
+            following: self
+                .following
+                .iter()
+                .map(|line| line.map(&mut *f))
+                .collect(),
             frames: self.frames.map(f),
         }
     }
@@ -305,8 +309,11 @@ impl<S: Scalar> Step<'_, S> {
         let (link, at, m) = (self.link, self.at, before.clone());
         match self.convention {
             Convention::Standard => {
-                let m = m.turn_z(&at.theta).shift_z(&at.d).shift_x(&link.a);
-                let m = m.turn_x(&link.alpha);
+                let m = m
+                    .turn_z(&at.theta)
+                    .shift_z(&at.d)
+                    .shift_x(&link.a)
+                    .turn_x(&link.alpha);
                 match &link.beta {
                     None => m,
                     Some(beta) => m.turn_y(beta),
@@ -395,17 +402,17 @@ impl<S: Clone> Arm<S> {
 
     /// Returns the arm with each frame in contact for a hand, of which linear components are asked for.
     pub fn in_contact(&self) -> Vec<Arm<S>> {
-        let own = |mut arm: Arm<S>| {
+        let at_hand = |mut arm: Arm<S>| {
             (arm.frames.axes, arm.frames.rows) = (Axes::Mixed, Rows::LINEAR);
             arm
         };
-        let seen = |frame: &&'static str| {
+        let at_frame = |frame: &&'static str| {
             let (axes, rows) = (Axes::Mixed, Rows::LINEAR);
             self.seen(&View { frame, axes, rows })
         };
         match self.frames.contacts.as_slice() {
-            [] => alloc::vec![own(self.clone())],
-            frames => frames.iter().filter_map(seen).collect(),
+            [] => alloc::vec![at_hand(self.clone())],
+            frames => frames.iter().filter_map(at_frame).collect(),
         }
     }
 

@@ -35,8 +35,8 @@ pub fn forward_dynamics<S: Divide>(
     let frames: Vec<Frame<'_, S>> = arm.steps(at).map(Frame::new).collect();
     let rest = (Twist::rest(), Twist::rest());
     let moving = arm.outward(&rest, |i, (before, _)| {
-        let own = frames[i].along(&qd[i]);
-        let moved = |before: Twist<S>| (before.with(&own), before.cross(&own));
+        let joint_twist = frames[i].along(&qd[i]);
+        let moved = |before: Twist<S>| (before.with(&joint_twist), before.cross(&joint_twist));
         frames[i].outward(before, moved)
     });
     let joints = arm.inward(|i, arrived: Vec<(usize, Biased<S>)>| {
@@ -46,8 +46,8 @@ pub fn forward_dynamics<S: Divide>(
         }
         let (velocity, drift) = moving[i].clone();
         let (frame, link) = (&frames[i], &arm.links[i]);
-        let (own, own_bias) = ArticulatedInertia::of(link, &velocity);
-        let (whole, whole_bias) = (body.plus(&own), bias.with(&own_bias));
+        let (own_inertia, own_bias) = ArticulatedInertia::of(link, &velocity);
+        let (whole, whole_bias) = (body.plus(&own_inertia), bias.with(&own_bias));
         let (whole, whole_bias) = frame.back_in(Convention::Standard, whole, whole_bias);
         let push = whole.times(&frame.along(&S::one()));
         let pivot = plus(frame.depends_on(&push), &link.armature);
@@ -57,10 +57,10 @@ pub fn forward_dynamics<S: Divide>(
             true => over(&S::one(), &pivot),
             false => S::zero(),
         };
-        let given = whole.without(&push, &inverse);
-        let moved = whole_bias.with(&given.times(&drift));
+        let given_inertia = whole.without(&push, &inverse);
+        let moved = whole_bias.with(&given_inertia.times(&drift));
         let given_bias = moved.with(&push.scaled(&times(&rest, &inverse)));
-        let sent = frame.back_in(Convention::Modified, given, given_bias);
+        let sent = frame.back_in(Convention::Modified, given_inertia, given_bias);
         let joint = Joint {
             push,
             rest,

@@ -68,12 +68,12 @@ impl Formulation {
         }
         let (wrenches, poses) = (self.wrenches(arm, at, qd, qdd), poses(arm, at));
         let carried = (0..at.len()).filter(|&link| arm.carrier(link).is_none());
-        carried.fold(Wrench::zero(), |all, link| {
+        carried.fold(Wrench::zero(), |total, link| {
             let point = match arm.convention {
                 Convention::Standard => &arm.frame_0().origin,
                 Convention::Modified => &poses[link].origin,
             };
-            all.with(&wrenches[link].carried(Vector::clone, point))
+            total.with(&wrenches[link].carried(Vector::clone, point))
         })
     }
 
@@ -81,11 +81,11 @@ impl Formulation {
     /// theirs: those of the base among `qdd` are not read.
     pub fn free_base<S: Divide>(self, arm: &Arm<S>, at: &At<S>, [qd, qdd]: [&[S]; 2]) -> Vec<S> {
         let base: Vec<usize> = (0..BASE_COORDINATES).collect();
-        let own = submatrix(&self.inertia(arm, at), &base);
+        let base_inertia = submatrix(&self.inertia(arm, at), &base);
         let mut rest = qdd.to_vec();
         rest[..BASE_COORDINATES].fill(S::zero());
         let taken = self.inverse_dynamics(arm, at, qd, &rest);
         let driven: Vec<S> = taken[..BASE_COORDINATES].iter().map(negative).collect();
-        Factor::new(&own).solve(&driven)
+        Factor::new(&base_inertia).solve(&driven)
     }
 }

@@ -201,16 +201,22 @@ pub fn held<S: Divide>(
     let joints = free(moves);
     let half = |values: &[S]| factor.eliminated(&picked(values, &joints));
     let halves: Vec<Vec<S>> = jacobian.iter().map(|row| half(row)).collect();
-    let own = half(load);
+    let half_load = half(load);
     let scaled: Vec<Vec<S>> = halves.iter().map(|half| factor.scaled(half)).collect();
     let mobility = symmetric(jacobian.len(), |i, k| product(&scaled[i], &halves[k]));
     let escape = sums(
-        &sums(&products(&scaled, &own), &products(jacobian, reference)),
+        &sums(
+            &products(&scaled, &half_load),
+            &products(jacobian, reference),
+        ),
         rate,
     );
-    let forces = Factor::new(&damped(&mobility, damping)).solve(&escape);
-    let forces: Vec<S> = forces.iter().map(negative).collect();
-    let pushed = sums(&own, &products(&columns_of(&halves), &forces));
+    let forces: Vec<S> = Factor::new(&damped(&mobility, damping))
+        .solve(&escape)
+        .iter()
+        .map(negative)
+        .collect();
+    let pushed = sums(&half_load, &products(&columns_of(&halves), &forces));
     let driven = factor.substituted(factor.scaled(&pushed));
     [
         sums(reference, &scatter(&driven, &joints, moves.len())),

@@ -132,9 +132,9 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
     /// Σ_s m_s Jv_{s,j} · Jv_{s,i}, s ≥ max(i,j) (eq. 4.2), no armature, in the order of [`Part`].
     pub fn inertia_parts(&self) -> [Vec<Vec<S>>; 2] {
         let links = self.local.iter().zip(&self.arm.links);
-        let spins =
-            links.map(|(row, link)| row.iter().map(|z| tensor_times(&link.inertia, z)).collect());
-        let spins: Vec<Vec<_>> = spins.collect();
+        let spins: Vec<Vec<_>> = links
+            .map(|(row, link)| row.iter().map(|z| tensor_times(&link.inertia, z)).collect())
+            .collect();
         let rotation = pair_sums(&self.local, &spins);
         [rotation, pair_sums(&self.jv, &self.momentum)]
     }
@@ -163,37 +163,37 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         };
         self.arm.outward(&at_rest, |s, before: &LoadSums<S>| {
             let link = &self.arm.links[s];
-            let mut own = before.clone();
+            let mut sums = before.clone();
             let rate = scaled(&qd[s], &self.axes[s]);
             if link.kind == JointKind::Revolute {
-                own.alpha = sum(&own.alpha, &cross(&own.omega, &rate));
-                own.omega = sum(&own.omega, &rate);
+                sums.alpha = sum(&sums.alpha, &cross(&sums.omega, &rate));
+                sums.omega = sum(&sums.omega, &rate);
             } else {
                 let sliding = scaled(&twice(&qd[s]), &self.axes[s]);
-                own.acceleration = sum(&own.acceleration, &cross(&own.omega, &sliding));
+                sums.acceleration = sum(&sums.acceleration, &cross(&sums.omega, &sliding));
             }
             let lever = &self.levers[s];
             accelerations.push(match self.arm.convention {
                 Convention::Standard => {
                     // c̄_s = r_s − p_{s−1}
                     let centre = sum(lever, &self.coms[s]);
-                    let acceleration = sum(&own.acceleration, &own.of(&centre));
+                    let acceleration = sum(&sums.acceleration, &sums.of(&centre));
                     if s + 1 < n {
-                        own.acceleration = sum(&own.acceleration, &own.of(lever));
+                        sums.acceleration = sum(&sums.acceleration, &sums.of(lever));
                     }
                     acceleration
                 }
                 Convention::Modified => {
-                    own.acceleration = sum(&own.acceleration, &before.of(lever));
-                    sum(&own.acceleration, &own.of(&self.coms[s]))
+                    sums.acceleration = sum(&sums.acceleration, &before.of(lever));
+                    sum(&sums.acceleration, &sums.of(&self.coms[s]))
                 }
             });
 
             let pose = &self.poses[s + 1];
-            let [omega, alpha] = [&own.omega, &own.alpha].map(|v| pose.rotate_back(v));
+            let [omega, alpha] = [&sums.omega, &sums.alpha].map(|v| pose.rotate_back(v));
             let spin = cross(&omega, &tensor_times(&link.inertia, &omega));
             moments.push(sum(&tensor_times(&link.inertia, &alpha), &spin));
-            own
+            sums
         });
         let rotation = joint_sums(&self.local, &moments);
         [rotation, joint_sums(&self.momentum, &accelerations)]
@@ -216,7 +216,7 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
                 negative(&dot(&self.arm.gravity, &moment))
             }
             JointKind::Prismatic => {
-                let beyond = (i..n).filter(|&j| self.arm.way(j).any(|own| own == i));
+                let beyond = (i..n).filter(|&j| self.arm.way(j).any(|link| link == i));
                 let mass = total(beyond.map(|j| self.arm.links[j].mass.clone()));
                 negative(&times(&dot(&self.arm.gravity, &self.axes[i]), &mass))
             }

@@ -50,24 +50,25 @@ fn rates_of<S: Scalar>(multiplier: &[S], matrix: &[Vec<Dual<S>>]) -> Vec<S> {
     (0..matrix.len()).map(column).collect()
 }
 
-fn by_composites<S: Scalar>(arm: &Arm<S>, at: &At<S>, given: [&[S]; 3]) -> SecondDerivatives<S> {
+fn by_composites<S: Scalar>(arm: &Arm<S>, at: &At<S>, inputs: [&[S]; 3]) -> SecondDerivatives<S> {
     // With what is constant about a joint in its position, which `at` has whole.
     let mut arm = arm.clone();
     let links = arm.links.iter_mut().zip(at);
-    let position = links.map(|(link, at)| match link.kind {
-        JointKind::Revolute => {
-            link.theta = SinCosPair::straight();
-            JointPosition::Revolute(at.theta.clone())
-        }
-        JointKind::Prismatic => {
-            link.d = S::zero();
-            JointPosition::Prismatic(at.d.clone())
-        }
-    });
-    let position: Vec<JointPosition<S>> = position.collect();
+    let position: Vec<JointPosition<S>> = links
+        .map(|(link, at)| match link.kind {
+            JointKind::Revolute => {
+                link.theta = SinCosPair::straight();
+                JointPosition::Revolute(at.theta.clone())
+            }
+            JointKind::Prismatic => {
+                link.d = S::zero();
+                JointPosition::Prismatic(at.d.clone())
+            }
+        })
+        .collect();
     let skeleton = Skeleton::new(&arm, &[]);
     let (chain, at) = Chain::new(&skeleton, &Regrouping::base(&skeleton)).posed(&position);
-    Composite::new(&chain, &at).second_derivatives(given, CompositeOrder::Inward)
+    Composite::new(&chain, &at).second_derivatives(inputs, CompositeOrder::Inward)
 }
 
 impl Formulation {
@@ -104,11 +105,13 @@ impl Formulation {
             rows
         } else {
             let still_arm = arm.map(still);
-            let at = at.iter().map(|at| {
-                let (theta, d) = (at.theta.map(still), still(&at.d));
-                DhVariables { theta, d }
-            });
-            let at: Vec<_> = at.collect();
+            let at: Vec<_> = at
+                .iter()
+                .map(|at| {
+                    let (theta, d) = (at.theta.map(still), still(&at.d));
+                    DhVariables { theta, d }
+                })
+                .collect();
             columns(at.len(), &|joint| {
                 let mut qd = constants(qd);
                 qd[joint].rate = S::one();
@@ -180,7 +183,7 @@ impl Formulation {
             return by_composites(arm, at, [qd, &zeros(qd.len()), multiplier]).velocity;
         }
         let n = at.len();
-        let mut all = if self == Self::LagrangeEuler {
+        let mut matrix = if self == Self::LagrangeEuler {
             let h = self.christoffel(arm, at);
             symmetric(n, |k, m| {
                 twice(&weighed(multiplier, h.iter().map(|h| &h[k][m])))
@@ -197,9 +200,9 @@ impl Formulation {
         };
         for (i, link) in arm.links.iter().enumerate() {
             let bent = times(&multiplier[i], &link.friction.curvature(&qd[i]));
-            all[i][i] = plus(&all[i][i], &bent);
+            matrix[i][i] = plus(&matrix[i][i], &bent);
         }
-        all
+        matrix
     }
 
     /// Returns ∂²(λᵀτ)/∂q̈∂q = ∂(D λ)/∂q: row i has the slopes of (D λ)_i.
@@ -244,21 +247,25 @@ impl<'a, S: Scalar> OfAccelerations<'a, S> {
     }
 
     /// Returns ∂²(λᵀq̈)/∂q∂q, from ∂²(μᵀτ)/∂q∂q and ∂τ/∂q.
-    pub fn by_positions(&self, own: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> {
+    pub fn by_positions(&self, curvatures: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> {
         self.entries(|k, m| {
             let both = plus(&self.along(k, slopes, m), &self.along(m, slopes, k));
-            minus(&both, &own[k][m])
+            minus(&both, &curvatures[k][m])
         })
     }
 
     /// Returns ∂²(λᵀq̈)/∂q∂q̇, from ∂²(μᵀτ)/∂q∂q̇ and ∂τ/∂q̇.
-    pub fn by_position_and_velocity(&self, own: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> {
-        self.entries(|k, m| minus(&self.along(k, slopes, m), &own[k][m]))
+    pub fn by_position_and_velocity(
+        &self,
+        curvatures: &[Vec<S>],
+        slopes: &[Vec<S>],
+    ) -> Vec<Vec<S>> {
+        self.entries(|k, m| minus(&self.along(k, slopes, m), &curvatures[k][m]))
     }
 
     /// Returns ∂²(λᵀq̈)/∂q̇∂q̇, from ∂²(μᵀτ)/∂q̇∂q̇.
-    pub fn by_velocities(&self, own: &[Vec<S>]) -> Vec<Vec<S>> {
-        self.entries(|k, m| negative(&own[k][m]))
+    pub fn by_velocities(&self, curvatures: &[Vec<S>]) -> Vec<Vec<S>> {
+        self.entries(|k, m| negative(&curvatures[k][m]))
     }
 
     /// Returns ∂²(λᵀq̈)/∂τ∂q: row i has the slopes of (D⁻¹λ)_i.

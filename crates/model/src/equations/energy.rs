@@ -66,9 +66,11 @@ impl Formulation {
         let load = match self {
             Self::LagrangeEuler | Self::Dalembert => {
                 let (d, c) = (self.inertia(arm, at), self.coriolis_matrix(arm, at, qd));
-                let rows = d.iter().zip(&c).zip(self.gravity(arm, at));
-                let rows =
-                    rows.map(|((d, c), load)| plus(&plus(&product(d, a), &product(c, v)), &load));
+                let rows = d
+                    .iter()
+                    .zip(&c)
+                    .zip(self.gravity(arm, at))
+                    .map(|((d, c), load)| plus(&plus(&product(d, a), &product(c, v)), &load));
                 rows.collect::<Vec<S>>()
             }
             _ => {
@@ -171,20 +173,20 @@ fn first_moment<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vector<S> {
     let steps: Vec<Step<S>> = arm.steps(at).collect();
     let (mut moment, mut mass) = (zero_vector(), S::zero());
     arm.inward(|i, arrived: Vec<(usize, (Vector<S>, S))>| {
-        let (mut own, mut own_mass) = (zero_vector(), S::zero());
+        let (mut own_moment, mut own_mass) = (zero_vector(), S::zero());
         for (_, (moment, mass)) in &arrived {
-            (own, own_mass) = (sum(&own, moment), plus(&own_mass, mass));
+            (own_moment, own_mass) = (sum(&own_moment, moment), plus(&own_mass, mass));
         }
         let (step, link) = (&steps[i], &arm.links[i]);
-        own = sum(&own, &scaled(&link.mass, &link.com));
+        own_moment = sum(&own_moment, &scaled(&link.mass, &link.com));
         own_mass = plus(&own_mass, &link.mass);
-        let (lever, turned) = (step.lever(), step.to_previous(&own));
-        own = sum(&turned, &scaled(&own_mass, &lever));
+        let (lever, turned) = (step.lever(), step.to_previous(&own_moment));
+        own_moment = sum(&turned, &scaled(&own_mass, &lever));
         if arm.carrier(i).is_none() {
-            moment = sum(&moment, &own);
+            moment = sum(&moment, &own_moment);
             mass = plus(&mass, &own_mass);
         }
-        ((own, own_mass), ())
+        ((own_moment, own_mass), ())
     });
     match &arm.base {
         None => moment,

@@ -93,9 +93,9 @@ impl<S: Divide> Factor<S> {
     /// Returns U⁻ᵀ x
     pub fn substituted(&self, mut x: Vec<S>) -> Vec<S> {
         for (k, factors) in self.upper.iter().enumerate() {
-            let (before, own) = x.split_at_mut(self.kept + k);
+            let (before, tail) = x.split_at_mut(self.kept + k);
             for (x, factor) in before.iter().zip(factors) {
-                own[0] = minus(&own[0], &times(factor, x));
+                tail[0] = minus(&tail[0], &times(factor, x));
             }
         }
         x
@@ -104,11 +104,11 @@ impl<S: Divide> Factor<S> {
     fn eliminate(&self, b: &[S], then: impl Fn(usize, &S) -> S) -> Vec<S> {
         let mut x = b.to_vec();
         for (k, factors) in self.upper.iter().enumerate().rev() {
-            let (before, own) = x.split_at_mut(self.kept + k);
+            let (before, tail) = x.split_at_mut(self.kept + k);
             for (x, factor) in before.iter_mut().zip(factors) {
-                *x = minus(x, &times(factor, &own[0]));
+                *x = minus(x, &times(factor, &tail[0]));
             }
-            own[0] = then(k, &own[0]);
+            tail[0] = then(k, &tail[0]);
         }
         x
     }
@@ -153,14 +153,14 @@ pub fn scatter<S: Scalar>(values: &[S], joints: &[usize], n: usize) -> Vec<S> {
 }
 
 pub(super) fn placed<T>(
-    mut all: Vec<T>,
+    mut entries: Vec<T>,
     joints: &[usize],
     values: impl IntoIterator<Item = T>,
 ) -> Vec<T> {
     for (&joint, value) in joints.iter().zip(values) {
-        all[joint] = value;
+        entries[joint] = value;
     }
-    all
+    entries
 }
 
 #[cfg(test)]

@@ -56,7 +56,7 @@ impl<S> FollowerLine<S> {
 impl<S: Clone> FollowerLine<S> {
     /// Returns the follower among these rows alone, by their places there; none if it is not one.
     pub fn among(&self, rows: &[usize]) -> Option<FollowerLine<S>> {
-        let place = |row: usize| rows.iter().position(|own| *own == row);
+        let place = |row: usize| rows.iter().position(|candidate| *candidate == row);
         Some(FollowerLine {
             row: place(self.row)?,
             leader: place(self.leader)?,
@@ -79,13 +79,15 @@ pub fn gather<S: Scalar>(
     stride: usize,
     values: &mut [S],
 ) {
-    let following = following.iter().filter_map(|own| own.among(rows));
-    let following: Vec<FollowerLine<S>> = following.collect();
+    let following: Vec<FollowerLine<S>> = following
+        .iter()
+        .filter_map(|line| line.among(rows))
+        .collect();
     for block in values.chunks_mut((rows.len() * stride).max(1)) {
-        for own in &following {
+        for line in &following {
             for i in 0..stride {
-                let part = own.motion(&block[own.row * stride + i]);
-                let sum = &mut block[own.leader * stride + i];
+                let part = line.motion(&block[line.row * stride + i]);
+                let sum = &mut block[line.leader * stride + i];
                 *sum = plus(sum, &part);
             }
         }
@@ -94,9 +96,9 @@ pub fn gather<S: Scalar>(
 
 /// Returns Sᵀ b
 pub fn gathered<S: Scalar>(following: &[FollowerLine<S>], mut loads: Vec<S>) -> Vec<S> {
-    for own in following {
-        let part = own.motion(&loads[own.row]);
-        loads[own.leader] = plus(&loads[own.leader], &part);
+    for line in following {
+        let part = line.motion(&loads[line.row]);
+        loads[line.leader] = plus(&loads[line.leader], &part);
     }
     loads
 }
@@ -112,9 +114,9 @@ pub fn gathered_columns<S: Scalar>(
     following: &[FollowerLine<S>],
     mut m: Vec<Vec<S>>,
 ) -> Vec<Vec<S>> {
-    for own in following {
-        let part: Vec<S> = m[own.row].iter().map(|x| own.motion(x)).collect();
-        m[own.leader] = sums(&m[own.leader], &part);
+    for line in following {
+        let part: Vec<S> = m[line.row].iter().map(|x| line.motion(x)).collect();
+        m[line.leader] = sums(&m[line.leader], &part);
     }
     m
 }
@@ -126,8 +128,8 @@ pub fn gathered_square<S: Scalar>(following: &[FollowerLine<S>], d: Vec<Vec<S>>)
 
 /// Returns S ċ, from rates whose entries of followers mean nothing.
 pub fn spread<S: Scalar>(following: &[FollowerLine<S>], mut rates: Vec<S>) -> Vec<S> {
-    for own in following {
-        rates[own.row] = own.motion(&rates[own.leader]);
+    for line in following {
+        rates[line.row] = line.motion(&rates[line.leader]);
     }
     rates
 }

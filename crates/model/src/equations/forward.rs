@@ -133,12 +133,15 @@ impl Formulation {
             }
             let grown = with_rates(qd, growth);
             // Coulomb friction takes of the torques what it takes, and by its own slope.
-            let left = tau.iter().zip(&rubbed).zip(growth);
-            let left = left.map(|((tau, [torque, slope]), growth)| Dual {
-                value: minus(tau, torque),
-                rate: negative(&times(slope, growth)),
-            });
-            let left: Vec<Dual<S>> = left.collect();
+            let left: Vec<Dual<S>> = tau
+                .iter()
+                .zip(&rubbed)
+                .zip(growth)
+                .map(|((tau, [torque, slope]), growth)| Dual {
+                    value: minus(tau, torque),
+                    rate: negative(&times(slope, growth)),
+                })
+                .collect();
             let qdd = articulated::forward_dynamics(&arm, &at, [&grown, &left], moves);
             arm.coordinate_rates(&grown, qdd)
         };

@@ -63,7 +63,10 @@ impl Rows {
         }
         let mut rows = 0u8;
         for name in word.split('_') {
-            let bit = 1 << Rows::NAMES.into_iter().position(|own| own == name)?;
+            let bit = 1
+                << Rows::NAMES
+                    .into_iter()
+                    .position(|candidate| candidate == name)?;
             // In order, and none twice: one word for one choice.
             if rows >= bit {
                 return None;
@@ -169,9 +172,11 @@ impl<S> Frames<S> {
 
     /// Returns every number through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Frames<T> {
-        let links = self.links.iter();
-        let links = links.map(|pose| pose.as_ref().map(|pose| pose.map(&mut f)));
-        let links = links.collect();
+        let links = self
+            .links
+            .iter()
+            .map(|pose| pose.as_ref().map(|pose| pose.map(&mut f)))
+            .collect();
         let named = self.named.iter().map(|frame| NamedFrame {
             name: frame.name.clone(),
             joint: frame.joint,

@@ -89,8 +89,8 @@ impl<S: Scalar> Friction<S> {
 impl<S: Clone> Friction<S> {
     /// Takes this r of a velocity, if it is known, where there is Coulomb friction.
     pub fn take_speed(&mut self, per_speed: Option<&S>) {
-        if let (Some(coulomb), Some(given)) = (&mut self.coulomb, per_speed) {
-            coulomb.per_speed = given.clone();
+        if let (Some(coulomb), Some(speed)) = (&mut self.coulomb, per_speed) {
+            coulomb.per_speed = speed.clone();
         }
     }
 }
@@ -108,10 +108,10 @@ impl<S> Friction<S> {
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Friction<T> {
         Friction {
             viscous: f(&self.viscous),
-            coulomb: self.coulomb.as_ref().map(|own| Coulomb {
-                force: f(&own.force),
-                width: f(&own.width),
-                per_speed: f(&own.per_speed),
+            coulomb: self.coulomb.as_ref().map(|coulomb| Coulomb {
+                force: f(&coulomb.force),
+                width: f(&coulomb.width),
+                per_speed: f(&coulomb.per_speed),
             }),
         }
     }

@@ -46,8 +46,10 @@ impl<S> Arm<S> {
             };
             Link { parent, ..link }
         });
-        let links = base_links.chain(joints);
-        let links = links.map(|link| link.map(&mut *scalar)).collect();
+        let links = base_links
+            .chain(joints)
+            .map(|link| link.map(&mut *scalar))
+            .collect();
         let in_row = |row: usize, placement: Option<&Placement>| {
             let link = places[row].as_ref().map(|place| place.link.clone());
             match (link, placement.map(exact_pose)) {
@@ -55,10 +57,12 @@ impl<S> Arm<S> {
                 (link, pose) => link.or(pose),
             }
         };
-        let own = rows.iter().enumerate();
-        let own = own.map(|(row, joint)| in_row(row, joint.frame.as_ref()));
-        let own = core::iter::repeat_n(None, first).chain(own);
-        let own = own
+        let exact_frames = rows
+            .iter()
+            .enumerate()
+            .map(|(row, joint)| in_row(row, joint.frame.as_ref()));
+        let link_frames = core::iter::repeat_n(None, first)
+            .chain(exact_frames)
             .map(|pose| pose.map(|pose| pose.map(&mut *scalar)))
             .collect();
         let named = robot.frames.iter().map(|frame| {
@@ -86,7 +90,7 @@ impl<S> Arm<S> {
             following,
             frames: Frames {
                 named: named.collect(),
-                links: own,
+                links: link_frames,
                 ..Frames::default()
             },
         }
@@ -307,8 +311,10 @@ pub fn pose_of<S: Scalar>(
     length: impl Fn(&Rational) -> S,
 ) -> Columns<S> {
     let [roll, pitch, yaw] = placement.rpy.each_ref().map(pair);
-    let turned = Columns::identity().turn_z(&yaw).turn_y(&pitch);
-    let turned = turned.turn_x(&roll);
+    let turned = Columns::identity()
+        .turn_z(&yaw)
+        .turn_y(&pitch)
+        .turn_x(&roll);
     Columns {
         origin: placement.xyz.each_ref().map(length),
         ..turned

@@ -35,8 +35,8 @@ fn levers<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> (Vector<S>, Vec<[Vector<S>; 2]
     let mut lever = tool.map_or_else(zero_vector, |tool| tool.origin.clone());
     let of_joints = from_hand(arm.steps(at), |step| {
         let carried = |step: &Step<S>| {
-            let own = step.lever();
-            sum(&step.to_previous(&lever), &own)
+            let step_lever = step.lever();
+            sum(&step.to_previous(&lever), &step_lever)
         };
         let before = carried(&step);
         let of_joint = match arm.convention {
@@ -65,7 +65,7 @@ pub(super) fn hand<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Columns<S> {
 pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<[Vector<S>; 2]> {
     let (frames, levers) = (frames(arm, at), levers(arm, at).1);
     let column = |j: usize| {
-        let (link, [own, turned]) = (&arm.links[j], &levers[j]);
+        let (link, [lever, turned]) = (&arm.links[j], &levers[j]);
         let before = match arm.convention {
             Convention::Standard => frames[j].clone(),
             Convention::Modified => link.step(arm.convention, &at[j]).before(frames[j].clone()),
@@ -75,8 +75,8 @@ pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<[Vector<S>; 2]
             return [axis, zero_vector()];
         }
         let after = before.clone().turn_z(&at[j].theta);
-        let linear = match zeros(&before, own) > zeros(&after, turned) {
-            true => across(&before, own),
+        let linear = match zeros(&before, lever) > zeros(&after, turned) {
+            true => across(&before, lever),
             false => across(&after, turned),
         };
         [linear, axis]
@@ -93,7 +93,7 @@ pub(super) fn columns_across<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<[Vector
     };
     let [_, y, z] = Columns::identity().axes;
     // With a twist of a right angle one of them is the joint's axis, which the frame before has.
-    let [seen, from_base] = match arm.convention {
+    let [from_before, from_base] = match arm.convention {
         Convention::Standard => [(2, z), (1, y)],
         Convention::Modified => [(1, y), (2, z)],
     };
@@ -101,7 +101,7 @@ pub(super) fn columns_across<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<[Vector
     for i in 1..=at.len() {
         let before = i.saturating_sub(2);
         let mut axes: [Vector<S>; 3] = three(|_| zero_vector());
-        axes[seen.0] = frames[before].rotate(&carried(seen.1.clone(), i, before));
+        axes[from_before.0] = frames[before].rotate(&carried(from_before.1.clone(), i, before));
         axes[from_base.0] = frames[0].rotate(&carried(from_base.1.clone(), i, 0));
         axes[0] = cross(&axes[1], &axes[2]);
         frames.push(Columns::turned(axes));
@@ -120,12 +120,12 @@ pub(super) fn columns_across<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<[Vector
         if 2 * j >= arm.links.len() {
             return [across(frame, lever), axis];
         }
-        let mut own = across(&Columns::identity(), before);
+        let mut linear = across(&Columns::identity(), before);
         if arm.convention == Convention::Modified {
             let unturned = unturned(&at[j]);
-            own = link.step(arm.convention, &unturned).to_previous(&own);
+            linear = link.step(arm.convention, &unturned).to_previous(&linear);
         }
-        [frames[0].rotate(&carried(own, j, 0)), axis]
+        [frames[0].rotate(&carried(linear, j, 0)), axis]
     };
     (0..at.len()).map(column).collect()
 }

@@ -26,11 +26,14 @@ pub fn poses<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<Columns<S>> {
 
 /// Returns the pose of every link's own frame, in base axes.
 pub fn link_poses<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<Columns<S>> {
-    let poses = poses(arm, at).into_iter().enumerate();
-    let poses = poses.map(|(link, pose)| match arm.frames.of_link(link) {
-        None => pose,
-        Some(own) => pose.then(own),
-    });
+    let poses =
+        poses(arm, at)
+            .into_iter()
+            .enumerate()
+            .map(|(link, pose)| match arm.frames.of_link(link) {
+                None => pose,
+                Some(frame) => pose.then(frame),
+            });
     poses.collect()
 }
 
@@ -186,16 +189,18 @@ impl Formulation {
         }
         let poses = poses(arm, at);
         for ((link, step), wrench) in arm.steps(at).enumerate().zip(&mut wrenches) {
-            let Some(own) = arm.frames.of_link(link) else {
+            let Some(frame) = arm.frames.of_link(link) else {
                 continue;
             };
             let lever = match arm.convention {
-                Convention::Modified => poses[link].rotate(&own.origin),
+                Convention::Modified => poses[link].rotate(&frame.origin),
                 Convention::Standard => {
                     // The step's own origin is the lever: no difference of two large positions.
-                    let before = arm.carrier(link).map(|carrier| poses[carrier].axes.clone());
-                    let before = before.unwrap_or_else(|| arm.frame_0().axes);
-                    step.append(&Columns::turned(before)).then(own).origin
+                    let before = arm
+                        .carrier(link)
+                        .map(|carrier| poses[carrier].axes.clone())
+                        .unwrap_or_else(|| arm.frame_0().axes);
+                    step.append(&Columns::turned(before)).then(frame).origin
                 }
             };
             wrench.moment = difference(&wrench.moment, &cross(&lever, &wrench.force));
@@ -210,8 +215,10 @@ fn wrenches_by_poses<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], qdd: &[S]) -
     let moving = poses_from(&Columns::identity(), &arm_moving, &at_moving);
     let still = poses_from(&Columns::identity(), arm, at);
     arm.inward(|i, arrived: Vec<(usize, Wrench<S>)>| {
-        let arrived = arrived.iter().map(|(_, wrench)| wrench);
-        let arrived = arrived.fold(Wrench::zero(), |all, wrench| all.with(wrench));
+        let arrived = arrived
+            .iter()
+            .map(|(_, wrench)| wrench)
+            .fold(Wrench::zero(), |total, wrench| total.with(wrench));
         let about_base = arrived.with(&inertial(arm, i, &still[i], &moving[i]));
         let Wrench { force, moment } = about_base.clone();
         let point = match (arm.convention, i) {

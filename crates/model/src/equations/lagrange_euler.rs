@@ -51,11 +51,15 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
             poses.push(pose);
             u.push(row);
         }
-        let uj = arm.links.iter().zip(&u).map(|(link, row)| {
-            let j = PseudoInertia::of(link);
-            row.iter().map(|u| j.after(u)).collect()
-        });
-        let uj = uj.collect();
+        let uj = arm
+            .links
+            .iter()
+            .zip(&u)
+            .map(|(link, row)| {
+                let j = PseudoInertia::of(link);
+                row.iter().map(|u| j.after(u)).collect()
+            })
+            .collect();
         LagrangeEuler {
             arm,
             at,
@@ -101,12 +105,12 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
     pub fn virtual_power(&self, qd: &[S], qdd: &[S], multiplier: &[S]) -> S {
         let second = self.second_derivatives();
         let of_link = |(j, link): (usize, &Link<S>)| {
-            let own = &second[j];
+            let hessian = &second[j];
             let pairs = (0..=j).flat_map(|k| (0..=k).map(move |m| (k, m)));
             let centripetal = pairs.map(|(k, m)| {
                 let rates = times(&qd[k], &qd[m]);
                 let rates = if k == m { rates } else { twice(&rates) };
-                (rates, &own[k][m])
+                (rates, &hessian[k][m])
             });
             let direct = qdd.iter().cloned().zip(&self.u[j]);
             let acceleration = Columns::combination(direct.chain(centripetal));
@@ -127,14 +131,14 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
 
     /// Returns `[i][k][j]` = U_ijk = U_ikj for j ≤ k ≤ i.
     fn second_derivatives(&self) -> Vec<Vec<Vec<Columns<S>>>> {
-        let mut all: Vec<Vec<Vec<Columns<S>>>> = Vec::with_capacity(self.u.len());
+        let mut derivatives: Vec<Vec<Vec<Columns<S>>>> = Vec::with_capacity(self.u.len());
         for (i, step) in self.arm.steps(self.at).enumerate() {
             let append = |before: &Columns<S>| step.append(before);
             let appended = |row: &Vec<Columns<S>>| row.iter().map(append).collect();
             let carrier = self.arm.carrier(i);
             let mut of_link: Vec<Vec<Columns<S>>> = match carrier {
                 None => Vec::new(),
-                Some(carrier) => all[carrier].iter().map(appended).collect(),
+                Some(carrier) => derivatives[carrier].iter().map(appended).collect(),
             };
             let between = of_link.len()..i;
             of_link.extend(between.map(|k| alloc::vec![Columns::nothing(); k + 1]));
@@ -142,16 +146,16 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
             let kind = step.link.kind;
             of_link.push(match step.convention {
                 Convention::Standard => {
-                    let own = self.poses[i].derive(kind);
+                    let derivative = self.poses[i].derive(kind);
                     let earlier = carrier.map_or(&[][..], |carrier| &self.u[carrier][..]);
-                    let at_joint = earlier.iter().chain([&own]);
+                    let at_joint = earlier.iter().chain([&derivative]);
                     at_joint.map(|u| append(&u.derive(kind))).collect()
                 }
                 Convention::Modified => self.u[i].iter().map(|u| u.derive(kind)).collect(),
             });
-            all.push(of_link);
+            derivatives.push(of_link);
         }
-        all
+        derivatives
     }
 }
 
@@ -173,12 +177,12 @@ impl<S: Scalar> PseudoInertia<S> {
         let first = scaled(&link.mass, &link.com);
         let half_trace = halved(&plus(&plus(&i.xx, &i.yy), &i.zz));
         let entry = |tensor: &S, r: usize, c: usize| {
-            let own = if r == c {
+            let central_moment = if r == c {
                 minus(&half_trace, tensor)
             } else {
                 negative(tensor)
             };
-            plus(&own, &times(&first[r], &link.com[c]))
+            plus(&central_moment, &times(&first[r], &link.com[c]))
         };
         let [xy, yz, xz] = [entry(&i.xy, 0, 1), entry(&i.yz, 1, 2), entry(&i.xz, 0, 2)];
         let second = [
@@ -205,11 +209,12 @@ pub fn velocity_terms<S: Scalar>(h: &[Vec<Vec<S>>], qd: &[S]) -> Vec<S> {
     let n = qd.len();
     let doubled: Vec<S> = qd.iter().map(twice).collect();
     let pairs = (0..n).flat_map(|k| (k..n).map(move |m| (k, m)));
-    let rates = pairs.map(|(k, m)| {
-        let second = if m == k { &qd[m] } else { &doubled[m] };
-        (k, m, times(&qd[k], second))
-    });
-    let rates: Vec<(usize, usize, S)> = rates.collect();
+    let rates: Vec<(usize, usize, S)> = pairs
+        .map(|(k, m)| {
+            let second = if m == k { &qd[m] } else { &doubled[m] };
+            (k, m, times(&qd[k], second))
+        })
+        .collect();
     let of_joint =
         |h: &Vec<Vec<S>>| total(rates.iter().map(|(k, m, rate)| times(&h[*k][*m], rate)));
     h.iter().map(of_joint).collect()

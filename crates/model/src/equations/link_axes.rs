@@ -147,18 +147,18 @@ fn columns<S: Scalar>(arm: &Arm<S>, at: &At<S>, link: usize) -> Vec<[Vector<S>; 
     hands.reverse();
     let mut columns: Vec<[Vector<S>; 2]> = Vec::with_capacity(n);
     for (i, step) in arm.steps(at).take(link).enumerate() {
-        let own = |hand: &Vector<S>| match step.link.kind {
+        let column = |hand: &Vector<S>| match step.link.kind {
             JointKind::Revolute => [z_across(hand), unit_z()],
             JointKind::Prismatic => [unit_z(), zero_vector()],
         };
         if arm.convention == Convention::Standard {
-            columns.push(own(&hands[i]));
+            columns.push(column(&hands[i]));
         }
         for part in columns.iter_mut().flatten() {
             *part = step.to_link(part);
         }
         if arm.convention == Convention::Modified {
-            columns.push(own(&hands[i + 1]));
+            columns.push(column(&hands[i + 1]));
         }
     }
     columns.extend((0..outer.links.len()).map(|joint| by_lever(&outer, &levers, joint)));

@@ -22,7 +22,7 @@ pub const BODY: usize = 10;
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadRow<S> {
     /// The number where all arguments are zero.
-    pub own: S,
+    pub constant: S,
     /// The places of parameters that change it among [`LoadArguments::parameters`], each with its factor.
     pub of: Vec<(usize, S)>,
 }
@@ -32,7 +32,7 @@ impl<S> LoadRow<S> {
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> LoadRow<T> {
         let of = self.of.iter();
         LoadRow {
-            own: f(&self.own),
+            constant: f(&self.constant),
             of: of.map(|(place, x)| (*place, f(x))).collect(),
         }
     }
@@ -65,9 +65,11 @@ impl<S: Scalar> LoadArguments<S> {
     /// Returns the numbers of the load.
     pub fn load(&self) -> Vec<S> {
         let row = |row: &LoadRow<S>| {
-            let terms = row.of.iter();
-            let terms = terms.map(|(place, factor)| times(factor, &self.parameters[*place]));
-            terms.fold(row.own.clone(), |sum, term| plus(&sum, &term))
+            let terms = row
+                .of
+                .iter()
+                .map(|(place, factor)| times(factor, &self.parameters[*place]));
+            terms.fold(row.constant.clone(), |sum, term| plus(&sum, &term))
         };
         self.rows.iter().map(row).collect()
     }

@@ -351,9 +351,9 @@ impl<S: Scalar> Columns<S> {
     where
         S: 'a,
     {
-        terms.fold(Columns::nothing(), |all, (s, own)| Columns {
-            axes: three(|i| sum(&all.axes[i], &scaled(&s, &own.axes[i]))),
-            origin: sum(&all.origin, &scaled(&s, &own.origin)),
+        terms.fold(Columns::nothing(), |total, (s, columns)| Columns {
+            axes: three(|i| sum(&total.axes[i], &scaled(&s, &columns.axes[i]))),
+            origin: sum(&total.origin, &scaled(&s, &columns.origin)),
         })
     }
 

@@ -219,8 +219,10 @@ impl Formulation {
         let still = zeros(qd.len());
         let free = arm.clone().without_friction();
         let falling = self.forward_dynamics(&free, at, qd, &still, moves);
-        let driven = products(&space.jacobian, &falling);
-        let driven: Vec<S> = driven.iter().map(negative).collect();
+        let driven: Vec<S> = products(&space.jacobian, &falling)
+            .iter()
+            .map(negative)
+            .collect();
         let rate = self.jacobian_rate(arm, at, qd).concat();
         space.bias(&driven, &arm.frames.rows.pick(&rate), damping)
     }

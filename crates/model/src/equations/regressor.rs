@@ -90,10 +90,10 @@ impl LinkParameter {
 /// Returns the columns of a full regressor: every parameter of every link, link by link.
 pub fn of_links<S: Scalar>(arm: &Arm<S>) -> Vec<Column<S>> {
     let of = |joint| {
-        let own = arm.frames.of_link(joint);
-        let in_row = move |unit: Body<S>| match own {
+        let frame = arm.frames.of_link(joint);
+        let in_row = move |unit: Body<S>| match frame {
             None => unit,
-            Some(own) => unit.carried(&transposed(&own.axes), &own.origin),
+            Some(frame) => unit.carried(&transposed(&frame.axes), &frame.origin),
         };
         LinkParameter::ALL.map(|parameter| Column {
             joint,
@@ -109,7 +109,7 @@ impl<S: Scalar> Arm<S> {
         let body = Body::of(&self.links[joint]);
         match self.frames.of_link(joint) {
             None => body,
-            Some(own) => body.moved(&opposite(&own.origin)).turned(&own.axes),
+            Some(frame) => body.moved(&opposite(&frame.origin)).turned(&frame.axes),
         }
     }
 
@@ -132,8 +132,8 @@ pub fn of_drives<S>(robot: &Robot) -> Vec<Column<S>> {
     let armatures = joints().filter(|(_, joint)| !joint.armature.is_zero());
     let viscous = joints().filter(|(_, joint)| !joint.viscous.is_zero());
     let armatures = armatures.map(|(joint, _)| (joint, Probed::Armature));
-    let all = armatures.chain(viscous.map(|(joint, _)| (joint, Probed::Viscous)));
-    all.map(|(joint, of)| Column { joint, of }).collect()
+    let drives = armatures.chain(viscous.map(|(joint, _)| (joint, Probed::Viscous)));
+    drives.map(|(joint, of)| Column { joint, of }).collect()
 }
 
 impl Formulation {
@@ -216,8 +216,8 @@ fn of_body<S: Scalar>(
     // About its centre at s a mass of one has Σ − s sᵀ.
     let about_centre = Body {
         second: Inertia::symmetric(|i, j| {
-            let own = times(&body.first[i], &body.first[j]);
-            minus(entry(&body.second, i, j), &own)
+            let term = times(&body.first[i], &body.first[j]);
+            minus(entry(&body.second, i, j), &term)
         }),
         ..body.clone()
     };

@@ -175,8 +175,11 @@ impl Angle {
         }
         if let Some((before, tangent)) = text.split_once("atan(") {
             let (negative, before) = parse::split_sign(before);
-            let tangent = tangent.strip_suffix(')').filter(|_| before.trim() == "2*");
-            let tangent = tangent.ok_or(NumberError::Malformed)?.trim();
+            let tangent = tangent
+                .strip_suffix(')')
+                .filter(|_| before.trim() == "2*")
+                .ok_or(NumberError::Malformed)?
+                .trim();
             let tangent = match tangent.contains('/') {
                 true => parse::parse_fraction(tangent)?,
                 false => parse::parse_decimal(tangent)?,

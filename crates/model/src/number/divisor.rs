@@ -79,11 +79,11 @@ mod tests {
             BigUint::new(words.collect()) >> (bits.next_multiple_of(32) - bits)
         };
         let sizes = [0, 1, 31, 62, 63, 64, 65, 127, 128, 200, 800];
-        for own in sizes {
+        for size in sizes {
             for other in sizes {
                 for shared in [1, 30, 64, 300] {
                     let common = number(shared);
-                    let [a, b] = [number(own) * &common, number(other) * &common];
+                    let [a, b] = [number(size) * &common, number(other) * &common];
                     assert_eq!(greatest_common_divisor(&a, &b), a.gcd(&b), "{a} {b}");
                 }
             }

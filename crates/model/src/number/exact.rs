@@ -308,7 +308,7 @@ fn generator(angle: &Arc<Angle>, sin: u32, cos: u32) -> Exact {
 fn multiply_into(terms: &mut Terms, m: &Monomial, n: &Monomial, c: &Rational) {
     let mut product = m.clone();
     for power in n {
-        match product.binary_search_by(|own| own.angle.cmp(&power.angle)) {
+        match product.binary_search_by(|factor| factor.angle.cmp(&power.angle)) {
             Ok(at) => {
                 product[at].sin += power.sin;
                 product[at].cos += power.cos;

@@ -116,8 +116,8 @@ mod tests {
             let denominator = if denominator == 0 { 1 } else { denominator };
             Rational::new(numerator.into(), denominator.into())
         };
-        let edges = [i64::MAX, i64::MIN, i64::MIN + 1, 0, 1, -1];
-        let edges = edges.map(|x| Rational::from_integer(x.into()));
+        let edges =
+            [i64::MAX, i64::MIN, i64::MIN + 1, 0, 1, -1].map(|x| Rational::from_integer(x.into()));
         let mut pairs: Vec<(Rational, Rational)> = (0..20_000)
             .map(|k| (rational(1 + k % 63), rational(1 + (k / 7) % 63)))
             .collect();

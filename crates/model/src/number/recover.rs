@@ -40,8 +40,12 @@ pub fn short(value: &Rational, bits: u32) -> Rational {
     if size <= near {
         return Rational::zero();
     }
-    let found = simplest(&size - &near, size + near);
-    if value.is_negative() { -found } else { found }
+    let magnitude = simplest(&size - &near, size + near);
+    if value.is_negative() {
+        -magnitude
+    } else {
+        magnitude
+    }
 }
 
 /// Returns the simplest fraction between two that are positive: the convergents of all numbers
@@ -147,10 +151,10 @@ mod tests {
     }
 
     /// Checks that a number is this many times 10⁻²⁰, within one of them.
-    fn is_near(found: &Rational, digits: i128) {
+    fn is_near(radians: &Rational, digits: i128) {
         let unit = Rational::new(1.into(), BigInt::from(10).pow(20));
-        let off = found - Rational::from_integer(digits.into()) * &unit;
-        assert!(off.abs() <= unit, "{found}");
+        let off = radians - Rational::from_integer(digits.into()) * &unit;
+        assert!(off.abs() <= unit, "{radians}");
     }
 
     #[test]
@@ -188,10 +192,10 @@ mod tests {
     #[test]
     fn other_angles_are_rounded_once() {
         let [one, two] = [ratio(1, 1), ratio(2, 1)].map(|x| Wide::from_rational(&x));
-        let Angle::Radians(found) = Angle::recovered(&one, &two) else {
+        let Angle::Radians(radians) = Angle::recovered(&one, &two) else {
             panic!("a number of radians");
         };
-        is_near(&found, 46_364_760_900_080_611_621);
+        is_near(&radians, 46_364_760_900_080_611_621);
     }
 
     #[test]

@@ -214,11 +214,11 @@ mod tests {
             assert_eq!(Argument::from_name(argument.name()), Some(argument));
         }
         let (two, three) = (Sizes::whole(2), Sizes::whole(3));
-        let of_joints = |own: &Argument| own.length(two) != own.length(three);
+        let of_joints = |argument: &Argument| argument.length(two) != argument.length(three);
         let motion = Argument::JOINTS.into_iter();
-        let all = Argument::ALL.into_iter().filter(of_joints);
+        let arguments = Argument::ALL.into_iter().filter(of_joints);
         let of_drives = [Argument::Multiplier, Argument::Armature, Argument::Viscous];
-        assert!(all.eq(motion.chain(of_drives)));
+        assert!(arguments.eq(motion.chain(of_drives)));
         assert_eq!(Argument::from_name("t"), None);
     }
 }

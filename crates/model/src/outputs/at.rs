@@ -74,12 +74,12 @@ impl QuantityAt {
     pub(super) fn regrouped<S: Divide>(self, at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let textbook = at.textbook.as_ref()?;
         let arm = textbook.arm.seen(&self.0.view)?;
-        let mut seen = at.clone();
-        seen.textbook = Some(Written {
+        let mut at_view = at.clone();
+        at_view.textbook = Some(Written {
             arm: &arm,
             ..*textbook
         });
-        self.0.quantity.regrouped(&seen)
+        self.0.quantity.regrouped(&at_view)
     }
 }
 
@@ -143,8 +143,9 @@ impl Function {
             let name = format!("{function}_{frame}{}", suffix('_'));
             check_name(&name).map_err(|_| {
                 let frame: String = frame.chars().take(64).collect();
-                let suggested = suggested_name(&frame).filter(|name| *name != frame);
-                let suggested = suggested.unwrap_or_else(|| String::from("camera_2"));
+                let suggested = suggested_name(&frame)
+                    .filter(|name| *name != frame)
+                    .unwrap_or_else(|| String::from("camera_2"));
                 let help = format!(
                     "small letters, digits and single `_` between them, such as `{suggested}`"
                 );
@@ -167,8 +168,11 @@ impl Function {
                 axes,
                 rows,
             };
-            let results = function.quantities().iter();
-            let results: Vec<Quantity> = results.map(|quantity| seen(*quantity, view)).collect();
+            let results: Vec<Quantity> = function
+                .quantities()
+                .iter()
+                .map(|quantity| seen(*quantity, view))
+                .collect();
             let of = function.definition();
             let structure = of.structure.map(|_| kept(camel(&name)));
             Definition {
@@ -185,16 +189,17 @@ impl Function {
     pub(super) fn parse_at(text: &str) -> Result<Function, BundleError> {
         let (name, rest) = text.split_once(AT).unwrap_or((text, ""));
         let name = name.trim();
-        let function = Function::from_name(name);
-        let function = function.ok_or_else(|| BundleError::of_unknown(name))?;
+        let function = Function::from_name(name).ok_or_else(|| BundleError::of_unknown(name))?;
         let mut words = rest.split(OF).map(str::trim);
         let frame = words.next().unwrap_or_default();
         let (mut axes, mut rows) = (None, None);
         for word in words {
-            let named = Axes::WORDS.into_iter().find(|(own, _)| *own == word);
+            let named = Axes::WORDS
+                .into_iter()
+                .find(|(candidate, _)| *candidate == word);
             let is_taken = match (named, Rows::of(word)) {
-                (Some((_, own)), _) => axes.replace(own).is_some(),
-                (None, Some(own)) => rows.replace(own).is_some(),
+                (Some((_, choice)), _) => axes.replace(choice).is_some(),
+                (None, Some(choice)) => rows.replace(choice).is_some(),
                 (None, None) => true,
             };
             if is_taken {
@@ -253,7 +258,7 @@ impl Function {
     pub fn is_of_hand(self) -> bool {
         self.quantities().iter().any(|quantity| match quantity {
             Quantity::At(at) => at.view().frames().any(|frame| frame == HAND),
-            own => own.facts().frame != FrameChoice::None,
+            quantity => quantity.facts().frame != FrameChoice::None,
         })
     }
 
@@ -262,7 +267,7 @@ impl Function {
         let mut frames: Vec<&'static str> = Vec::new();
         for quantity in self.quantities() {
             if let Quantity::At(at) = quantity {
-                let others = at.view().frames().filter(|own| !frames.contains(own));
+                let others = at.view().frames().filter(|frame| !frames.contains(frame));
                 frames.extend(others.collect::<Vec<_>>());
             }
         }

@@ -66,8 +66,12 @@ impl Function {
             return Err(BundleError::new(message, help));
         }
         let mut results: Vec<(Quantity, Function)> = Vec::new();
-        let own = |&part: &Function| part.quantities().iter().map(move |&own| (own, part));
-        for (quantity, part) in parts.iter().flat_map(own) {
+        let quantities_of = |&part: &Function| {
+            part.quantities()
+                .iter()
+                .map(move |&quantity| (quantity, part))
+        };
+        for (quantity, part) in parts.iter().flat_map(quantities_of) {
             let field = quantity.field();
             let same = |(other, _): &&(Quantity, Function)| other.field() == field;
             if let Some(&(other, by)) = results.iter().find(same) {
@@ -275,8 +279,12 @@ impl BundleError {
         let Some(bundle) = functions.iter().find(is_it) else {
             return self;
         };
-        let parts: Vec<&str> = bundle.parts().iter().map(|part| part.name()).collect();
-        let parts = parts.join(" + ");
+        let parts = bundle
+            .parts()
+            .iter()
+            .map(|part| part.name())
+            .collect::<Vec<&str>>()
+            .join(" + ");
         let help = format!("bundles do not nest: write its parts, {parts}");
         BundleError::new(format!("`{bundle}` is a bundle itself"), help)
     }
@@ -297,15 +305,15 @@ mod tests {
     #[test]
     fn the_registrys_bundles_are_like_any_other() {
         let is_bundle = |function: &Function| !function.definition().parts.is_empty();
-        let own: Vec<Function> = Function::ALL.into_iter().filter(is_bundle).collect();
-        assert_eq!(own, [Function::ManipulatorEquation]);
-        for own in own {
-            let parts = own.definition().parts.iter().copied();
+        let bundles: Vec<Function> = Function::ALL.into_iter().filter(is_bundle).collect();
+        assert_eq!(bundles, [Function::ManipulatorEquation]);
+        for bundle in bundles {
+            let parts = bundle.definition().parts.iter().copied();
             let made = Function::bundle("made", parts).unwrap();
-            assert_eq!(own.quantities(), made.quantities());
-            assert_eq!(own.arguments(), made.arguments());
-            assert_eq!(own.forms(), made.forms());
-            assert_eq!(own.structure(), Some(own.camel().as_str()));
+            assert_eq!(bundle.quantities(), made.quantities());
+            assert_eq!(bundle.arguments(), made.arguments());
+            assert_eq!(bundle.forms(), made.forms());
+            assert_eq!(bundle.structure(), Some(bundle.camel().as_str()));
         }
     }
 
@@ -316,18 +324,18 @@ mod tests {
             assert_eq!(function.text(), function.name());
         }
         let text = "state_of_2=jacobian+inverse_dynamics_derivatives+gravity";
-        let found = Function::parse(text).unwrap();
-        assert_eq!(found.text(), text);
-        assert_eq!(found.structure(), Some("StateOf2"));
-        let fields: Vec<&str> = found.quantities().iter().map(|q| q.field()).collect();
+        let bundle = Function::parse(text).unwrap();
+        assert_eq!(bundle.text(), text);
+        assert_eq!(bundle.structure(), Some("StateOf2"));
+        let fields: Vec<&str> = bundle.quantities().iter().map(|q| q.field()).collect();
         assert_eq!(fields, ["jacobian", "dtau_dq", "dtau_dqd", "d", "c"]);
-        let names: Vec<&str> = found.arguments().iter().map(|a| a.name()).collect();
+        let names: Vec<&str> = bundle.arguments().iter().map(|a| a.name()).collect();
         assert_eq!(names, ["q", "qd", "qdd"]);
-        let more = Function::bundle("more", [found, Function::Coriolis]).unwrap();
+        let more = Function::bundle("more", [bundle, Function::Coriolis]).unwrap();
         assert!(more.text().ends_with("+gravity+coriolis"));
         let again = Function::parse(text).unwrap();
-        assert!(core::ptr::eq(found.definition(), again.definition()));
-        assert_ne!(Function::parse("x=inertia+gravity"), Ok(found));
+        assert!(core::ptr::eq(bundle.definition(), again.definition()));
+        assert_ne!(Function::parse("x=inertia+gravity"), Ok(bundle));
     }
 
     /// Texts, and below each what is said of it.

@@ -156,11 +156,11 @@ impl Formula for BaseAcceleration {
     fn residual<S: Divide>(at: &Written<'_, S>, base: &[S]) -> Vec<S> {
         let (form, motion) = (at.formulation, at.motion);
         let rows: Vec<usize> = (0..BASE_COORDINATES).collect();
-        let own = submatrix(&form.inertia(at.arm, at.at), &rows);
+        let base_inertia = submatrix(&form.inertia(at.arm, at.at), &rows);
         let mut rest = motion.qdd.clone();
         rest[..BASE_COORDINATES].fill(S::zero());
         let taken = form.inverse_dynamics(at.arm, at.at, &motion.qd, &rest);
-        sums(&products(&own, base), &taken[..BASE_COORDINATES])
+        sums(&products(&base_inertia, base), &taken[..BASE_COORDINATES])
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {

@@ -47,8 +47,8 @@ impl Formula for ContactTorque {
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let (form, motion) = (at.formulation, at.motion);
-        let own = form.inverse_dynamics(at.arm, at.at, &motion.qd, &motion.qdd);
-        differences(&own, &of_wrench(at))
+        let torques = form.inverse_dynamics(at.arm, at.at, &motion.qd, &motion.qdd);
+        differences(&torques, &of_wrench(at))
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
@@ -123,8 +123,8 @@ impl Formula for ContactWrench {
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let (form, motion) = (at.formulation, at.motion);
-        let given = [motion.tau.as_slice(), &motion.damping];
-        form.wrench_of_torques(at.arm, at.at, given, &motion.moves)
+        let inputs = [motion.tau.as_slice(), &motion.damping];
+        form.wrench_of_torques(at.arm, at.at, inputs, &motion.moves)
     }
 
     fn divisor<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

@@ -68,8 +68,8 @@ pub(super) struct HeldAcceleration;
 
 fn written_space<S: Divide>(at: &Written<'_, S>) -> ContactSpace<S> {
     let (form, motion) = (at.formulation, at.motion);
-    let given = [&motion.qd[..], &motion.tau, &motion.damping];
-    form.contact_space(at.arm, at.at, given, &motion.moves)
+    let inputs = [&motion.qd[..], &motion.tau, &motion.damping];
+    form.contact_space(at.arm, at.at, inputs, &motion.moves)
 }
 
 /// λ² 1 is the same in all axes: each point has those of the link that it is on, or others.
@@ -78,11 +78,16 @@ fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<[Vec<S>; 2]> {
     let points = whole.arm.in_contact();
     let hand = |arm| SeenHand::new(whole.formulation, (arm, whole.at), at.form.hand.axes);
     let hands: Vec<SeenHand<'_, S>> = points.iter().map(hand).collect();
-    let rows = hands.iter().flat_map(SeenHand::jacobian);
-    let rows: Vec<Vec<S>> = rows.map(|row| at.pick(&row)).collect();
+    let rows: Vec<Vec<S>> = hands
+        .iter()
+        .flat_map(SeenHand::jacobian)
+        .map(|row| at.pick(&row))
+        .collect();
     let jacobian = gathered_rows(at.following, rows);
-    let rates = hands.iter().flat_map(|hand| hand.rate(&whole.motion.qd));
-    let rates: Vec<S> = rates.collect();
+    let rates: Vec<S> = hands
+        .iter()
+        .flat_map(|hand| hand.rate(&whole.motion.qd))
+        .collect();
     let [taken, reference] = match at.following.is_empty() && !at.form.composite_h {
         true => (at.chain).reference_load(at.at, &motion.qd, &motion.moves, at.form),
         false => {
@@ -91,12 +96,19 @@ fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<[Vec<S>; 2]> {
         }
     };
     let tau = gathered(at.following, motion.tau.clone());
-    let given = [&differences(&tau, &taken)[..], &reference];
+    let inputs = [&differences(&tau, &taken)[..], &reference];
     let known = (&jacobian[..], &rates[..]);
-    let [accelerations, forces] =
-        held(known, &factor(at), given, &motion.damping[0], &motion.moves);
-    let forces = hands.iter().zip(forces.chunks(3));
-    let forces = forces.flat_map(|(hand, force)| hand.turned(&[force.to_vec()]).concat());
+    let [accelerations, forces] = held(
+        known,
+        &factor(at),
+        inputs,
+        &motion.damping[0],
+        &motion.moves,
+    );
+    let forces = hands
+        .iter()
+        .zip(forces.chunks(3))
+        .flat_map(|(hand, force)| hand.turned(&[force.to_vec()]).concat());
     Some([accelerations, forces.collect()])
 }
 

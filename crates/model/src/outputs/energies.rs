@@ -124,8 +124,11 @@ fn drift<'a, S: Scalar + 'a>(
     friction: impl Iterator<Item = &'a Friction<S>>,
     qd: &[S],
 ) -> Vec<S> {
-    let rest = slope.iter().zip(&gravity).map(|(slope, c)| minus(slope, c));
-    let rest = rest.zip(friction.zip(qd));
+    let rest = slope
+        .iter()
+        .zip(&gravity)
+        .map(|(slope, c)| minus(slope, c))
+        .zip(friction.zip(qd));
     rest.map(|(rest, (friction, qd))| minus(&rest, &friction.torque(qd)))
         .collect()
 }

@@ -126,15 +126,15 @@ impl<S: Scalar> Motion<S> {
     /// those that follow move with their leaders, and no torque is theirs.
     #[must_use]
     pub fn of_rows(mut self, following: &[FollowerLine<S>]) -> Motion<S> {
-        for own in following {
+        for line in following {
             // In their order, so that each stands at its own row at last.
-            self.insert_still(own.row);
+            self.insert_still(line.row);
         }
-        for own in following {
-            self.q[own.row] = self.q[own.leader].followed_by(own);
+        for line in following {
+            self.q[line.row] = self.q[line.leader].followed_by(line);
             for (argument, entries) in self.vectors_mut() {
                 if argument != Argument::Torque {
-                    entries[own.row] = own.motion(&entries[own.leader]);
+                    entries[line.row] = line.motion(&entries[line.leader]);
                 }
             }
         }

@@ -23,18 +23,18 @@ pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>, unknowns: Unknowns
         let [bias, tau] = [bias, motion.tau.clone()].map(|loads| gathered(at.following, loads));
         return solved(&at.gathered_inertia(), &bias, &tau, &motion.moves);
     }
-    let given = [motion.qd.as_slice(), &motion.tau];
+    let inputs = [motion.qd.as_slice(), &motion.tau];
     if let Some(unspun) = EliminatedTip::new(&at.composite, &motion.moves) {
-        return unspun.forward_dynamics(given, &motion.moves, at.form, unknowns);
+        return unspun.forward_dynamics(inputs, &motion.moves, at.form, unknowns);
     }
-    let by_shoulder = (at.composite).forward_dynamics_by_shoulder(given, &motion.moves, at.form);
+    let by_shoulder = (at.composite).forward_dynamics_by_shoulder(inputs, &motion.moves, at.form);
     if let Some(accelerations) = by_shoulder {
         return accelerations;
     }
     let d = at.composite.inertia(at.form.travel);
     if !at.form.composite_h {
         let chain = (at.at, d.as_slice());
-        return (at.chain).forward_dynamics(chain, given, &motion.moves, at.form, unknowns);
+        return (at.chain).forward_dynamics(chain, inputs, &motion.moves, at.form, unknowns);
     }
     let loads = [&torques(at, &zeros(motion.qd.len()))[..], &motion.tau];
     (at.chain).accelerations(&d, loads, &motion.moves, (at.form, unknowns))

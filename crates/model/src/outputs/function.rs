@@ -103,13 +103,14 @@ impl Function {
 
     /// Returns every function that a robot has by its name alone, in the order of files.
     pub fn of(robot: &Robot) -> Vec<Function> {
-        let has = |own: &Function| match robot.floating {
-            Some(_) => own.takes_floating_base(),
-            None => own.takes_fixed_base(),
+        let has = |function: &Function| match robot.floating {
+            Some(_) => function.takes_floating_base(),
+            None => function.takes_fixed_base(),
         };
         let follows = !robot.followers.is_empty();
-        let all = Function::ALL.into_iter().filter(has);
-        all.filter(|own| !follows || own.takes_followers())
+        let functions = Function::ALL.into_iter().filter(has);
+        functions
+            .filter(|function| !follows || function.takes_followers())
             .collect()
     }
 
@@ -163,8 +164,8 @@ impl Function {
 
     /// Returns its dependence on a payload: the strongest of its results.
     pub fn payload_dependence(self) -> PayloadDependence {
-        let all = self.quantities().iter();
-        let most = all.map(|q| q.facts().payload_dependence).max();
+        let quantities = self.quantities().iter();
+        let most = quantities.map(|q| q.facts().payload_dependence).max();
         most.unwrap_or(PayloadDependence::None)
     }
 
@@ -221,7 +222,9 @@ impl Function {
             columns,
         };
         let results = self.quantities().iter();
-        results.flat_map(|own| own.written(&written)).collect()
+        results
+            .flat_map(|quantity| quantity.written(&written))
+            .collect()
     }
 
     /// Returns the residuals of the equations that these results over all joints solve.
@@ -243,8 +246,8 @@ impl Function {
         let mut rest = results;
         let mut residual = Vec::new();
         for quantity in self.quantities() {
-            let (own, others) = rest.split_at(quantity.len(sizes).min(rest.len()));
-            residual.extend(quantity.residual(&written, own));
+            let (entries, others) = rest.split_at(quantity.len(sizes).min(rest.len()));
+            residual.extend(quantity.residual(&written, entries));
             rest = others;
         }
         residual
@@ -260,7 +263,7 @@ impl Function {
         let quantities = || self.quantities().iter();
         let matters = |choice| {
             let mut choices = quantities().filter_map(|q| q.facts().choices).flatten();
-            choices.any(|own| *own == choice)
+            choices.any(|candidate| *candidate == choice)
         };
         let hand = quantities().map(|q| q.facts().hand).max();
         let mut forms = Form::all(

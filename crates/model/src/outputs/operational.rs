@@ -39,8 +39,8 @@ pub(super) fn hand<'a, S: Divide>(at: &Regrouped<'a, S>) -> Option<SeenHand<'a, 
 }
 
 fn chain_jacobian<S: Divide>(at: &Regrouped<'_, S>, hand: &SeenHand<'_, S>) -> Vec<Vec<S>> {
-    let rows = hand.jacobian();
-    let rows = rows.iter().map(|row| at.pick(row));
+    let jacobian = hand.jacobian();
+    let rows = jacobian.iter().map(|row| at.pick(row));
     gathered_rows(at.following, rows.collect())
 }
 
@@ -154,12 +154,12 @@ impl Formula for ConsistentInverse {
         let sum = |products: &mut dyn Iterator<Item = S>| {
             products.fold(S::zero(), |sum, product| sum.add(&product))
         };
-        let given =
+        let entry =
             |i: usize, r: usize| sum(&mut (0..m).map(|s| inverse[i * m + s].mul(&matrix[s][r])));
         let moving = (0..moves.len()).filter(|&i| moves[i]);
         let mut residual = Vec::new();
         for (r, row) in j.iter().enumerate() {
-            let column: Vec<S> = (0..moves.len()).map(|k| given(k, r)).collect();
+            let column: Vec<S> = (0..moves.len()).map(|k| entry(k, r)).collect();
             for i in moving.clone() {
                 let left = sum(&mut column.iter().zip(&d[i]).map(|(x, d)| d.mul(x)));
                 residual.push(left.sub(&row[i]));

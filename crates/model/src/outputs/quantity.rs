@@ -123,7 +123,7 @@ impl Facts {
     pub(super) fn symbol(&self) -> &'static str {
         match self.symbol {
             "" => self.letter,
-            own => own,
+            symbol => symbol,
         }
     }
 }
@@ -261,10 +261,10 @@ impl Quantity {
                 Axis::Coordinates => 0,
                 _ => sizes.floating,
             };
-            let found: Vec<usize> = coordinates(axis, place, rows, sizes).collect();
-            match found.is_empty() {
+            let coordinates: Vec<usize> = coordinates(axis, place, rows, sizes).collect();
+            match coordinates.is_empty() {
                 true => vec![place + 1],
-                false => found.into_iter().map(|row| row - base + 1).collect(),
+                false => coordinates.into_iter().map(|row| row - base + 1).collect(),
             }
         };
         let is_long =
@@ -302,7 +302,7 @@ impl Quantity {
         if from == to && sizes.floating == 0 {
             return values;
         }
-        let place = |row: &usize| from.iter().position(|own| own == row);
+        let place = |row: &usize| from.iter().position(|candidate| candidate == row);
         let places: Vec<usize> = to.iter().filter_map(place).collect();
         let sizes = sizes.over(to);
         // The rows of a base's coordinates come first, and are no links.

@@ -93,7 +93,7 @@ macro_rules! registry {
                 match self {
                     $($($(Quantity::$quantity => $file::$quantity::written(at),)+)?)*
                     Quantity::Load => runtime::Load::written(at),
-                    Quantity::At(own) => own.of_frame(at, |own, at| own.written(at)),
+                    Quantity::At(framed) => framed.of_frame(at, |quantity, at| quantity.written(at)),
                 }
             }
 
@@ -102,7 +102,7 @@ macro_rules! registry {
                 match self {
                     $($($(Quantity::$quantity => $file::$quantity::regrouped(at),)+)?)*
                     Quantity::Load => runtime::Load::regrouped(at),
-                    Quantity::At(own) => own.regrouped(at),
+                    Quantity::At(framed) => framed.regrouped(at),
                 }
             }
 
@@ -111,7 +111,7 @@ macro_rules! registry {
                 match self {
                     $($($(Quantity::$quantity => $file::$quantity::residual(at, values),)+)?)*
                     Quantity::Load => runtime::Load::residual(at, values),
-                    Quantity::At(own) => own.of_frame(at, |own, at| own.residual(at, values)),
+                    Quantity::At(framed) => framed.of_frame(at, |quantity, at| quantity.residual(at, values)),
                 }
             }
 
@@ -120,7 +120,7 @@ macro_rules! registry {
                 match self {
                     $($($(Quantity::$quantity => $file::$quantity::divisor(at),)+)?)*
                     Quantity::Load => runtime::Load::divisor(at),
-                    Quantity::At(own) => own.of_frame(at, |own, at| own.divisor(at)),
+                    Quantity::At(framed) => framed.of_frame(at, |quantity, at| quantity.divisor(at)),
                 }
             }
 

@@ -27,9 +27,9 @@ pub(super) struct TorqueByAccelerationAndPosition;
 
 fn of_torques<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S> {
     let motion = at.motion;
-    let given = [&motion.qd[..], &motion.qdd, &motion.multiplier];
-    let all = || at.composite.second_derivatives(given, at.form.travel);
-    at.shared[0].get_or_init(all)
+    let inputs = [&motion.qd[..], &motion.qdd, &motion.multiplier];
+    let derivatives = || at.composite.second_derivatives(inputs, at.form.travel);
+    at.shared[0].get_or_init(derivatives)
 }
 
 impl Formula for TorqueByPositions {
@@ -52,8 +52,8 @@ impl Formula for TorqueByPositions {
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let (motion, form) = (at.motion, at.formulation);
-        let given = [&motion.qd[..], &motion.qdd, &motion.multiplier];
-        form.torque_by_positions(at.arm, at.at, given).concat()
+        let inputs = [&motion.qd[..], &motion.qdd, &motion.multiplier];
+        form.torque_by_positions(at.arm, at.at, inputs).concat()
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
@@ -75,8 +75,8 @@ impl Formula for TorqueByPositionAndVelocity {
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let (motion, form) = (at.motion, at.formulation);
-        let given = [&motion.qd[..], &motion.multiplier];
-        form.torque_by_position_and_velocity(at.arm, at.at, given)
+        let inputs = [&motion.qd[..], &motion.multiplier];
+        form.torque_by_position_and_velocity(at.arm, at.at, inputs)
             .concat()
     }
 
@@ -98,8 +98,8 @@ impl Formula for TorqueByVelocities {
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let (motion, form) = (at.motion, at.formulation);
-        let given = [&motion.qd[..], &motion.multiplier];
-        form.torque_by_velocities(at.arm, at.at, given).concat()
+        let inputs = [&motion.qd[..], &motion.multiplier];
+        form.torque_by_velocities(at.arm, at.at, inputs).concat()
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
@@ -162,24 +162,24 @@ impl<S: Divide> InverseTerms<S> {
 
 fn of_accelerations<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S> {
     let (motion, travel) = (at.motion, at.form.travel);
-    let all = || {
+    let derivatives = || {
         let (factor, free) = (factor(at), free(&motion.moves));
         let by_inverse =
             |values: &[S]| scatter(&factor.solve(&picked(values, &free)), &free, values.len());
         let qdd = accelerations(at, Unknowns::Joints);
         let raised = by_inverse(&motion.multiplier);
-        let given = [&motion.qd[..], &qdd, &raised];
-        let own = at.composite.second_derivatives(given, travel);
+        let inputs = [&motion.qd[..], &qdd, &raised];
+        let torque_derivatives = at.composite.second_derivatives(inputs, travel);
         let slopes = at.composite.slopes(&motion.qd, &qdd, travel);
-        let all = OfAccelerations::new(&own.driven, by_inverse, &motion.moves);
+        let terms = OfAccelerations::new(&torque_derivatives.driven, by_inverse, &motion.moves);
         SecondDerivatives {
-            position: all.by_positions(&own.position, &slopes.position),
-            mixed: all.by_position_and_velocity(&own.mixed, &slopes.velocity),
-            velocity: all.by_velocities(&own.velocity),
-            driven: all.by_torque_and_position(),
+            position: terms.by_positions(&torque_derivatives.position, &slopes.position),
+            mixed: terms.by_position_and_velocity(&torque_derivatives.mixed, &slopes.velocity),
+            velocity: terms.by_velocities(&torque_derivatives.velocity),
+            driven: terms.by_torque_and_position(),
         }
     };
-    at.shared[1].get_or_init(all)
+    at.shared[1].get_or_init(derivatives)
 }
 
 impl Formula for AccelerationByPositions {
@@ -205,10 +205,10 @@ impl Formula for AccelerationByPositions {
         let (motion, form) = (at.motion, at.formulation);
         let (qd, inverted) = (&motion.qd, InverseTerms::new(at));
         let qdd = form.forward_dynamics(at.arm, at.at, qd, &motion.tau, &motion.moves);
-        let own = form.torque_by_positions(at.arm, at.at, [qd, &qdd, &inverted.raised]);
+        let curvatures = form.torque_by_positions(at.arm, at.at, [qd, &qdd, &inverted.raised]);
         let slopes = form.torque_by_position(at.arm, at.at, qd, &qdd);
-        let all = inverted.of_accelerations(at);
-        all.by_positions(&own, &slopes).concat()
+        let terms = inverted.of_accelerations(at);
+        terms.by_positions(&curvatures, &slopes).concat()
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
@@ -231,11 +231,13 @@ impl Formula for AccelerationByPositionAndVelocity {
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let (form, qd, inverted) = (at.formulation, &at.motion.qd, InverseTerms::new(at));
-        let given = [&qd[..], &inverted.raised];
-        let own = form.torque_by_position_and_velocity(at.arm, at.at, given);
+        let inputs = [&qd[..], &inverted.raised];
+        let curvatures = form.torque_by_position_and_velocity(at.arm, at.at, inputs);
         let slopes = form.torque_by_velocity(at.arm, at.at, qd);
-        let all = inverted.of_accelerations(at);
-        all.by_position_and_velocity(&own, &slopes).concat()
+        let terms = inverted.of_accelerations(at);
+        terms
+            .by_position_and_velocity(&curvatures, &slopes)
+            .concat()
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
@@ -256,10 +258,10 @@ impl Formula for AccelerationByVelocities {
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let (form, inverted) = (at.formulation, InverseTerms::new(at));
-        let given = [&at.motion.qd[..], &inverted.raised];
-        let own = form.torque_by_velocities(at.arm, at.at, given);
-        let all = inverted.of_accelerations(at);
-        all.by_velocities(&own).concat()
+        let inputs = [&at.motion.qd[..], &inverted.raised];
+        let curvatures = form.torque_by_velocities(at.arm, at.at, inputs);
+        let terms = inverted.of_accelerations(at);
+        terms.by_velocities(&curvatures).concat()
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
@@ -286,8 +288,8 @@ impl Formula for AccelerationByTorqueAndPosition {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let all = InverseTerms::new(at).of_accelerations(at);
-        all.by_torque_and_position().concat()
+        let terms = InverseTerms::new(at).of_accelerations(at);
+        terms.by_torque_and_position().concat()
     }
 
     /// Returns D X + ∂(D μ)/∂q with D μ = λ, of the joints that move.

@@ -221,8 +221,8 @@ mod tests {
         let three = Sizes::whole(3);
         assert_eq!(shape.len(three), 6);
         for (index, places) in [(0, [0, 0]), (2, [0, 2]), (5, [1, 2])] {
-            let found = shape.places(index, three).into_iter();
-            assert!(found.map(|(_, place)| place).eq(places));
+            let entries = shape.places(index, three).into_iter();
+            assert!(entries.map(|(_, place)| place).eq(places));
         }
         assert_eq!(Shape::SCALAR.len(three), 1);
         assert!(Shape::SCALAR.places(0, three).is_empty());

@@ -304,7 +304,7 @@ impl Quantity {
     pub fn as_given(self, values: &[f64], qd: &[f64]) -> (Quantity, Vec<f64>) {
         match self {
             Quantity::Christoffel => (Quantity::Coriolis, contract(values, qd)),
-            own => (own, values.to_vec()),
+            quantity => (quantity, values.to_vec()),
         }
     }
 }

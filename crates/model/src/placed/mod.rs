@@ -143,16 +143,18 @@ impl Joint {
     /// Returns the link's body in the link's own frame.
     pub fn own_body(&self) -> Body {
         let body = self.body();
-        let Some(own) = &self.frame else { return body };
-        let back = frame::inverse(&frame::pose(own));
-        frame::moved(&body, &back, &own.size())
+        let Some(placement) = &self.frame else {
+            return body;
+        };
+        let back = frame::inverse(&frame::pose(placement));
+        frame::moved(&body, &back, &placement.size())
     }
 
     /// Replaces the link's body by one in the link's own frame.
     pub fn set_own_body(&mut self, body: Body) {
         let body = match &self.frame {
             None => body,
-            Some(own) => frame::moved(&body, &frame::pose(own), &own.size()),
+            Some(placement) => frame::moved(&body, &frame::pose(placement), &placement.size()),
         };
         (self.mass, self.com, self.inertia) = (body.mass, body.com, body.inertia);
     }
@@ -160,19 +162,20 @@ impl Joint {
 
 /// Returns where a frame is in another one, in which that which it is given in has this pose;
 /// without a placement it is that.
-fn placed_in(back: &Columns<Wide>, own: Option<&Placement>, size: &Rational) -> Placement {
-    let pose = match own {
+fn placed_in(back: &Columns<Wide>, placement: Option<&Placement>, size: &Rational) -> Placement {
+    let pose = match placement {
         None => back.clone(),
-        Some(own) => back.then(&frame::pose(own)),
+        Some(placement) => back.then(&frame::pose(placement)),
     };
     frame::placement(&pose, size)
 }
 
 /// The length that others are small against: the arm stretched out, or a metre if it has none.
 fn size(robot: &Robot, placed: &[Placed]) -> Rational {
-    let ends = [&robot.base, &robot.tool, &robot.payload_frame];
-    let ends = ends.into_iter().flatten();
-    let ends = ends.chain(robot.frames.iter().map(|frame| &frame.placement));
+    let ends = [&robot.base, &robot.tool, &robot.payload_frame]
+        .into_iter()
+        .flatten()
+        .chain(robot.frames.iter().map(|frame| &frame.placement));
     let placements = placed.iter().map(|placed| &placed.placement).chain(ends);
     let total: Rational = placements.map(Placement::size).sum();
     if total.is_zero() { One::one() } else { total }

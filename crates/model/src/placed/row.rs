@@ -74,13 +74,16 @@ pub(super) fn to_axis(here: &Columns<Wide>, next: &Axis, size: &Rational) -> Row
 pub(super) fn to_link(here: &Columns<Wide>) -> Row {
     let u = &here.axes[2];
     let d = dot(&opposite(&here.origin), u);
-    let own = Columns::identity();
-    let theta = turn(here, &own.axes[0]);
-    let along_own = Angle::recovered(&length(&cross(u, &own.axes[2])), &dot(u, &own.axes[2]));
+    let identity = Columns::identity();
+    let theta = turn(here, &identity.axes[0]);
+    let along_own = Angle::recovered(
+        &length(&cross(u, &identity.axes[2])),
+        &dot(u, &identity.axes[2]),
+    );
     let keeps =
         along_own.quarter_turns().is_some_and(|n| n % 2 == 0) && theta.quarter_turns().is_some();
     let (theta, x) = match keeps {
-        true => (theta, own.axes[0]),
+        true => (theta, identity.axes[0]),
         false => (Angle::default(), here.axes[0]),
     };
     Row {
@@ -99,8 +102,9 @@ fn askew(here: &Columns<Wide>, next: &Axis, normal: &Vector<Wide>) -> Row {
     let x = near(here, unit(normal).unwrap_or_else(|| here.axes[0]));
     // p = d u + a x − s w
     let square = dot(normal, normal);
-    let d = dot(&cross(&p, w), normal).over(&square);
-    let d = d.unwrap_or_else(Wide::zero);
+    let d = dot(&cross(&p, w), normal)
+        .over(&square)
+        .unwrap_or_else(Wide::zero);
     let a = dot(&p, &x);
     let foot = along(&along(&here.origin, &d, u), &a, &x);
     Row {

@@ -22,22 +22,22 @@ pub(super) fn read(cx: &mut Context, mut keys: Table<'_>) -> FloatingBase {
     const INERTIA: &str = "inertia = [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] about the centre of mass, in kg·m²; only a base with mass = 0 may leave it out";
     const NONE: &str = "a base that floats is where it is, nothing drives it and no friction holds it: leave it out";
 
-    let own = &mut keys;
-    let name = own.optional(cx, "name", Context::string);
-    own.get("kind");
-    let mass = own.required(cx, "mass", MASS, Context::number);
+    let table = &mut keys;
+    let name = table.optional(cx, "name", Context::string);
+    table.get("kind");
+    let mass = table.required(cx, "mass", MASS, Context::number);
     let is_massless = mass.as_ref().is_some_and(Zero::is_zero);
-    let com = match own.get("com") {
+    let com = match table.get("com") {
         None if is_massless => None,
-        _ => own.required(cx, "com", COM, |cx, value| {
+        _ => table.required(cx, "com", COM, |cx, value| {
             cx.array(value, COM, Context::number)
         }),
     };
-    let inertia = match own.get("inertia") {
+    let inertia = match table.get("inertia") {
         None if is_massless => None,
-        _ => own.required(cx, "inertia", INERTIA, Context::inertia),
+        _ => table.required(cx, "inertia", INERTIA, Context::inertia),
     };
-    let limits = limits(cx, own);
+    let limits = limits(cx, table);
     for key in [
         "placement",
         "axis",
@@ -55,7 +55,7 @@ pub(super) fn read(cx: &mut Context, mut keys: Table<'_>) -> FloatingBase {
         "mimic",
         "frame",
     ] {
-        if let Some(value) = own.get(key) {
+        if let Some(value) = table.get(key) {
             let message = alloc::format!("`{key}` of a base that floats");
             cx.refuse::<()>(value, message, NONE);
         }

@@ -55,8 +55,8 @@ pub(super) fn read(source: &str, cx: &mut Context) -> Option<Reading> {
 fn in_file(robot: &Robot, place: &str) -> String {
     let counted = place
         .strip_prefix("joint/#")
-        .filter(|_| robot.floating.is_some());
-    let counted = counted.and_then(|rest| rest.split_once('/'));
+        .filter(|_| robot.floating.is_some())
+        .and_then(|rest| rest.split_once('/'));
     match counted.and_then(|(number, key)| Some((number.parse::<usize>().ok()?, key))) {
         Some((number, key)) => format!("joint/#{}/{key}", number + 1),
         None => place.into(),
@@ -246,7 +246,7 @@ fn rows(cx: &mut Context, robot: &mut Robot, read: Vec<joint::Read>) -> Vec<Find
     let mut placed: Vec<Placed> = Vec::with_capacity(read.len());
     for (index, joint) in read.into_iter().enumerate() {
         match joint.placed {
-            Some(own) => placed.push(own),
+            Some(placement) => placed.push(placement),
             None if is_placed => {
                 let message = format!("joint {} is not placed, and {why}", index + 1);
                 cx.sink.error(joint.span, message, help);
@@ -273,7 +273,7 @@ fn rows(cx: &mut Context, robot: &mut Robot, read: Vec<joint::Read>) -> Vec<Find
     if !is_whole || !cx.unread.is_empty() {
         return robot.validate();
     }
-    let placements: Vec<Placement> = placed.iter().map(|own| own.placement.clone()).collect();
+    let placements: Vec<Placement> = placed.iter().map(|joint| joint.placement.clone()).collect();
     let mut findings = robot.validate_placed(&placements);
     // Directions of length zero were refused where they stand, and then there is an
     // error already. An oddity of a derived row is none of the file's.

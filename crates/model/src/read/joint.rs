@@ -31,33 +31,33 @@ pub(super) fn read<'v>(cx: &mut Context, mut keys: Table<'v>) -> Read<'v> {
     const COM: &str = "com = [x, y, z]: the centre of mass in the link frame, in m; only a link with mass = 0 may leave it out";
     const INERTIA: &str = "inertia = [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] about the centre of mass, in kg·m²; only a link with mass = 0 may leave it out";
 
-    let own = &mut keys;
-    let name = own.optional(cx, "name", Context::string);
-    let kind = own.required(cx, "kind", KIND, |cx, value| {
+    let table = &mut keys;
+    let name = table.optional(cx, "name", Context::string);
+    let kind = table.required(cx, "kind", KIND, |cx, value| {
         match value.as_str() == Some(FloatingBase::KIND) {
             true => cx.refuse(value, "a joint that floats is the first", FIRST),
             false => cx.word(value, &JointKind::WORDS, ""),
         }
     });
-    let alpha = angle(cx, own, "alpha");
-    let beta = angle(cx, own, "beta");
-    let a = number(cx, own, "a");
-    let (d, theta) = variable(cx, own, kind);
-    let placed = placed(cx, own);
-    let mass = own.required(cx, "mass", MASS, Context::number);
+    let alpha = angle(cx, table, "alpha");
+    let beta = angle(cx, table, "beta");
+    let a = number(cx, table, "a");
+    let (d, theta) = variable(cx, table, kind);
+    let placed = placed(cx, table);
+    let mass = table.required(cx, "mass", MASS, Context::number);
     // A body without mass has no centre, and no inertia unless the file says so.
     let is_massless = mass.as_ref().is_some_and(Zero::is_zero);
-    let com = match own.get("com") {
+    let com = match table.get("com") {
         None if is_massless => None,
-        _ => own.required(cx, "com", COM, |cx, value| {
+        _ => table.required(cx, "com", COM, |cx, value| {
             cx.array(value, COM, Context::number)
         }),
     };
-    let inertia = match own.get("inertia") {
+    let inertia = match table.get("inertia") {
         None if is_massless => None,
-        _ => own.required(cx, "inertia", INERTIA, Context::inertia),
+        _ => table.required(cx, "inertia", INERTIA, Context::inertia),
     };
-    let parent = own.get("parent");
+    let parent = table.get("parent");
     let joint = Joint {
         name,
         parent: None,
@@ -71,14 +71,14 @@ pub(super) fn read<'v>(cx: &mut Context, mut keys: Table<'v>) -> Read<'v> {
         mass: mass.unwrap_or_default(),
         com: com.unwrap_or_default(),
         inertia: inertia.unwrap_or_default(),
-        viscous: number(cx, own, "viscous"),
-        coulomb: number(cx, own, "coulomb"),
-        coulomb_width: number(cx, own, "coulomb_width"),
-        armature: number(cx, own, "armature"),
-        frame: link_frame(cx, own, "frame"),
-        limits: limits(cx, own, kind),
+        viscous: number(cx, table, "viscous"),
+        coulomb: number(cx, table, "coulomb"),
+        coulomb_width: number(cx, table, "coulomb_width"),
+        armature: number(cx, table, "armature"),
+        frame: link_frame(cx, table, "frame"),
+        limits: limits(cx, table, kind),
     };
-    let (mimic, span) = (own.get("mimic"), own.span.clone());
+    let (mimic, span) = (table.get("mimic"), table.span.clone());
     keys.finish(cx);
     Read {
         joint,
@@ -100,7 +100,7 @@ fn angle(cx: &mut Context, keys: &mut Table, key: &'static str) -> Angle {
 /// The constant part of the joint's variable, d or theta, is called `offset`.
 fn variable(cx: &mut Context, keys: &mut Table, kind: Option<JointKind>) -> (Rational, Angle) {
     let (d, theta) = (number(cx, keys, "d"), angle(cx, keys, "theta"));
-    let (key, kind, is_zero, own) = match kind {
+    let (key, kind, is_zero, constants) = match kind {
         Some(JointKind::Revolute) => {
             let offset = angle(cx, keys, "offset");
             ("theta", "revolute", theta.is_zero(), (d, offset))
@@ -120,16 +120,18 @@ fn variable(cx: &mut Context, keys: &mut Table, kind: Option<JointKind>) -> (Rat
         let help = "a constant that is added to it is called `offset`";
         cx.refuse::<()>(value, message, help);
     }
-    own
+    constants
 }
 
 fn placed(cx: &mut Context, keys: &mut Table) -> Option<Placed> {
     const AXIS: &str = "axis = [0, 0, 1]: the joint's axis in the axes of its link's frame";
     let (place, axis) = (keys.get("placement"), keys.get("axis"));
-    let given = ROW.map(|key| keys.get(key).map(|value| (key, value)));
-    let mut given = given.into_iter().flatten();
+    let mut row_entries = ROW
+        .map(|key| keys.get(key).map(|value| (key, value)))
+        .into_iter()
+        .flatten();
     if let (None, Some(axis)) = (place, axis)
-        && let Some((row, _)) = given.next()
+        && let Some((row, _)) = row_entries.next()
     {
         let message = format!("`axis` beside `{row}`, and no `placement`");
         let help = "an axis belongs to a joint that is placed; in a DH table joints act along \
@@ -137,20 +139,21 @@ fn placed(cx: &mut Context, keys: &mut Table) -> Option<Placed> {
         return cx.refuse(axis, message, help);
     }
     place.or(axis)?;
-    for (key, value) in given {
+    for (key, value) in row_entries {
         let message = format!("`{key}` of a joint that is placed");
         let help = "a placement takes the place of the DH row: leave the one or the other";
         cx.refuse::<()>(value, message, help);
     }
     let placement = placement(cx, keys, "placement").unwrap_or_default();
-    let axis = keys.required(cx, "axis", AXIS, |cx, value| {
-        let axis: [Rational; 3] = cx.array(value, AXIS, Context::number)?;
-        match axis.iter().all(Zero::is_zero) {
-            true => cx.refuse(value, "an axis of length zero has no direction", AXIS),
-            false => Some(axis),
-        }
-    });
-    let axis = axis.unwrap_or_default();
+    let axis = keys
+        .required(cx, "axis", AXIS, |cx, value| {
+            let axis: [Rational; 3] = cx.array(value, AXIS, Context::number)?;
+            match axis.iter().all(Zero::is_zero) {
+                true => cx.refuse(value, "an axis of length zero has no direction", AXIS),
+                false => Some(axis),
+            }
+        })
+        .unwrap_or_default();
     Some(Placed { placement, axis })
 }
 

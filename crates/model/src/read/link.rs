@@ -15,14 +15,14 @@ pub(super) fn read(cx: &mut Context, joints: &[Joint], value: &Value, help: &str
     let Some(text) = text_of(value) else {
         return cx.wanted(value, "a link", help);
     };
-    let found = find(joints, &text);
-    if found.is_none() {
+    let row = find(joints, &text);
+    if row.is_none() {
         let message = format!("there is no link {}", quote(&text));
         let meant = meant(joints, &text);
         let help = format!("links have the names of their joints; {meant}");
         return cx.refuse(value, message, &help);
     }
-    found
+    row
 }
 
 /// Returns true if a value names the base: by its name, where it floats.

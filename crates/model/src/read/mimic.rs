@@ -134,11 +134,11 @@ pub(super) fn split(cx: &mut Context, robot: Robot, mimics: &[Option<Mimic>]) ->
         });
     }
     let mut robot = robot.with_followers(followers);
-    for own in robot.followers.clone() {
-        let Some(leader) = robot.joints.get_mut(own.leader) else {
+    for follower in robot.followers.clone() {
+        let Some(leader) = robot.joints.get_mut(follower.leader) else {
             continue;
         };
-        if let (None, Some(Some(mimic))) = (own.narrow(leader), mimics.get(own.row)) {
+        if let (None, Some(Some(mimic))) = (follower.narrow(leader), mimics.get(follower.row)) {
             let message = "there is no position at which both are within their limits";
             let help = format!("{HELP}; look at `position` of both");
             cx.refuse::<()>(mimic.value, message, &help);

@@ -120,7 +120,7 @@ impl core::error::Error for Diagnostics {}
 pub(super) struct Sink {
     pub(super) source: String,
     line_starts: Vec<usize>,
-    found: Vec<Diagnostic>,
+    diagnostics: Vec<Diagnostic>,
     allowed: BTreeSet<RobotWarning>,
 }
 
@@ -133,7 +133,7 @@ impl Sink {
         Sink {
             source: source.to_string(),
             line_starts,
-            found: Vec::new(),
+            diagnostics: Vec::new(),
             allowed: BTreeSet::new(),
         }
     }
@@ -173,7 +173,7 @@ impl Sink {
         help: &str,
     ) {
         let (line, column) = self.position(span.start);
-        self.found.push(Diagnostic {
+        self.diagnostics.push(Diagnostic {
             severity,
             warning,
             message,
@@ -196,12 +196,13 @@ impl Sink {
 
     /// Errors come alone: beside them, the rest is only in the way.
     pub(super) fn finish(mut self, read: Option<Reading>) -> Result<Reading, Diagnostics> {
-        self.found.sort_by_key(|d| d.span.start);
+        self.diagnostics.sort_by_key(|d| d.span.start);
         let allowed = self.allowed;
-        let known = |found: &Diagnostic| found.warning.is_some_and(|d| allowed.contains(&d));
-        self.found.retain(|found| !known(found));
+        let known =
+            |diagnostic: &Diagnostic| diagnostic.warning.is_some_and(|d| allowed.contains(&d));
+        self.diagnostics.retain(|diagnostic| !known(diagnostic));
         let (mut errors, notes): (Vec<_>, Vec<_>) = self
-            .found
+            .diagnostics
             .into_iter()
             .partition(|d| d.severity == Severity::Error);
         let more = errors.len().saturating_sub(MAX_LISTED);
@@ -224,7 +225,7 @@ pub(super) fn not_utf8(bytes: &[u8], at: usize) -> Diagnostics {
     let mut sink = Sink::new(good);
     let message = format!("the file is not UTF-8 text from byte {at} on");
     sink.error(at..at + 1, message, "save it as UTF-8");
-    Diagnostics(sink.found)
+    Diagnostics(sink.diagnostics)
 }
 
 pub(super) fn quote(text: &str) -> String {

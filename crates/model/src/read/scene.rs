@@ -29,15 +29,15 @@ pub(super) fn read(cx: &mut Context, robot: &Robot, root: &Value, scenes: &Value
         keys.span = bytes_of(key.span);
         let scene = scene(cx, robot, &key.name, &mut keys);
         for finding in scene.validate(robot) {
-            let own = finding.place.strip_prefix(&keys.place);
-            let own = own.map(|own| own.trim_start_matches('/'));
+            let suffix = finding.place.strip_prefix(&keys.place);
+            let inner_place = suffix.map(|suffix| suffix.trim_start_matches('/'));
             // A limit that a tolerance seems to lack may be one that cannot be read.
-            let is_lack = own == Some("tolerance") && !cx.unread.is_empty();
+            let is_lack = inner_place == Some("tolerance") && !cx.unread.is_empty();
             if is_lack || cx.is_unread(&finding.place) {
                 continue;
             }
-            let (value, place) = match own {
-                Some(own) => (value, own),
+            let (value, place) = match inner_place {
+                Some(inner_place) => (value, inner_place),
                 None => (root, finding.place.as_str()),
             };
             let span = locate(value, bytes_of(key.span), &cx.sink.source, place);
@@ -85,9 +85,9 @@ fn scene(cx: &mut Context, robot: &Robot, name: &str, keys: &mut Table) -> Scene
 }
 
 fn joint(cx: &mut Context, robot: &Robot, text: &str, span: Range<usize>) -> Option<usize> {
-    let found = link::find(&robot.joints, text);
-    if found.is_some() {
-        return found;
+    let row = link::find(&robot.joints, text);
+    if row.is_some() {
+        return row;
     }
     let name = |follower: &&Follower| follower.joint.name.as_deref() == Some(text);
     let (message, help) = match robot.followers.iter().find(name) {
@@ -130,12 +130,10 @@ fn lock(
     keys.optional(cx, "lock", |cx, value| {
         let named = value
             .as_str()
-            .and_then(|text| link::find(&robot.joints, text));
-        let named = named.unwrap_or(robot.joints.len().saturating_sub(1));
+            .and_then(|text| link::find(&robot.joints, text)).unwrap_or(robot.joints.len().saturating_sub(1));
         let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
         let name = robot.joints.get(named).and_then(|joint| joint.name.clone());
-        let name = name.filter(|name| name.chars().all(plain));
-        let name = name.unwrap_or_else(|| (named + 1).to_string());
+        let name = name.filter(|name| name.chars().all(plain)).unwrap_or_else(|| (named + 1).to_string());
         let help = format!(
             "lock = {{ {name} = 0 }}: each joint, by its name or number, with its position"
         );

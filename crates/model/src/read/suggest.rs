@@ -72,7 +72,7 @@ pub fn closest<'c>(word: &str, candidates: &[&'c str]) -> Option<&'c str> {
     let word = word.to_ascii_lowercase();
     let others = OTHER_WORDS.iter();
     let others = others.filter(|(_, others)| others.contains(&word.as_str()));
-    let mut words = iter::once(word.as_str()).chain(others.map(|(own, _)| *own));
+    let mut words = iter::once(word.as_str()).chain(others.map(|(name, _)| *name));
     let same = words.find_map(|word| candidates.iter().find(|known| **known == word));
     if let Some(same) = same {
         return Some(same);

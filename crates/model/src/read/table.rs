@@ -117,9 +117,8 @@ impl<'v> Table<'v> {
             let free: Vec<&str> = known
                 .filter(|key| !self.entries.contains_key(*key))
                 .collect();
-            let help = suggest::for_key(&key.name, &free);
-            let help =
-                help.unwrap_or_else(|| format!("{} has: {}", self.name, self.known.join(", ")));
+            let help = suggest::for_key(&key.name, &free)
+                .unwrap_or_else(|| format!("{} has: {}", self.name, self.known.join(", ")));
             let message = format!("unknown key {}", quote(&key.name));
             cx.sink.error(bytes_of(key.span), message, &help);
         }
@@ -149,21 +148,21 @@ pub(super) fn locate(
         };
         let number: Option<usize> = step.strip_prefix('#').and_then(|step| step.parse().ok());
         let index = number.and_then(|number| number.checked_sub(1));
-        let found = match (value.as_table(), value.as_array(), index) {
+        let child = match (value.as_table(), value.as_array(), index) {
             (Some(entries), _, Some(index)) => in_order(entries)
                 .get(index)
                 .map(|(key, value)| (key.span.start..bytes_of(value.span).end, *value)),
             (Some(entries), ..) => {
-                let found = entries.get(step).or_else(|| entries.get(instead));
-                found.map(|value| (bytes_of(value.span), value))
+                let entry = entries.get(step).or_else(|| entries.get(instead));
+                entry.map(|value| (bytes_of(value.span), value))
             }
             (_, Some(items), Some(index)) => {
                 items.get(index).map(|item| (bytes_of(item.span), item))
             }
             _ => None,
         };
-        let Some(found) = found else { break };
-        (bytes, value) = found;
+        let Some(next) = child else { break };
+        (bytes, value) = next;
     }
     first_line(source, bytes)
 }

@@ -365,8 +365,8 @@ impl Context {
         if items.len() == length {
             return Some(items);
         }
-        let comma = foreign::decimal_comma_in(&self.literal(value));
-        let comma = comma.map(|meant| format!("decimals have a point: {meant}"));
+        let comma = foreign::decimal_comma_in(&self.literal(value))
+            .map(|meant| format!("decimals have a point: {meant}"));
         self.wanted(value, expected, comma.as_deref().unwrap_or(help))
     }
 

@@ -35,8 +35,8 @@ impl Follower {
     /// Narrows a leader's limits to those between which its follower stays within its
     /// own, but for that of torque; `None` if nothing is between them.
     pub fn narrow(&self, leader: &mut Joint) -> Option<()> {
-        let (own, size) = (&self.joint.limits, self.multiplier.abs());
-        if let Some(range) = &own.position {
+        let (limits, size) = (&self.joint.limits, self.multiplier.abs());
+        if let Some(range) = &limits.position {
             let mut range = range.each_ref().map(|end| self.at_leader(end));
             if self.multiplier.is_negative() {
                 range.reverse();
@@ -53,14 +53,14 @@ impl Follower {
             }
         }
         let rates = [
-            (&own.velocity, &mut leader.limits.velocity),
-            (&own.acceleration, &mut leader.limits.acceleration),
+            (&limits.velocity, &mut leader.limits.velocity),
+            (&limits.acceleration, &mut leader.limits.acceleration),
         ];
-        for (own, limit) in rates {
-            if let Some(own) = own {
-                let own = own / &size;
-                let narrower = limit.take().filter(|limit| *limit <= own);
-                *limit = Some(narrower.unwrap_or(own));
+        for (bound, limit) in rates {
+            if let Some(bound) = bound {
+                let scaled_bound = bound / &size;
+                let narrower = limit.take().filter(|limit| *limit <= scaled_bound);
+                *limit = Some(narrower.unwrap_or(scaled_bound));
             }
         }
         Some(())
@@ -112,7 +112,7 @@ impl Position {
     pub fn plus(&self, other: &Position) -> Option<Position> {
         use Position::{Angle as Turn, Length};
         match (self, other) {
-            (Turn(own), _) if own.is_zero() => Some(other.clone()),
+            (Turn(angle), _) if angle.is_zero() => Some(other.clone()),
             (_, Turn(other)) if other.is_zero() => Some(self.clone()),
             (Turn(Angle::PiTimes(a)), Turn(Angle::PiTimes(b))) => {
                 Some(Turn(Angle::PiTimes(a + b).canonical()))
@@ -159,16 +159,16 @@ impl Robot {
         let ascends = self.followers.windows(2).all(|two| two[0].row < two[1].row);
         let rows = self.joints.len() + self.followers.len();
         let most = Rational::from_integer(Follower::MAX_TURNS.into());
-        let can = |own: &Follower| {
-            let turns = own.joint.kind == JointKind::Revolute;
-            let leader = self.joints.get(own.leader);
-            let is_whole = own.multiplier.is_integer() && own.multiplier.abs() <= most;
-            own.row < rows
-                && leader.is_some_and(|leader| leader.kind == own.joint.kind)
-                && own.offset.is_of(own.joint.kind)
-                && !own.multiplier.is_zero()
+        let can = |follower: &Follower| {
+            let turns = follower.joint.kind == JointKind::Revolute;
+            let leader = self.joints.get(follower.leader);
+            let is_whole = follower.multiplier.is_integer() && follower.multiplier.abs() <= most;
+            follower.row < rows
+                && leader.is_some_and(|leader| leader.kind == follower.joint.kind)
+                && follower.offset.is_of(follower.joint.kind)
+                && !follower.multiplier.is_zero()
                 && (is_whole || !turns)
-                && !own.joint.has_coulomb()
+                && !follower.joint.has_coulomb()
         };
         ascends && self.followers.iter().all(can)
     }

@@ -25,17 +25,23 @@ pub(crate) fn reach(robot: &Robot, placed: &[Placement]) -> Rational {
         });
         lengths.max().unwrap_or_default()
     };
-    let all = robot.rows();
-    let mut reached: Vec<Rational> = Vec::with_capacity(all.len());
-    for (row, joint) in all.iter().enumerate() {
-        let own = joint.place.as_ref().map(|place| &place.placement);
-        let step = own.or(placed.get(row)).map(|own| largest(&own.xyz));
-        let own = joint.a.abs() + joint.d.abs() + travel(joint) + step.unwrap_or_default();
+    let rows = robot.rows();
+    let mut reached: Vec<Rational> = Vec::with_capacity(rows.len());
+    for (row, joint) in rows.iter().enumerate() {
+        let placement = joint.place.as_ref().map(|place| &place.placement);
+        let step = placement
+            .or(placed.get(row))
+            .map(|placement| largest(&placement.xyz));
+        let link_length = joint.a.abs() + joint.d.abs() + travel(joint) + step.unwrap_or_default();
         let before = joint.carrier(row).and_then(|carrier| reached.get(carrier));
-        reached.push(before.cloned().unwrap_or_default() + own);
+        reached.push(before.cloned().unwrap_or_default() + link_length);
     }
-    let tool: Rational = robot.tool.iter().map(|own| largest(&own.xyz)).sum();
-    let bodies = all.iter().map(|joint| largest(&joint.com));
+    let tool: Rational = robot
+        .tool
+        .iter()
+        .map(|placement| largest(&placement.xyz))
+        .sum();
+    let bodies = rows.iter().map(|joint| largest(&joint.com));
     let furthest = reached.into_iter().max().unwrap_or_default();
     furthest + tool + bodies.max().unwrap_or_default()
 }

@@ -139,7 +139,7 @@ impl Findings {
                         "put each joint after the one that carries it",
                     );
                 }
-                Some(own) if own == Parent::Row(row.wrapping_sub(1)) || row == 0 => {
+                Some(carrier) if carrier == Parent::Row(row.wrapping_sub(1)) || row == 0 => {
                     let message = "a parent that is the link before";
                     self.error(parent, message, "leave it out: it is the default");
                 }

@@ -55,8 +55,8 @@ impl Robot {
         }
         let rows = self.rows();
         if self.joints.is_empty() || rows.len() > Robot::MAX_JOINTS {
-            let (most, found) = (Robot::MAX_JOINTS, rows.len());
-            let message = format!("a robot has 1 to {most} joints, not {found}");
+            let (most, count) = (Robot::MAX_JOINTS, rows.len());
+            let message = format!("a robot has 1 to {most} joints, not {count}");
             findings.error("joint", message, "each joint is a [[joint]] table");
         }
         if !self.follow() {

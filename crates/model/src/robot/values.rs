@@ -109,8 +109,8 @@ pub fn short_hash(text: &str) -> String {
 
 pub(crate) fn word<T: PartialEq>(words: &[(&'static str, T)], value: &T) -> &'static str {
     let mut words = words.iter();
-    let found = words.find(|(_, meaning)| meaning == value);
-    found.map_or("", |(word, _)| word)
+    let entry = words.find(|(_, meaning)| meaning == value);
+    entry.map_or("", |(word, _)| word)
 }
 
 /// Returns a text as a TOML basic string.

@@ -28,8 +28,9 @@ pub fn write(robot: &Robot) -> String {
         ("convention", (!robot.is_tree()).then(|| quoted(convention))),
         ("gravity", Some(numbers(&robot.gravity))),
     ];
-    let placements = robot.placements();
-    let placements = placements.map(|(key, value)| (key, value.map(placement)));
+    let placements = robot
+        .placements()
+        .map(|(key, value)| (key, value.map(placement)));
     lines(&mut text, head.into_iter().chain(placements));
     let limits = table([("payload", robot.payload_range.as_ref().and_then(bodies))]);
     lines(&mut text, [("limits", limits)]);
@@ -41,12 +42,12 @@ pub fn write(robot: &Robot) -> String {
     for (row, joint) in robot.rows().into_iter().enumerate() {
         text.push_str("\n[[joint]]\n");
         write_joint(&mut text, joint);
-        if let Some(own) = robot.followers.iter().find(|own| own.row == row) {
-            let leader = robot.row_of(own.leader) + 1;
+        if let Some(follower) = robot.followers.iter().find(|follower| follower.row == row) {
+            let leader = robot.row_of(follower.leader) + 1;
             let mimic = table([
                 ("joint", Some(format!("{leader}"))),
-                ("multiplier", Some(number(&own.multiplier))),
-                ("offset", Some(position(&own.offset))),
+                ("multiplier", Some(number(&follower.multiplier))),
+                ("offset", Some(position(&follower.offset))),
             ]);
             lines(&mut text, [("mimic", mimic)]);
         }

@@ -148,17 +148,17 @@ mod tests {
             (Own::mul, Field::mul),
             (Own::div, Field::div),
         ];
-        for (index, (own, plain)) in pairs.into_iter().enumerate() {
+        for (index, (sparse, plain)) in pairs.into_iter().enumerate() {
             for x in &cases {
                 for y in &cases {
                     let [a, b] = [x, y].map(|x| x.value().unwrap());
                     let expected = (index < 3 || !y.is_zero()).then(|| plain(&a, &b));
-                    assert_eq!(own(x, y).value(), expected, "{x:?} {y:?}");
+                    assert_eq!(sparse(x, y).value(), expected, "{x:?} {y:?}");
                     let sum = x.mul_add(y, &cases[3]).value();
                     assert_eq!(sum, cases[3].value().map(|c| a.mul(&b).add(&c)));
                 }
-                assert_eq!(own(x, &Lost), Lost);
-                assert!(x.is_zero() || own(&Lost, x) == Lost);
+                assert_eq!(sparse(x, &Lost), Lost);
+                assert!(x.is_zero() || sparse(&Lost, x) == Lost);
             }
         }
         assert!(One.sub(&Own::one()).is_zero() && !cases[3].sub(&cases[3]).is_zero());

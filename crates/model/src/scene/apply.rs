@@ -47,22 +47,28 @@ impl Scene {
         let (base, bounds) = (robot.base_coordinates(), &self.bounds);
         if let Some(floating) = &mut robot.floating {
             let limits = &mut floating.limits;
-            bound(&mut limits.velocity, &bounds.velocity, |all| {
-                all.first_chunk()
+            bound(&mut limits.velocity, &bounds.velocity, |velocities| {
+                velocities.first_chunk()
             });
-            bound(&mut limits.acceleration, &bounds.acceleration, |all| {
-                all.first_chunk()
-            });
+            bound(
+                &mut limits.acceleration,
+                &bounds.acceleration,
+                |accelerations| accelerations.first_chunk(),
+            );
         }
         for (i, joint) in robot.joints.iter_mut().enumerate() {
             let limits = &mut joint.limits;
-            bound(&mut limits.position, &bounds.position, |all| all.get(i));
-            bound(&mut limits.velocity, &bounds.velocity, |all| {
-                all.get(base + i)
+            bound(&mut limits.position, &bounds.position, |positions| {
+                positions.get(i)
             });
-            bound(&mut limits.acceleration, &bounds.acceleration, |all| {
-                all.get(base + i)
+            bound(&mut limits.velocity, &bounds.velocity, |velocities| {
+                velocities.get(base + i)
             });
+            bound(
+                &mut limits.acceleration,
+                &bounds.acceleration,
+                |accelerations| accelerations.get(base + i),
+            );
         }
         robot
     }
@@ -88,11 +94,11 @@ impl Robot {
 
 fn bound<T: Clone, A>(
     limit: &mut Option<T>,
-    all: &Option<Vec<A>>,
+    bounds: &Option<Vec<A>>,
     part: impl Fn(&[A]) -> Option<&T>,
 ) {
-    if let Some(found) = all.as_deref().and_then(part) {
-        *limit = Some(found.clone());
+    if let Some(bound) = bounds.as_deref().and_then(part) {
+        *limit = Some(bound.clone());
     }
 }
 

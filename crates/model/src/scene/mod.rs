@@ -95,8 +95,8 @@ impl Tolerance {
     /// Returns the tolerance of a joint, zero-based.
     pub fn of(&self, joint: usize) -> Option<&Rational> {
         match self.value.as_slice() {
-            [all] => Some(all),
-            each => each.get(joint),
+            [tolerance] => Some(tolerance),
+            tolerances => tolerances.get(joint),
         }
     }
 }

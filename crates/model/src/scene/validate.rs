@@ -120,10 +120,13 @@ impl<'a> Check<'a> {
                 continue;
             }
             let scene = self.scene;
-            let own = scene.bounds.position.as_ref();
+            let positions = scene.bounds.position.as_ref();
             for (range, whose) in [
                 (joint.limits.position.as_ref(), "limits"),
-                (own.and_then(|all| all.get(*index)), "range in the box"),
+                (
+                    positions.and_then(|ranges| ranges.get(*index)),
+                    "range in the box",
+                ),
             ] {
                 let Some([low, high]) = range else { continue };
                 if at.is_below(low) || high.is_below(at) {

@@ -18,8 +18,9 @@ pub fn write(scene: &Scene) -> String {
     let joints = |joints: &Vec<usize>| list(joints.iter().map(|j| (j + 1).to_string()));
     let mut locks: Vec<_> = scene.lock.iter().collect();
     locks.sort_by_key(|(joint, _)| *joint);
-    let locks = locks.iter();
-    let locks = locks.map(|(joint, at)| ((joint + 1).to_string(), Some(position(at))));
+    let locks = locks
+        .iter()
+        .map(|(joint, at)| ((joint + 1).to_string(), Some(position(at))));
     let base = (scene.lock_base).then(|| (Parent::BASE.to_owned(), Some(quoted(Scene::LEVEL))));
     let locks: Vec<(String, Option<String>)> = base.into_iter().chain(locks).collect();
     let lock = locks.iter().map(|(joint, at)| (joint.as_str(), at.clone()));
@@ -41,7 +42,10 @@ pub fn write(scene: &Scene) -> String {
     let bounds = &scene.bounds;
     let positions = bounds.position.as_ref();
     let bounds = table([
-        ("position", positions.map(|all| list(all.iter().map(range)))),
+        (
+            "position",
+            positions.map(|ranges| list(ranges.iter().map(range))),
+        ),
         ("velocity", bounds.velocity.as_ref().map(numbers)),
         ("acceleration", bounds.acceleration.as_ref().map(numbers)),
         ("payload", bounds.payload.as_ref().and_then(bodies)),
@@ -49,7 +53,7 @@ pub fn write(scene: &Scene) -> String {
     let tolerance = scene.tolerance.as_ref().and_then(|tolerance| {
         let value = match tolerance.value.as_slice() {
             [one] => number(one),
-            each => numbers(each),
+            tolerances => numbers(tolerances),
         };
         let scale = quoted(tolerance.relative_to.word());
         table([("value", Some(value)), ("relative_to", Some(scale))])

@@ -122,10 +122,10 @@ pub fn ulp(x: f64) -> f64 {
     x.abs().next_up() - x.abs()
 }
 
-pub fn ulps(found: f64, exact: Pair) -> f64 {
+pub fn ulps(result: f64, exact: Pair) -> f64 {
     // Just below a power of two an ulp is half as large as at it.
     let power = exact.0.to_bits().is_multiple_of(1 << 52);
     let below = power && exact.1 != 0.0 && (exact.1 < 0.0) == (exact.0 > 0.0);
     let size = ulp(exact.0) / if below { 2.0 } else { 1.0 };
-    ((found - exact.0) / size - exact.1 / size).abs()
+    ((result - exact.0) / size - exact.1 / size).abs()
 }

@@ -120,8 +120,8 @@ impl<S: Scalar> Body<S> {
             mass: self.mass.clone(),
             // ∫ (r + p)(r + p)ᵀ = Σ + s pᵀ + p (s + m p)ᵀ
             second: Inertia::symmetric(|i, j| {
-                let own = times(&self.first[i], &offset[j]);
-                let mixed = plus(&own, &times(&offset[i], &first[j]));
+                let term = times(&self.first[i], &offset[j]);
+                let mixed = plus(&term, &times(&offset[i], &first[j]));
                 plus(entry(&self.second, i, j), &mixed)
             }),
             first,
@@ -169,7 +169,7 @@ impl<S: Scalar> Body<S> {
 /// Returns R Σ Rᵀ.
 fn turned_by_rows<S: Scalar>(tensor: &Inertia<S>, rotation: &Rotation<S>) -> Inertia<S> {
     let columns = tensor.rows();
-    let row = |own: &Vector<S>| columns.each_ref().map(|column| dot(own, column));
+    let row = |axis: &Vector<S>| columns.each_ref().map(|column| dot(axis, column));
     let half = rotation.each_ref().map(row);
     Inertia::symmetric(|i, j| dot(&half[i], &rotation[j]))
 }
@@ -183,15 +183,15 @@ fn turned_by_products<S: Scalar>(tensor: &Inertia<S>, rotation: &Rotation<S>) ->
     let part = |p: usize, q: usize| {
         let (p, q) = (&rotation[p], &rotation[q]);
         let [x, y] = [0, 1].map(|a| times(&times(&p[a], &q[a]), &across[a]));
-        mixed.iter().fold(plus(&x, &y), |all, &(a, b)| {
+        mixed.iter().fold(plus(&x, &y), |total, &(a, b)| {
             let both = plus(&times(&p[a], &q[b]), &times(&p[b], &q[a]));
-            plus(&all, &times(&both, entry(tensor, a, b)))
+            plus(&total, &times(&both, entry(tensor, a, b)))
         })
     };
     let [x, y] = [part(0, 0), part(1, 1)];
     let trace = plus(&across[0], &across[1]);
     let last = minus(&minus(&trace, &x), &y);
-    let diagonal = [x, y, last].map(|own| plus(&own, zz));
+    let diagonal = [x, y, last].map(|excess| plus(&excess, zz));
     Inertia::symmetric(|i, j| match i == j {
         true => diagonal[i].clone(),
         false => part(i, j),

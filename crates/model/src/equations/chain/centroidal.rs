@@ -28,8 +28,8 @@ impl<S: Divide> Whole<S> {
         let centre = scaled(&per_mass, &body.first);
         let [first, second] = [&body.first, &centre];
         let second = Inertia::symmetric(|i, j| {
-            let own = super::body::entry(&body.second, i, j);
-            minus(own, &times(&first[i], &second[j]))
+            let second_moment = super::body::entry(&body.second, i, j);
+            minus(second_moment, &times(&first[i], &second[j]))
         });
         let about_centre = Body {
             second,

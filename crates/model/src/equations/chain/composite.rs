@@ -62,11 +62,11 @@ impl<'a, S: Scalar> Composite<'a, S> {
         let base = chain.base.as_ref().map(|body| body.with(&arrived));
         let mut twists: Vec<Vec<Twist<S>>> = Vec::with_capacity(chain.links.len());
         for (m, link) in chain.links.iter().enumerate() {
-            let seen = |twist: &Twist<S>| link.twist_outward(&at[m], twist);
+            let in_link = |twist: &Twist<S>| link.twist_outward(&at[m], twist);
             let mut row: Vec<Twist<S>> = Vec::with_capacity(m);
             if let Some(parent) = link.parent {
-                row.extend(twists[parent].iter().map(seen));
-                row.push(seen(&chain.links[parent].twist()));
+                row.extend(twists[parent].iter().map(in_link));
+                row.push(in_link(&chain.links[parent].twist()));
             }
             // On another branch.
             row.resize(m, Twist::rest());
@@ -191,13 +191,13 @@ impl<'a, S: Scalar> Composite<'a, S> {
         let base = chain.base_motion([qd, qdd], gravity);
         let mut motions: Vec<Motion<S>> = Vec::with_capacity(n);
         let mut wrenches = Vec::with_capacity(n);
-        let mut own = Vec::with_capacity(n);
+        let mut static_loads = Vec::with_capacity(n);
         for (i, link) in chain.links.iter().enumerate() {
             let before = link.parent.map_or(&base, |parent| &motions[parent]);
             let still = before.next(link, &self.at[i], &S::zero(), &S::zero(), spin);
             let body = &self.bodies[i];
             let at_rest = still.wrench(body, MomentForm::SecondMoments);
-            own.push(chain.load(i, &at_rest));
+            static_loads.push(chain.load(i, &at_rest));
             // Σ_k (2 − δ_km) Δ_k q̇_k for k ≤ m.
             let mut turn = still.omega.clone().map(|x| twice(&x));
             if link.kind == JointKind::Revolute {
@@ -213,7 +213,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
             motions.push(before.next(link, &self.at[i], &rates[i], &accelerations[i], spin));
         }
         let own_wrench = |i: usize| wrenches[i].clone();
-        let loads = chain.loads(self.at, own_wrench, exerted, |i| own[i].clone());
+        let loads = chain.loads(self.at, own_wrench, exerted, |i| static_loads[i].clone());
         chain.with_base(loads, |body| {
             let whole = self.base.as_ref().unwrap_or(body);
             base.wrench(whole, MomentForm::SecondMoments)
@@ -272,8 +272,8 @@ impl<'a, S: Scalar> Composite<'a, S> {
         mut enter: impl FnMut([usize; 2], &[Twist<S>; TWISTS], &JointEffect<S, WRENCHES, VECTORS>),
     ) {
         let (chain, at) = (self.chain, self.at);
-        for (k, mut own) in later.into_iter().enumerate() {
-            enter([k, k], &earlier[k], &own);
+        for (k, mut effect) in later.into_iter().enumerate() {
+            enter([k, k], &earlier[k], &effect);
             match travel {
                 CompositeOrder::Inward => {
                     for next in chain.way(k) {
@@ -281,19 +281,20 @@ impl<'a, S: Scalar> Composite<'a, S> {
                             continue;
                         };
                         let (link, turn) = (&chain.links[next], &at[next]);
-                        own.wrenches = (own.wrenches).map(|own| chain.to_previous(next, at, &own));
-                        own.vectors = own.vectors.map(|own| link.outward(turn, &own));
-                        enter([i, k], &earlier[i], &own);
+                        effect.wrenches =
+                            (effect.wrenches).map(|wrench| chain.to_previous(next, at, &wrench));
+                        effect.vectors = effect.vectors.map(|vector| link.outward(turn, &vector));
+                        enter([i, k], &earlier[i], &effect);
                     }
                 }
                 CompositeOrder::Outward => {
                     let way: Vec<usize> = chain.way(k).skip(1).collect();
                     for (i, twists) in way.into_iter().rev().map(|i| (i, &earlier[i])) {
-                        let seen = core::array::from_fn(|place| match place {
+                        let outer_twists = core::array::from_fn(|place| match place {
                             0 => self.twist(i, k),
                             _ => self.twist_outward(&twists[place], i, k),
                         });
-                        enter([i, k], &seen, &own);
+                        enter([i, k], &outer_twists, &effect);
                     }
                 }
             }
@@ -301,7 +302,8 @@ impl<'a, S: Scalar> Composite<'a, S> {
     }
 
     pub(super) fn twist_outward(&self, twist: &Twist<S>, j: usize, i: usize) -> Twist<S> {
-        let out = |seen: Twist<S>, m: usize| self.chain.links[m].twist_outward(&self.at[m], &seen);
+        let out =
+            |twist: Twist<S>, m: usize| self.chain.links[m].twist_outward(&self.at[m], &twist);
         let mut way: Vec<usize> = self.chain.way(i).take_while(|m| *m != j).collect();
         way.reverse();
         way.into_iter().fold(twist.clone(), out)

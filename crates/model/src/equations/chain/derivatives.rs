@@ -57,16 +57,15 @@ impl<S: Scalar> Composite<'_, S> {
             vectors: [joint.swing.clone()],
         });
         let (earlier, later) = (twists.collect::<Vec<_>>(), acting.collect::<Vec<_>>());
-        let of_base = self.base.as_ref();
-        let of_base = of_base.map(|body| (body, later.clone()));
-        self.each_pair(travel, &earlier, later, |[j, i], twists, own| {
+        let of_base = self.base.as_ref().map(|body| (body, later.clone()));
+        self.each_pair(travel, &earlier, later, |[j, i], twists, effect| {
             if j == i {
                 slopes.position[i][i] = joints[i].position.0.clone();
                 slopes.velocity[i][i] = joints[i].velocity.0.clone();
                 return;
             }
             let [twist, first, second] = twists;
-            let ([position, velocity, push], [swing]) = (&own.wrenches, &own.vectors);
+            let ([position, velocity, push], [swing]) = (&effect.wrenches, &effect.vectors);
             slopes.position[j][i] = position.along(twist);
             slopes.velocity[j][i] = velocity.along(twist);
             slopes.position[i][j] = plus(&dot(swing, &first.turn), &push.along(second));
@@ -108,8 +107,9 @@ impl<S: Scalar> Composite<'_, S> {
             let [first, second] = &drift;
             let changing = flow.of_turn(&first.turn).with(&inertial(body, second));
             let turned = load.turned(&twist);
-            let damping = flow.of_turn(&twist.turn);
-            let damping = damping.with(&inertial(body, &first.doubled()));
+            let damping = flow
+                .of_turn(&twist.turn)
+                .with(&inertial(body, &first.doubled()));
             let joint = Joint {
                 push,
                 swing: flow.swing(link),
@@ -134,11 +134,10 @@ impl<S: Scalar> Composite<'_, S> {
     /// Returns C of all coordinates, by composite momenta.
     pub fn coriolis_matrix(&self, qd: &[S], travel: CompositeOrder) -> Vec<Vec<S>> {
         let (earlier, later, flow) = self.velocity_parts(qd);
-        let of_base = self.base.as_ref();
-        let of_base = of_base.map(|body| (body, later.clone()));
+        let of_base = self.base.as_ref().map(|body| (body, later.clone()));
         let mut matrix = zero_matrix(later.len());
-        self.each_pair(travel, &earlier, later, |[j, i], [twist, rate], own| {
-            let ([felt, push], [swing]) = (&own.wrenches, &own.vectors);
+        self.each_pair(travel, &earlier, later, |[j, i], [twist, rate], effect| {
+            let ([felt, push], [swing]) = (&effect.wrenches, &effect.vectors);
             matrix[j][i] = felt.along(twist);
             if j < i {
                 matrix[i][j] = plus(&dot(swing, &twist.turn), &push.along(rate));
@@ -156,13 +155,15 @@ impl<S: Scalar> Composite<'_, S> {
         let velocities = chain.velocities(self.at, chain.base_turning(qd), qd);
         let whole = |i: usize, outer: Option<Flow<S>>| {
             let link = &chain.links[i];
-            let flow = outer.unwrap_or_else(Flow::nothing);
-            let flow = flow.with(&Flow::of(&link.body, &velocities[i]));
+            let flow = outer
+                .unwrap_or_else(Flow::nothing)
+                .with(&Flow::of(&link.body, &velocities[i]));
             let rate = rate(link, &velocities[i]);
             let push = self.momentum(i);
             let twist = self.twist(i, i);
-            let felt = flow.half_of_turn(&twist.turn);
-            let felt = felt.with(&inertial(&self.bodies[i], &rate));
+            let felt = flow
+                .half_of_turn(&twist.turn)
+                .with(&inertial(&self.bodies[i], &rate));
             let acting = JointEffect {
                 wrenches: [felt, push],
                 vectors: [flow.half_swing(link)],

@@ -105,12 +105,12 @@ impl<S: Scalar> Chain<S> {
     pub(super) fn with_base(
         &self,
         (joints, arrived): (Vec<S>, Wrench<S>),
-        own: impl FnOnce(&Body<S>) -> Wrench<S>,
+        base_wrench: impl FnOnce(&Body<S>) -> Wrench<S>,
     ) -> Vec<S> {
         let Some(body) = &self.base else {
             return joints;
         };
-        let base = self.on_base(&arrived.with(&own(body)));
+        let base = self.on_base(&arrived.with(&base_wrench(body)));
         base.into_iter().chain(joints).collect()
     }
 
@@ -167,8 +167,11 @@ impl<S: Scalar> Composite<'_, S> {
     ) -> JointEffect<S, WRENCHES, VECTORS> {
         for i in self.chain.way(k) {
             let link = &self.chain.links[i];
-            acting.wrenches = (acting.wrenches).map(|own| self.chain.to_previous(i, self.at, &own));
-            acting.vectors = acting.vectors.map(|own| link.outward(&self.at[i], &own));
+            acting.wrenches =
+                (acting.wrenches).map(|wrench| self.chain.to_previous(i, self.at, &wrench));
+            acting.vectors = acting
+                .vectors
+                .map(|vector| link.outward(&self.at[i], &vector));
         }
         acting
     }
@@ -186,7 +189,7 @@ impl<S: Scalar> Composite<'_, S> {
         let n = felt.len();
         let units = unit_twists();
         let in_metres = |k: usize, value: S| chain.coordinate_in_metres(k, value);
-        let own: Vec<Vec<S>> = (units.iter().enumerate())
+        let base_rows: Vec<Vec<S>> = (units.iter().enumerate())
             .map(|(k, unit)| chain.on_base(&base(unit)).map(|x| in_metres(k, x)).to_vec())
             .collect();
         let arrived: Vec<Vec<S>> = (felt.iter().enumerate())
@@ -197,7 +200,7 @@ impl<S: Scalar> Composite<'_, S> {
             _ => columns_of(&arrived),
         };
         Borders {
-            base: columns_of(&own),
+            base: columns_of(&base_rows),
             rows,
             columns: matrix(n, BASE_COORDINATES, |i, k| {
                 let load = chain.rescaled(i, to_joint(i, k, &units[k]));
@@ -249,7 +252,10 @@ impl<S: Scalar> Composite<'_, S> {
             ..Twist::rest()
         };
         let felt = |of: usize| -> Vec<Wrench<S>> {
-            later.iter().map(|own| own.wrenches[of].clone()).collect()
+            later
+                .iter()
+                .map(|effect| effect.wrenches[of].clone())
+                .collect()
         };
         let position = self.borders(
             |unit| inertial(body, &lifted(unit)),
@@ -286,7 +292,10 @@ impl<S: Scalar> Composite<'_, S> {
             let felt = flow.half_of_turn(&unit.turn);
             felt.with(&inertial(body, &velocity.cross(unit)))
         };
-        let felt: Vec<Wrench<S>> = later.iter().map(|own| own.wrenches[0].clone()).collect();
+        let felt: Vec<Wrench<S>> = later
+            .iter()
+            .map(|effect| effect.wrenches[0].clone())
+            .collect();
         let along = |i: usize, _: usize, unit: &Twist<S>| {
             let ([_, push], [swing]) = (&later[i].wrenches, &later[i].vectors);
             plus(&dot(swing, &unit.turn), &push.along(&velocity.cross(unit)))
@@ -299,13 +308,15 @@ impl<S: Scalar> Composite<'_, S> {
         later: Vec<JointEffect<S, WRENCHES, VECTORS>>,
     ) -> Vec<JointEffect<S, WRENCHES, VECTORS>> {
         let later = later.into_iter().enumerate();
-        later.map(|(k, own)| self.seen_from_base(k, own)).collect()
+        later
+            .map(|(k, effect)| self.seen_from_base(k, effect))
+            .collect()
     }
 
     fn with_flow_of_base(&self, flow: &Flow<S>, qd: &[S]) -> Flow<S> {
         match &self.chain.base {
             None => flow.clone(),
-            Some(own) => flow.with(&Flow::of(own, &self.chain.base_turning(qd))),
+            Some(body) => flow.with(&Flow::of(body, &self.chain.base_turning(qd))),
         }
     }
 }

@@ -111,11 +111,14 @@ impl<S: Scalar> Chain<S> {
     /// Walks from the base to the tips: returns what follows for each link from what the one before
     /// has.
     fn outward<T>(&self, base: T, next: impl Fn(usize, &T) -> T) -> Vec<T> {
-        let mut all: Vec<T> = Vec::with_capacity(self.links.len());
+        let mut results: Vec<T> = Vec::with_capacity(self.links.len());
         for (i, link) in self.links.iter().enumerate() {
-            all.push(next(i, link.parent.map_or(&base, |parent| &all[parent])));
+            results.push(next(
+                i,
+                link.parent.map_or(&base, |parent| &results[parent]),
+            ));
         }
-        all
+        results
     }
 
     /// Walks from the tips to the base. `whole` returns what a link has together with all that it

@@ -12,11 +12,11 @@ use crate::scalar::Scalar;
 impl<S: Scalar> Twist<S> {
     fn next(&self, link: &ChainLink<S>, at: &Displacement<S>, rate: &S) -> Self {
         let carried = sum(&self.shift, &cross(&self.turn, &link.lever(at)));
-        let own = scaled(rate, &link.axis);
+        let along_axis = scaled(rate, &link.axis);
         let (turn, shift) = (link.inward(at, &self.turn), link.inward(at, &carried));
         let (turn, shift) = match link.kind {
-            JointKind::Revolute => (sum(&turn, &own), shift),
-            JointKind::Prismatic => (turn, sum(&shift, &own)),
+            JointKind::Revolute => (sum(&turn, &along_axis), shift),
+            JointKind::Prismatic => (turn, sum(&shift, &along_axis)),
         };
         Twist { turn, shift }
     }

@@ -88,9 +88,9 @@ impl<S: Divide> Chain<S> {
         let rows: Vec<Vec<S>> = order.iter().map(|&i| picked(&d[i], &order)).collect();
         let [bias, tau] = [bias, tau].map(|values| picked(values, &order));
         let moves: Vec<bool> = picked(moves, &order);
-        let found = solved_in_pairs(&pairs, &rows, [&bias, &tau], &moves);
+        let accelerations = solved_in_pairs(&pairs, &rows, [&bias, &tau], &moves);
         // Halves that change places twice are where they were.
-        picked(&found, &order)
+        picked(&accelerations, &order)
     }
 
     /// Returns q̈ under τ, zero of joints that do not move, from the recursion that is shortened.
@@ -128,8 +128,8 @@ impl<S: Scalar> Chain<S> {
         let mut pairs = Vec::new();
         let (first, moves) = (self.base_coordinates(), self.of_joints(moves));
         for group in self.parallel() {
-            let moving = group.into_iter().filter(|(link, _)| moves[*link]);
-            let moving: Vec<(usize, bool)> = moving.collect();
+            let moving: Vec<(usize, bool)> =
+                group.into_iter().filter(|(link, _)| moves[*link]).collect();
             pairs.extend(moving.windows(2).map(|two| Pair {
                 before: first + two[0].0,
                 after: first + two[1].0,
@@ -169,27 +169,32 @@ mod tests {
     fn solves_the_equation_of_the_joints_that_move() {
         let chain = chain();
         let pairs = |moves: &[bool]| {
-            let pairs = chain.pairs(moves).into_iter();
-            let pairs = pairs.map(|pair| (pair.before, pair.after, pair.opposite));
+            let pairs = chain
+                .pairs(moves)
+                .into_iter()
+                .map(|pair| (pair.before, pair.after, pair.opposite));
             pairs.collect::<Vec<_>>()
         };
-        let all = [true; 5];
-        assert_eq!(pairs(&all), [(0, 1, false), (1, 2, true), (2, 3, false)]);
+        let all_joints = [true; 5];
+        assert_eq!(
+            pairs(&all_joints),
+            [(0, 1, false), (1, 2, true), (2, 3, false)]
+        );
         let some = [true, false, true, true, true];
         assert_eq!(pairs(&some), [(0, 2, true), (2, 3, false)]);
         let mut points = Points::new(0x9a12);
-        for moves in [all, some, [false; 5]] {
+        for moves in [all_joints, some, [false; 5]] {
             let entries: Vec<Field> = (0..25).map(|_| points.field()).collect();
             let d = symmetric(5, |i, k| entries[i * 5 + k]);
             let mut vector = || (0..5).map(|_| points.field()).collect::<Vec<Field>>();
             let (bias, tau) = (vector(), vector());
-            let found = solved_in_pairs(&chain.pairs(&moves), &d, [&bias, &tau], &moves);
+            let accelerations = solved_in_pairs(&chain.pairs(&moves), &d, [&bias, &tau], &moves);
             for (i, row) in d.iter().enumerate() {
-                let products = row.iter().zip(&found).map(|(x, y)| x.mul(y));
+                let products = row.iter().zip(&accelerations).map(|(x, y)| x.mul(y));
                 let load = products.fold(bias[i], |sum, x| sum.add(&x));
                 match moves[i] {
                     true => assert_eq!(load, tau[i]),
-                    false => assert_eq!(found[i], Field::ZERO),
+                    false => assert_eq!(accelerations[i], Field::ZERO),
                 }
             }
         }

@@ -34,14 +34,14 @@ impl<S: Scalar> Mixed<S> {
             // ½ (2 q̇ ν × e + 2 v ω × e), of halves.
             let mixed = sum(&scaled(rate, &self.half_nu), &scaled(half, &self.omega));
             let coriolis = cross(&mixed.each_ref().map(twice), axis);
-            let own = sum(&coriolis, &scaled(acceleration, axis));
+            let joint_acceleration = sum(&coriolis, &scaled(acceleration, axis));
             let mut next = self.clone();
-            next.motion.acceleration = sum(&carried, &own);
+            next.motion.acceleration = sum(&carried, &joint_acceleration);
             return next;
         }
-        let turned = |velocity: &Vector<S>, own: &S| {
+        let turned = |velocity: &Vector<S>, joint_rate: &S| {
             let [x, y, z] = link.inward(at, velocity);
-            [x, y, plus(&z, own)]
+            [x, y, plus(&z, joint_rate)]
         };
         let omega = turned(&self.omega, rate);
         let half_nu = turned(&self.half_nu, half);

@@ -36,8 +36,10 @@ impl<S: Scalar> Chain<S> {
             is_followed[first] = true;
         }
         for group in &groups {
-            let free = group.iter().enumerate();
-            let free = free.filter(|(_, (i, _))| !is_followed[*i]);
+            let free = group
+                .iter()
+                .enumerate()
+                .filter(|(_, (i, _))| !is_followed[*i]);
             for (before, &(i, _)) in free.filter(|(_, (i, _))| !self.links[*i].spins_freely) {
                 let index = before + 1;
                 freedoms[i] = [-(index as i32), (group.len() - index) as i32];
@@ -85,12 +87,16 @@ impl<S: Scalar> Chain<S> {
                 places[i] = Some(FramePlacement { group, index });
             }
         }
-        let angles = self.links.iter().zip(position).map(|(link, q)| match q {
-            JointPosition::Revolute(_) if link.spins_freely => Some(SinCosPair::straight()),
-            JointPosition::Revolute(pair) => Some(pair.compose(&link.theta)),
-            JointPosition::Prismatic(_) => None,
-        });
-        let angles: Vec<Option<SinCosPair<S>>> = angles.collect();
+        let angles: Vec<Option<SinCosPair<S>>> = self
+            .links
+            .iter()
+            .zip(position)
+            .map(|(link, q)| match q {
+                JointPosition::Revolute(_) if link.spins_freely => Some(SinCosPair::straight()),
+                JointPosition::Revolute(pair) => Some(pair.compose(&link.theta)),
+                JointPosition::Prismatic(_) => None,
+            })
+            .collect();
         let angle = |&(j, opposite): &(usize, bool)| {
             let angle = angles[j].clone()?;
             Some(if opposite { angle.reversed() } else { angle })
@@ -115,8 +121,8 @@ impl<S: Scalar> Chain<S> {
         for (i, (q, place)) in position.iter().zip(places).enumerate() {
             let before = self.turning(i).and_then(|link| turns[link]);
             let link = &mut chain.links[i];
-            if let Some((seen, own)) = before
-                && let Some(turn) = between(seen, own.index, own)
+            if let Some((start, placement)) = before
+                && let Some(turn) = between(start, placement.index, placement)
             {
                 link.offset = turn.turn_in(ABOUT_Z, link.offset.clone());
                 if link.kind == JointKind::Prismatic {
@@ -133,17 +139,17 @@ impl<S: Scalar> Chain<S> {
                 (JointPosition::Revolute(_), None) => continue,
             };
             let [less, more] = freedoms[i];
-            let seen = (place.index as i32 + link.axes.clamp(less, more)) as usize;
-            if let Some(turn) = between(seen, place.index, place) {
+            let target = (place.index as i32 + link.axes.clamp(less, more)) as usize;
+            if let Some(turn) = between(target, place.index, place) {
                 link.turn_bodies(&turn);
             }
             let from = match before {
-                Some((seen, own)) if own.group == place.group => seen,
+                Some((start, placement)) if placement.group == place.group => start,
                 _ => 0,
             };
-            let turn = between(from, seen, place).unwrap_or_else(SinCosPair::straight);
+            let turn = between(from, target, place).unwrap_or_else(SinCosPair::straight);
             at.push(Displacement::Turn(turn));
-            turns[i] = Some((seen, place));
+            turns[i] = Some((target, place));
         }
         (chain, at)
     }

@@ -72,11 +72,11 @@ impl<S> Probe<S> {
         probes: &[Probe<S>],
         mut f: impl FnMut(&Body<S>) -> Body<T>,
     ) -> Vec<Probe<T>> {
-        let each = probes.iter().map(|probe| Probe {
+        let mapped_probes = probes.iter().map(|probe| Probe {
             column: probe.column,
             of: probe.of.through(&mut f),
         });
-        each.collect()
+        mapped_probes.collect()
     }
 }
 
@@ -86,11 +86,11 @@ pub(super) fn probes<S: Scalar>(
     turned: &Rotation<S>,
     moved: &Vector<S>,
 ) -> impl Iterator<Item = Probe<S>> {
-    let all = columns.iter().enumerate();
-    let own = all.filter(move |(_, own)| own.joint == joint);
-    own.map(move |(column, own)| Probe {
+    let numbered_columns = columns.iter().enumerate();
+    let joint_columns = numbered_columns.filter(move |(_, column)| column.joint == joint);
+    joint_columns.map(move |(column, source)| Probe {
         column,
-        of: own.of.through(|body| body.carried(turned, moved)),
+        of: source.of.through(|body| body.carried(turned, moved)),
     })
 }
 
@@ -196,7 +196,7 @@ impl<S: Scalar> Chain<S> {
                 return;
             };
             let wrench = motion.wrench(body, MomentForm::SecondMoments);
-            let about = |own: &Centre<S>| sum(&wrench.moment, &cross(&wrench.force, &own.at));
+            let about = |centre: &Centre<S>| sum(&wrench.moment, &cross(&wrench.force, &centre.at));
             let moments: Vec<Vector<S>> = way.centres.iter().map(about).collect();
             for (k, twist) in &way.twists {
                 let power = match widest(&way.centres, *k) {

@@ -40,24 +40,28 @@ impl<S: Scalar> Composite<'_, S> {
     ) -> SecondDerivatives<S> {
         let (earlier, later) = self.pairs([qd, qdd, multiplier]);
         let blank = || zero_matrix(earlier.len());
-        let mut all = SecondDerivatives {
+        let mut derivatives = SecondDerivatives {
             position: blank(),
             mixed: blank(),
             velocity: blank(),
             driven: blank(),
         };
         self.each_pair(travel, &earlier, later, |joints, earlier, later| {
-            all.enter(joints, earlier, later);
+            derivatives.enter(joints, earlier, later);
         });
-        let matrices = [&mut all.position, &mut all.mixed, &mut all.velocity];
-        for matrix in matrices.into_iter().chain([&mut all.driven]) {
+        let matrices = [
+            &mut derivatives.position,
+            &mut derivatives.mixed,
+            &mut derivatives.velocity,
+        ];
+        for matrix in matrices.into_iter().chain([&mut derivatives.driven]) {
             self.matrix_in_metres(matrix);
         }
         for (i, link) in self.chain.links.iter().enumerate() {
             let bent = times(&multiplier[i], &link.friction.curvature(&qd[i]));
-            all.velocity[i][i] = plus(&all.velocity[i][i], &bent);
+            derivatives.velocity[i][i] = plus(&derivatives.velocity[i][i], &bent);
         }
-        all
+        derivatives
     }
 
     fn pairs(&self, [qd, qdd, multiplier]: [&[S]; 3]) -> (Vec<Earlier<S>>, Vec<Later<S>>) {
@@ -90,34 +94,34 @@ impl<S: Scalar> Composite<'_, S> {
 
 impl<S: Scalar> SecondDerivatives<S> {
     fn enter(&mut self, [i, k]: [usize; 2], earlier: &Earlier<S>, later: &Later<S>) {
-        let [own, virtually, first, second] = earlier;
+        let [twist, virtually, first, second] = earlier;
         let [force, momentum, damping, push] = &later.wrenches;
         let [couple, swing] = &later.vectors;
         let powers = plus(&force.along(virtually), &momentum.along(second));
         let position = plus(&powers, &dot(couple, &first.turn));
         self.position[i][k] = position.clone();
         self.position[k][i] = position;
-        let velocity = dot(swing, &own.turn);
+        let velocity = dot(swing, &twist.turn);
         self.velocity[i][k] = velocity.clone();
         self.velocity[k][i] = velocity;
         self.mixed[i][k] = plus(&damping.along(virtually), &dot(swing, &first.turn));
         self.driven[k][i] = push.along(virtually);
-        self.mixed[k][i] = plus(&twice(&momentum.along(first)), &dot(couple, &own.turn));
-        self.driven[i][k] = momentum.along(own);
+        self.mixed[k][i] = plus(&twice(&momentum.along(first)), &dot(couple, &twist.turn));
+        self.driven[i][k] = momentum.along(twist);
     }
 }
 
 fn later<S: Scalar>(
     body: &Body<S>,
     joint: &Joint<S>,
-    [own, virtually, first, _]: &Earlier<S>,
+    [twist, virtually, first, _]: &Earlier<S>,
     flow: &Flow<S>,
     couple: &Vector<S>,
     swing: Vector<S>,
 ) -> Later<S> {
-    let turned = flow.wrench().turned(own);
+    let turned = flow.wrench().turned(twist);
     let within = difference(&joint.flow.across(virtually), &flow.across(first));
-    let changed = sum(&cross(&own.turn, couple), &within);
+    let changed = sum(&cross(&twist.turn, couple), &within);
     JointEffect {
         wrenches: [
             joint.position.1.clone(),

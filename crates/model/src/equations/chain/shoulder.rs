@@ -36,8 +36,8 @@ impl<S: Scalar> Chain<S> {
             .len()
             .checked_sub(BEYOND)
             .filter(|_| self.is_serial())?;
-        let all = (0..FEWEST).filter_map(|origin| self.through(origin));
-        let mut wide = all.filter(|heights| (FEWEST..=most).contains(&heights.len()));
+        let candidates = (0..FEWEST).filter_map(|origin| self.through(origin));
+        let mut wide = candidates.filter(|heights| (FEWEST..=most).contains(&heights.len()));
         // Through two points that are not one there is one axis at most.
         wide.next()
     }
@@ -52,8 +52,8 @@ impl<S: Scalar> Chain<S> {
         let mut heights = alloc::vec![S::zero()];
         for link in self.links.get(1..=origin)?.iter().rev() {
             let along = [S::zero(), S::zero(), negative(&heights[0])];
-            let seen = sum(&apply(&link.rotation, &along), &link.offset);
-            heights.insert(0, negative(&height(&seen)?));
+            let point = sum(&apply(&link.rotation, &along), &link.offset);
+            heights.insert(0, negative(&height(&point)?));
         }
         let (inner, outer) = self.links.split_at(origin + 1);
         if !inner.iter().all(turns) {
@@ -61,8 +61,8 @@ impl<S: Scalar> Chain<S> {
         }
         for link in outer.iter().take_while(|link| turns(link)) {
             let along = [S::zero(), S::zero(), heights[heights.len() - 1].clone()];
-            let seen = apply_transposed(&link.rotation, &sum(&along, &link.offset));
-            match height(&seen) {
+            let point = apply_transposed(&link.rotation, &sum(&along, &link.offset));
+            match height(&point) {
                 Some(height) => heights.push(height),
                 None => break,
             }
@@ -144,39 +144,43 @@ impl<S: Divide> Composite<'_, S> {
         let mut solved: Vec<Option<HingeSolution<S>>> = Vec::with_capacity(first);
         for (i, link) in chain.links[..first].iter().enumerate().rev() {
             hinged = hinged.with(&link.body, &heights[i], &wrench(i));
-            let mut own = None;
+            let mut solution = None;
             if moves[i] {
-                let given = minus(&tau[i], &drive(i));
+                let torque = minus(&tau[i], &drive(i));
                 let is_first = !moves[..i].contains(&true);
-                let (rest, joint) = hinged.eliminated(&link.armature, &given, is_first);
-                (hinged, own) = (rest, Some(joint));
+                let (rest, joint) = hinged.eliminated(&link.armature, &torque, is_first);
+                (hinged, solution) = (rest, Some(joint));
             }
             hinged = hinged.carried(link, &self.at[i]);
-            solved.push(own);
+            solved.push(solution);
         }
         solved.reverse();
-        let mut found = zeros(n);
+        let mut hinge_accelerations = zeros(n);
         let mut omega = zero_vector();
         for (i, joint) in solved.iter().enumerate() {
             omega = chain.links[i].inward(&self.at[i], &omega);
-            if let Some(HingeSolution { own, shares }) = joint {
+            if let Some(HingeSolution {
+                acceleration,
+                shares,
+            }) = joint
+            {
                 let [x, y] = [0, 1].map(|axis| times(&shares[axis], &omega[axis]));
-                let own = minus(&minus(own, &x), &y);
-                found[i] = minus(&own, &times(&shares[2], &omega[2]));
+                let spin = minus(&minus(acceleration, &x), &y);
+                hinge_accelerations[i] = minus(&spin, &times(&shares[2], &omega[2]));
                 omega[2] = match chain.links[i].armature.is_zero() {
-                    true => own,
-                    false => plus(&omega[2], &found[i]),
+                    true => spin,
+                    false => plus(&omega[2], &hinge_accelerations[i]),
                 };
             }
         }
         let omega = chain.links[first].inward(&self.at[first], &omega);
         let known = omega.into_iter().chain(rest.iter().cloned()).collect();
-        let all = beyond.substituted(known);
-        let mut found = placed(found, &joints, all[3..].iter().cloned());
+        let unknowns = beyond.substituted(known);
+        let mut accelerations = placed(hinge_accelerations, &joints, unknowns[3..].iter().cloned());
         if is_taken_back {
-            found[first] = minus(&found[first], &all[2]);
+            accelerations[first] = minus(&accelerations[first], &unknowns[2]);
         }
-        found
+        accelerations
     }
 
     /// Returns I, N and D of the joints that move beyond a shoulder; a lever to the first frame.
@@ -191,13 +195,13 @@ impl<S: Divide> Composite<'_, S> {
         let tensor = self.bodies[first].moved(lever).tensor().rows();
         let mut lower: Vec<Vec<S>> = (0..3).map(|i| tensor[i][..=i].to_vec()).collect();
         for k in (first..chain.links.len()).filter(|&k| moves[k]) {
-            let own = self.momentum(k);
-            let mut wrench = own.clone();
+            let momentum = self.momentum(k);
+            let mut wrench = momentum.clone();
             let mut row = Vec::new();
             for i in (first..=k).rev() {
                 let load = match travel {
                     CompositeOrder::Inward => chain.load(i, &wrench),
-                    CompositeOrder::Outward => self.project(i, k, &own),
+                    CompositeOrder::Outward => self.project(i, k, &momentum),
                 };
                 let load = chain.rescaled(k, load);
                 if i == k {
@@ -242,7 +246,7 @@ struct HingedBody<S> {
 
 struct HingeSolution<S> {
     /// (τ − p_z) / D
-    own: S,
+    acceleration: S,
     /// I_xz / D, I_yz / D, I_zz / D
     shares: Vector<S>,
 }
@@ -264,8 +268,8 @@ impl<S: Scalar> HingedBody<S> {
 
     fn with(&self, body: &Body<S>, height: &S, wrench: &Wrench<S>) -> Self {
         let lever = [S::zero(), S::zero(), height.clone()];
-        let own = body.moved(&lever).tensor();
-        let both = |i: usize, k: usize| plus(entry(&self.inertia, i, k), entry(&own, i, k));
+        let tensor = body.moved(&lever).tensor();
+        let both = |i: usize, k: usize| plus(entry(&self.inertia, i, k), entry(&tensor, i, k));
         let inertia = Inertia::symmetric(both);
         let moment = sum(&wrench.moment, &cross(&lever, &wrench.force));
         let moment = sum(&self.moment, &moment);
@@ -275,11 +279,11 @@ impl<S: Scalar> HingedBody<S> {
 
 impl<S: Divide> HingedBody<S> {
     /// Eliminates a joint about z with this rotor and torque; the first that moves divides alone.
-    fn eliminated(self, rotor: &S, given: &S, is_first: bool) -> (Self, HingeSolution<S>) {
+    fn eliminated(self, rotor: &S, torque: &S, is_first: bool) -> (Self, HingeSolution<S>) {
         let HingedBody { inertia, moment } = self;
         let pivot = plus(&inertia.zz, rotor);
         let inverse = over(&S::one(), &pivot);
-        let left = minus(given, &moment[2]);
+        let left = minus(torque, &moment[2]);
         let [x, y] = [&inertia.xz, &inertia.yz].map(|entry| times(entry, &inverse));
         // Without a rotor nothing is left about the axis, and no rounding of it either.
         let z = match rotor.is_zero() {
@@ -290,7 +294,7 @@ impl<S: Divide> HingedBody<S> {
             plus(&moment[0], &times(&x, &left)),
             plus(&moment[1], &times(&y, &left)),
             match rotor.is_zero() {
-                true => given.clone(),
+                true => torque.clone(),
                 false => plus(&moment[2], &times(&z, &left)),
             },
         ];
@@ -302,14 +306,17 @@ impl<S: Divide> HingedBody<S> {
             yz: times(&y, rotor),
             zz: times(&z, rotor),
         };
-        let own = match is_first {
+        let acceleration = match is_first {
             true => over(&left, &pivot),
             false => times(&left, &inverse),
         };
         let shares = [x, y, z];
         (
             HingedBody { inertia, moment },
-            HingeSolution { own, shares },
+            HingeSolution {
+                acceleration,
+                shares,
+            },
         )
     }
 }

@@ -108,8 +108,8 @@ impl<S: Scalar> Skeleton<S> {
                 if let Some((carrying, others)) = carrying {
                     *carrying = carrying.with(&body.carried(&turned, &moved));
                     // A drive that is locked feels nothing.
-                    let own = probes(columns, joint, &turned, &moved);
-                    others.extend(own.filter(Probe::is_body));
+                    let joint_probes = probes(columns, joint, &turned, &moved);
+                    others.extend(joint_probes.filter(Probe::is_body));
                 }
                 return SegmentFrame {
                     carrier,
@@ -119,7 +119,7 @@ impl<S: Scalar> Skeleton<S> {
                 };
             }
             let slide = [S::zero(), S::zero(), link.d.clone()];
-            let mut own = ChainLink {
+            let mut chain_link = ChainLink {
                 parent: carrier,
                 kind: link.kind,
                 rotation: identity(),
@@ -136,29 +136,31 @@ impl<S: Scalar> Skeleton<S> {
             };
             match link.kind {
                 JointKind::Revolute => {
-                    own.rotation = turned;
+                    chain_link.rotation = turned;
                     if merged && carrier.is_some() {
-                        own.absorb_turn();
+                        chain_link.absorb_turn();
                     }
                     moved = sum(&slide, &reach);
                     turned = rest;
                 }
                 JointKind::Prismatic => {
-                    own.axis = apply(&turned, &unit_z());
-                    own.offset = sum(&moved, &apply(&turned, &slide));
+                    chain_link.axis = apply(&turned, &unit_z());
+                    chain_link.offset = sum(&moved, &apply(&turned, &slide));
                     let turn = product(&turned, &turn(&link.theta, ABOUT_Z));
-                    own.theta = SinCosPair::straight();
+                    chain_link.theta = SinCosPair::straight();
                     moved = apply(&turn, &reach);
                     turned = product(&turn, &rest);
                 }
             }
-            own.body = body.carried(&turned, &moved);
-            own.probes.extend(probes(columns, joint, &turned, &moved));
+            chain_link.body = body.carried(&turned, &moved);
+            chain_link
+                .probes
+                .extend(probes(columns, joint, &turned, &moved));
             links.push(Segment {
                 joint,
                 d: link.d.clone(),
                 dh: (turned.clone(), moved.clone()),
-                link: own,
+                link: chain_link,
             });
             SegmentFrame {
                 carrier: Some(links.len() - 1),
@@ -193,14 +195,14 @@ impl<S: Scalar> ChainLink<S> {
         let r = &self.rotation;
         let Some(opposite) = sense(r) else { return };
         let (sin, cos) = (r[1][0].clone(), r[0][0].clone());
-        let mut own = SinCosPair { sin, cos };
+        let mut angle = SinCosPair { sin, cos };
         let mut straight = identity();
         if opposite {
             straight[1][1] = S::one().neg();
             straight[2][2] = S::one().neg();
-            own = own.reversed();
+            angle = angle.reversed();
         }
-        self.theta = own.compose(&self.theta);
+        self.theta = angle.compose(&self.theta);
         self.rotation = straight;
     }
 }

@@ -101,15 +101,15 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
             negative(&plus(&times(&half, x), &times(&second.xy, y))),
             minus(&times(&half, y), &times(&second.xy, x)),
         ];
-        let own = minus(&times(x, &spread[1]), &times(y, &spread[0]));
+        let spin_torque = minus(&times(x, &spread[1]), &times(y, &spread[0]));
         let momentum = minus(&times(&self.inertia, &plus(z, rate)), &times(&self.rest, z));
         let double = twice(rate);
         let couple = [
             minus(&times(&momentum, y), &times(&double, &spread[1])),
             minus(&times(&double, &spread[0]), &times(&momentum, x)),
-            times(&self.share, &minus(left, &own)),
+            times(&self.share, &minus(left, &spin_torque)),
         ];
-        (couple, own)
+        (couple, spin_torque)
     }
 
     /// Returns q̈ under τ, zero of joints that do not move.
@@ -135,9 +135,9 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         let unturned = Displacement::Turn(SinCosPair::straight());
         let omega = link.inward(&unturned, &tip.omega);
         let left = minus(&tau[last], &link.friction.torque(&qd[last]));
-        let (couple, own) = self.couple(&omega, &qd[last], &left);
+        let (couple, spin_torque) = self.couple(&omega, &qd[last], &left);
         let couple = link.outward(&unturned, &couple);
-        let left = minus(&left, &own);
+        let left = minus(&left, &spin_torque);
         let composite = Composite::new(chain, at);
         let drive = |i: usize| chain.drive(i, qd, reference);
         let rest = match form.shoulder.then(|| chain.shoulder()).flatten() {
@@ -146,25 +146,27 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
                     false => chain.torques(at, motions, form.couple, &couple, drive),
                     true => {
                         let rest = zeros(last);
-                        let torques =
-                            composite.torques(&chain.gravity, before, &rest, form.spin, &couple);
-                        let torques = torques.iter().enumerate();
-                        torques.map(|(i, torque)| plus(torque, &drive(i))).collect()
+                        composite
+                            .torques(&chain.gravity, before, &rest, form.spin, &couple)
+                            .iter()
+                            .enumerate()
+                            .map(|(i, torque)| plus(torque, &drive(i)))
+                            .collect()
                     }
                 };
                 let d = composite.inertia(form.travel);
                 chain.accelerations(&d, [&bias, loads], moves, (form, unknowns))
             }
             Some(heights) => {
-                let (exerted, given) = ((form, &couple), [before, loads]);
-                composite.accelerations_by_shoulder(&heights, &motion, exerted, given, moves)
+                let (exerted, inputs) = ((form, &couple), [before, loads]);
+                composite.accelerations_by_shoulder(&heights, &motion, exerted, inputs, moves)
             }
         };
         let still = dot(&link.axis_before(), &tip.omega_dot);
         let brought = plus(&still, &product(&self.brought(), &rest));
         let mut qdd = sums(&rest, reference);
-        let own = times(&left, &self.inverse);
-        qdd.push(minus(&own, &times(&self.share, &brought)));
+        let acceleration = times(&left, &self.inverse);
+        qdd.push(minus(&acceleration, &times(&self.share, &brought)));
         qdd
     }
 
@@ -175,12 +177,12 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         let inner = inverted(&d, &moves[..last]);
         let brought = self.brought();
         let share = |row: &[S]| times(&self.share, &product(row, &brought));
-        let given: Vec<S> = inner.iter().map(|row| negative(&share(row))).collect();
-        let own = minus(&self.inverse, &share(&given));
+        let border: Vec<S> = inner.iter().map(|row| negative(&share(row))).collect();
+        let corner = minus(&self.inverse, &share(&border));
         symmetric(last + 1, |i, k| match (i == last, k == last) {
-            (true, true) => own.clone(),
-            (true, false) => given[k].clone(),
-            (false, true) => given[i].clone(),
+            (true, true) => corner.clone(),
+            (true, false) => border[k].clone(),
+            (false, true) => border[i].clone(),
             (false, false) => inner[i][k].clone(),
         })
     }

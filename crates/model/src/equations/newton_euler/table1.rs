@@ -120,23 +120,23 @@ impl<S: Scalar> Body<S> {
 
     fn moved(mut self, convention: Convention, kind: JointKind, qd: &S, qdd: &S) -> Self {
         let before = self.motion.clone();
-        let own = &mut self.motion;
+        let motion = &mut self.motion;
         let rate = scaled(qd, &self.axis);
         if kind == JointKind::Revolute {
-            own.omega = sum(&before.omega, &rate);
+            motion.omega = sum(&before.omega, &rate);
             let turning = sum(&scaled(qdd, &self.axis), &cross(&before.omega, &rate));
-            own.omega_dot = sum(&before.omega_dot, &turning);
+            motion.omega_dot = sum(&before.omega_dot, &turning);
         }
         // The lever p_i* belongs to link i, or to link i−1 in modified DH.
         let turns = match convention {
-            Convention::Standard => &*own,
+            Convention::Standard => &*motion,
             Convention::Modified => &before,
         };
-        own.acceleration = sum(&before.acceleration, &turns.of_lever(&self.lever));
+        motion.acceleration = sum(&before.acceleration, &turns.of_lever(&self.lever));
         if kind == JointKind::Prismatic {
-            let coriolis = cross(&own.omega, &scaled(&twice(qd), &self.axis));
+            let coriolis = cross(&motion.omega, &scaled(&twice(qd), &self.axis));
             let sliding = sum(&scaled(qdd, &self.axis), &coriolis);
-            own.acceleration = sum(&own.acceleration, &sliding);
+            motion.acceleration = sum(&motion.acceleration, &sliding);
         }
         self
     }

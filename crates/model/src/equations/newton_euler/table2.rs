@@ -67,15 +67,15 @@ pub fn wrench_on_base<S: Scalar>(
 ) -> Wrench<S> {
     let loads = loads(arm, at, rates, moment);
     let steps = arm.steps(at).zip(loads);
-    steps.fold(Wrench::zero(), |all, (step, (_, on_base))| {
+    steps.fold(Wrench::zero(), |total, (step, (_, on_base))| {
         let Some(wrench) = on_base else {
-            return all;
+            return total;
         };
         let lever = match arm.convention {
             Convention::Standard => zero_vector(),
             Convention::Modified => step.lever_before(),
         };
-        all.with(&wrench.carried(|v| step.to_previous(v), &lever))
+        total.with(&wrench.carried(|v| step.to_previous(v), &lever))
     })
 }
 
@@ -92,10 +92,10 @@ fn loads<S: Scalar>(
     arm.inward(|i, arrived: Vec<(usize, Wrench<S>)>| {
         let (link, motion) = (&arm.links[i], &motions[i]);
         // f_{i+1} of each link that it carries, in its axes.
-        let forces = arrived
+        let forces: Vec<Vector<S>> = arrived
             .iter()
-            .map(|(next, wrench)| steps[*next].to_previous(&wrench.force));
-        let forces: Vec<Vector<S>> = forces.collect();
+            .map(|(next, wrench)| steps[*next].to_previous(&wrench.force))
+            .collect();
         let inertial_force = scaled(&link.mass, &motion.acceleration_at(&link.com));
         let inertial_moment = motion.euler(link, moment);
 
@@ -119,17 +119,17 @@ fn loads<S: Scalar>(
                 }
             }
         });
-        let all = |vectors: &mut dyn Iterator<Item = Vector<S>>| {
-            vectors.fold(zero_vector(), |all, vector| sum(&all, &vector))
+        let resultant = |vectors: &mut dyn Iterator<Item = Vector<S>>| {
+            vectors.fold(zero_vector(), |total, vector| sum(&total, &vector))
         };
-        let carried = all(&mut { moments });
+        let carried = resultant(&mut { moments });
         let arm_of_centre = match arm.convention {
             Convention::Standard => sum(&lever, &link.com),
             Convention::Modified => link.com.clone(),
         };
         let moment = sum(&carried, &cross(&arm_of_centre, &inertial_force));
         let moment = sum(&moment, &inertial_moment);
-        let force = sum(&all(&mut forces.into_iter()), &inertial_force);
+        let force = sum(&resultant(&mut forces.into_iter()), &inertial_force);
         let wrench = Wrench { force, moment };
         let load = wrench.part(link.kind);
         let along = match arm.convention {

@@ -43,9 +43,9 @@ fn compare(arm: &Arm<S>, draw: &mut Draw, round: usize) {
                 "{round} {spin:?} {couple:?}"
             );
         }
-        let found = composite.torques(&posed.gravity, &qd, &qdd, spin, &zero_vector());
+        let loads = composite.torques(&posed.gravity, &qd, &qdd, spin, &zero_vector());
         assert_eq!(
-            fields(&posed.driven(found, &qd, &qdd)),
+            fields(&posed.driven(loads, &qd, &qdd)),
             fields(&torques),
             "{round} composite"
         );
@@ -104,7 +104,7 @@ fn locked(arm: &Arm<S>, draw: &mut Draw, position: &Position, d: &[Vec<S>], roun
     let mut moving = position[first..].to_vec();
     moving.remove(joint - first);
     let (posed, at) = chain.posed(&moving);
-    let rest: Vec<usize> = (0..n).filter(|own| *own != joint).collect();
+    let rest: Vec<usize> = (0..n).filter(|row| *row != joint).collect();
     let expected = flat(&super::super::factor::submatrix(d, &rest));
     let found = Composite::new(&posed, &at).inertia(CompositeOrder::Inward);
     assert_eq!(flat(&found), expected, "{round} with joint {joint} locked");
@@ -144,8 +144,8 @@ fn derivatives(chain: &Chain<S>, position: &Position, [qd, qdd, v]: [&[S]; 3], r
             // The base turns, and gravity the other way.
             let unit = three(|i| if i == axis { Dual::one() } else { Dual::zero() });
             let turning = cross(&chain.gravity, &unit);
-            for (own, turning) in chain.gravity.iter_mut().zip(turning) {
-                own.rate = turning.value;
+            for (component, turning) in chain.gravity.iter_mut().zip(turning) {
+                component.rate = turning.value;
             }
         }
         chain.posed(&moving(position, joint))
@@ -159,8 +159,10 @@ fn derivatives(chain: &Chain<S>, position: &Position, [qd, qdd, v]: [&[S]; 3], r
         rates(still.inverse_dynamics(&at_rest, &growing(qd, k), &constants(qdd), spin, couple))
     };
     let power = |slopes: &[Vec<Dual<S>>], k: usize| {
-        let terms = slopes.iter().zip(v);
-        let terms = terms.map(|(row, v)| row[k].mul(&Dual::constant(*v)));
+        let terms = slopes
+            .iter()
+            .zip(v)
+            .map(|(row, v)| row[k].mul(&Dual::constant(*v)));
         total(terms)
     };
     let powers = |slopes: &[Vec<Dual<S>>]| rates((0..n).map(|k| power(slopes, k)).collect());
@@ -219,8 +221,9 @@ fn regressors(
     round: usize,
 ) {
     let mut weights = Points::new(round as u64);
-    let values = (0..skeleton.columns).map(|_| Sparse::Value(weights.field()));
-    let values: Vec<S> = values.collect();
+    let values: Vec<S> = (0..skeleton.columns)
+        .map(|_| Sparse::Value(weights.field()))
+        .collect();
     let more = skeleton.clone().with_values(&values);
     let plain = Regrouping::base(&more);
     let (heavier, at_heavier) = Chain::new(&more, &plain).posed(position);
@@ -232,12 +235,12 @@ fn regressors(
     let all_passive = heavier.passivity(&at_heavier, qd, v, a);
     for travel in TRAVELS {
         let y = posed.regressor(&at, qd, qdd, travel);
-        let found = sums(&torques, &products(&y, &values));
-        assert_eq!(fields(&found), fields(&whole), "{round} Y");
+        let torque_sums = sums(&torques, &products(&y, &values));
+        assert_eq!(fields(&torque_sums), fields(&whole), "{round} Y");
         let y = posed.passivity_regressor(&at, qd, [v, a], travel);
-        let found = sums(&passive, &products(&y, &values));
+        let passive_sums = sums(&passive, &products(&y, &values));
         assert_eq!(
-            fields(&found),
+            fields(&passive_sums),
             fields(&all_passive),
             "{round} Y of passivity"
         );

@@ -223,18 +223,21 @@ impl Draw {
     }
 
     pub(super) fn regrouping(&mut self, skeleton: &Skeleton<S>) -> Regrouping<S> {
-        let links = skeleton.links.iter().map(|segment| LinkRegrouping {
-            origin: match segment.link.kind {
-                JointKind::Revolute => [S::zero(), S::zero(), self.constant()],
-                JointKind::Prismatic => self.vector(),
-            },
-            mass: self.constant(),
-            first: self.constant(),
-            second: self.constant(),
-            keep_seconds: self.below(2) == 0,
-            axes: self.below(5) as i32 - 2,
-        });
-        let links = links.collect();
+        let links = skeleton
+            .links
+            .iter()
+            .map(|segment| LinkRegrouping {
+                origin: match segment.link.kind {
+                    JointKind::Revolute => [S::zero(), S::zero(), self.constant()],
+                    JointKind::Prismatic => self.vector(),
+                },
+                mass: self.constant(),
+                first: self.constant(),
+                second: self.constant(),
+                keep_seconds: self.below(2) == 0,
+                axes: self.below(5) as i32 - 2,
+            })
+            .collect();
         let unit = self.value();
         Regrouping {
             links,

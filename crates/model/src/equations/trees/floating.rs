@@ -60,7 +60,7 @@ impl Base {
             .map(|(k, m)| (times(&qd[k], &qd[m]), pose(&[k, m])))
             .collect();
         let rate = Columns::combination(qd.iter().cloned().zip(&first));
-        let terms = second.iter().map(|(by, own)| (*by, own));
+        let terms = second.iter().map(|(by, derivative)| (*by, derivative));
         let bend = Columns::combination(qdd.iter().cloned().zip(&first).chain(terms));
         let twist = |m: &Columns<S>| -> Vec<S> { [back(&m.origin), turn(m)].concat() };
         // Components of v in axes that turn: its rate is the acceleration less ω × v.

@@ -24,8 +24,8 @@ fn formulations_agree_on_random_trees() {
                     axes,
                     rows: Rows::ALL,
                 };
-                let seen = arm.seen(&view).expect("a frame");
-                kinematics(&seen, &at, &mut draw, round);
+                let arm_in_view = arm.seen(&view).expect("a frame");
+                kinematics(&arm_in_view, &at, &mut draw, round);
             }
         }
     }
@@ -37,8 +37,10 @@ fn dynamics(arm: &Arm<S>, at: &[DhVariables<S>], draw: &mut Draw, round: usize) 
     let first = Formulation::LagrangeEuler;
     let results = |by: Formulation| {
         let christoffel = by.christoffel(arm, at).concat();
-        let wrenches = by.wrenches(arm, at, &qd, &qdd).into_iter();
-        let wrenches = wrenches.map(|own| [own.force, own.moment].concat());
+        let wrenches = by
+            .wrenches(arm, at, &qd, &qdd)
+            .into_iter()
+            .map(|wrench| [wrench.force, wrench.moment].concat());
         let [rotation, translation] =
             [Part::Rotation, Part::Translation].map(|part| by.inertia_part(part, arm, at).concat());
         [
@@ -73,13 +75,13 @@ fn dynamics(arm: &Arm<S>, at: &[DhVariables<S>], draw: &mut Draw, round: usize) 
             assert_eq!(fields(found), fields(expected), "{round} {by:?} result {k}");
         }
         let moves = vec![true; n];
-        let found = by.forward_dynamics(arm, at, &qd, &expected[0], &moves);
-        assert_eq!(fields(&found), fields(&qdd), "{round} {by:?} q̈");
+        let accelerations = by.forward_dynamics(arm, at, &qd, &expected[0], &moves);
+        assert_eq!(fields(&accelerations), fields(&qdd), "{round} {by:?} q̈");
     }
     // What is folded away changes no torque.
     let folded = arm.clone().fold_base();
-    let found = first.inverse_dynamics(&folded, at_of(&folded, arm, at).as_slice(), &qd, &qdd);
-    assert_eq!(fields(&found), fields(&expected[0]), "{round} folded");
+    let torques = first.inverse_dynamics(&folded, at_of(&folded, arm, at).as_slice(), &qd, &qdd);
+    assert_eq!(fields(&torques), fields(&expected[0]), "{round} folded");
 }
 
 /// Returns where joints are whose rows have other constants along their axes.
@@ -109,13 +111,17 @@ fn kinematics(arm: &Arm<S>, at: &[DhVariables<S>], draw: &mut Draw, round: usize
             assert_eq!(fields(found), fields(expected), "{round} {by:?} result {k}");
         }
         for axes in [HandAxes::FirstAndLast, HandAxes::Last] {
-            let seen = SeenHand::new(by, (arm, at), axes);
-            let found = seen.turned(&columns_of(&seen.jacobian())).concat();
+            let hand = SeenHand::new(by, (arm, at), axes);
+            let jacobian = hand.turned(&columns_of(&hand.jacobian())).concat();
             let expected = columns_of(&by.jacobian(arm, at)).concat();
-            assert_eq!(fields(&found), fields(&expected), "{round} {by:?} {axes:?}");
-            let found = seen.turned(&[seen.rate(&qd)]).concat();
             assert_eq!(
-                fields(&found),
+                fields(&jacobian),
+                fields(&expected),
+                "{round} {by:?} {axes:?}"
+            );
+            let rate = hand.turned(&[hand.rate(&qd)]).concat();
+            assert_eq!(
+                fields(&rate),
                 fields(&by.jacobian_rate(arm, at, &qd).concat())
             );
         }

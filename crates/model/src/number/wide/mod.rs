@@ -138,8 +138,7 @@ impl Wide {
         let below = least | less | more | (first << f64::MANTISSA_DIGITS);
         let top = (first >> DROPPED) + u64::from(below != 0);
         let dropped = BITS as i64 - i64::from(f64::MANTISSA_DIGITS);
-        let exponent = self.exponent.saturating_add(dropped);
-        let exponent = exponent.clamp(-4000, 4000) as i32;
+        let exponent = self.exponent.saturating_add(dropped).clamp(-4000, 4000) as i32;
         // At most 2⁵³: a double.
         let top = top as f64;
         if exponent.unsigned_abs() < 960 {
@@ -314,8 +313,8 @@ mod tests {
             ),
         ];
         for (angle, sin, cos) in cases {
-            let found = Wide::sincos(&angle);
-            for (found, digits) in [(found.sin, sin), (found.cos, cos)] {
+            let pair = Wide::sincos(&angle);
+            for (found, digits) in [(pair.sin, sin), (pair.cos, cos)] {
                 let expected = Wide::from_rational(&parse_decimal(digits).unwrap());
                 let off = found.sub(&expected).magnitude();
                 assert!(off < 1e-69, "{digits}: {off:e}");
@@ -365,10 +364,10 @@ mod tests {
                 (a.mul(&b), &x * &y),
                 (a.div(&b), quotient),
             ];
-            for (found, exact) in cases {
-                let off = (found.to_rational() - &exact).abs();
+            for (result, exact) in cases {
+                let off = (result.to_rational() - &exact).abs();
                 assert!(off <= exact.abs() * &least, "{a:?} {b:?}");
-                assert_eq!(found, Wide::from_rational(&found.to_rational()));
+                assert_eq!(result, Wide::from_rational(&result.to_rational()));
             }
             let size = a.magnitude();
             let exact = Rational::from_float(size).unwrap();

@@ -19,8 +19,8 @@ impl Check<'_> {
         let Some(tolerance) = &self.scene.tolerance else {
             return;
         };
-        let (n, found) = (self.robot.joints.len(), tolerance.value.len());
-        if found != 1 && found != self.base() + n {
+        let (n, count) = (self.robot.joints.len(), tolerance.value.len());
+        if count != 1 && count != self.base() + n {
             let (has, help) = match self.base() {
                 0 => (format!("{n} joints"), "one for all joints, or one a joint"),
                 _ => (
@@ -28,7 +28,7 @@ impl Check<'_> {
                     "one for all, or six of the base, linear over angular, then one a joint",
                 ),
             };
-            let message = format!("{found} tolerances, but the robot has {has}");
+            let message = format!("{count} tolerances, but the robot has {has}");
             self.error("tolerance", message, help);
         }
         for (index, value) in tolerance.value.iter().enumerate() {
@@ -87,8 +87,8 @@ impl Check<'_> {
             let joint = robot.joint_of(coordinate);
             if joint.is_none_or(|joint| scene.locked(joint).is_none()) {
                 // The sines and cosines of an angle are bounded anyway.
-                let free = joint.map(|joint| &robot.joints[joint]).filter(|own| {
-                    own.kind == JointKind::Prismatic && own.limits.position.is_none()
+                let free = joint.map(|joint| &robot.joints[joint]).filter(|joint| {
+                    joint.kind == JointKind::Prismatic && joint.limits.position.is_none()
                 });
                 self.range(coordinate, "position", free.is_some());
                 for (rate, is_read) in [
