@@ -8,7 +8,7 @@
 use std::fs;
 use std::path::Path;
 
-use dalembert_codegen::workspace::{Budget, Library, Setup, trace, write_function};
+use dalembert_codegen::workspace::{Budget, Library, Setup, testing::write_function, trace};
 use dalembert_codegen::{Function, Request, RobotFile, ScalarType, generate};
 use dalembert_model::equations::Formulation;
 use dalembert_model::scene::Scale;

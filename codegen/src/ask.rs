@@ -1,15 +1,13 @@
 //! The way in of those that keep a compiler waiting, the macro and build scripts: a robot file
 //! and what is asked, as one text.
 
-use dalembert_model::robot::Severity;
+use dalembert_model::diagnostic::{Diagnostic, Diagnostics, Place, Severity};
 use dalembert_stamp::Asked;
 
-use crate::generate::{GenerateError, GeneratedCode, generate_anew};
+use crate::generate::{GeneratedCode, generate_anew};
 use crate::language::Language;
 use crate::robot_file::RobotFile;
-use crate::task::Request;
-use crate::task::options::Problem;
-use crate::words::complaint;
+use crate::task::{GenerateError, Request};
 
 /// The code that was asked of a robot file.
 #[derive(Clone, Debug)]
@@ -32,7 +30,7 @@ pub fn ask(
     asked: &Asked,
     language: Language,
     shown: &str,
-) -> Result<AskedCode, Vec<Problem>> {
+) -> Result<AskedCode, Diagnostics> {
     let scalars = language.scalars();
     let mut request = Request::parse(asked, scalars, &file.robot, &file.outputs, &file.scenes)?;
     request.language = language;
@@ -40,20 +38,18 @@ pub fn ask(
     if !request.has_no_plan {
         request.plan = file.plan.clone();
     }
-    let generated = generate_anew(&file.robot, &request, shown)
-        .map_err(|error| vec![Problem::from_error(&error, &request)])?;
-    let notes = file
+    let generated =
+        generate_anew(&file.robot, &request, shown).map_err(|error| placed(&error, &request))?;
+    let is_warning = |note: &&Diagnostic| note.severity == Severity::Warning;
+    let mut warnings: Vec<String> = file
         .notes
         .iter()
-        .filter(|note| note.severity == Severity::Warning);
-    let mut warnings: Vec<String> = notes
+        .filter(is_warning)
         .map(|note| {
-            let help = note
-                .help
-                .as_ref()
-                .map(|help| format!("\n  = help: {help}"))
-                .unwrap_or_default();
-            format!("{shown}:{}: {}{help}", note.line, note.message)
+            let help = note.help.as_ref();
+            let help = help.map_or_else(String::new, |help| format!("\n  = help: {help}"));
+            let line = note.line().unwrap_or_default();
+            format!("{shown}:{line}: {}{help}", note.message)
         })
         .collect();
     let rounding = generated.warnings.iter();
@@ -65,28 +61,21 @@ pub fn ask(
     })
 }
 
-impl Problem {
-    fn from_error(error: &GenerateError, request: &Request) -> Problem {
-        let (option, item) = match (error, error.function()) {
-            (GenerateError::Parameter(..), _) => {
-                let first = request.parameters.first();
-                (
-                    "parameters",
-                    first.map_or("", |parameter| parameter.name()).to_owned(),
-                )
-            }
-            (GenerateError::SinCos(..), _) if request.sincos_error.is_some() => {
-                ("sincos_error", String::new())
-            }
-            (_, Some(function)) if request.functions.contains(&function) => {
-                ("outputs", function.text())
-            }
-            _ => ("", String::new()),
-        };
-        Problem {
-            option,
-            item,
-            complaint: complaint(error.to_string()),
+/// Returns an error at the option that it is about.
+fn placed(error: &GenerateError, request: &Request) -> Diagnostic {
+    let (option, item) = match (error, error.function()) {
+        (GenerateError::Parameter(..), _) => {
+            let first = request.parameters.first();
+            let name = first.map_or("", |parameter| parameter.name());
+            ("parameters", name.to_owned())
         }
-    }
+        (GenerateError::SinCos(..), _) if request.sincos_error.is_some() => {
+            ("sincos_error", String::new())
+        }
+        (_, Some(function)) if request.functions.contains(&function) => {
+            ("outputs", function.text())
+        }
+        _ => ("", String::new()),
+    };
+    Diagnostic::error(error.to_string()).at(Place::Option(option, item))
 }

@@ -2,5 +2,5 @@
 
 pub(crate) use dalembert_model::outputs::ErrorScale;
 pub use dalembert_model::outputs::{
-    Argument, Columns, Function, Quantity, RuntimeParameter, Sizes,
+    Argument, Function, Quantity, RegressorColumns, RuntimeParameter, Sizes,
 };

@@ -7,7 +7,7 @@
 //! it, never those below.
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg), doc(auto_cfg))]
-#![warn(unreachable_pub)]
+#![cfg_attr(feature = "testing", warn(unreachable_pub))]
 
 mod ask;
 mod claim;
@@ -40,20 +40,21 @@ pub mod workspace;
 
 pub use ask::{AskedCode, ask};
 #[doc(inline)]
+pub use dalembert_model::diagnostic::{Diagnostic, Diagnostics, Place};
+#[doc(inline)]
 pub use dalembert_stamp::Asked;
 pub use emit::GeneratedFunction;
 #[doc(inline)]
 pub use function::Function;
-pub use generate::{GenerateError, GeneratedCode, generate};
+pub use generate::{GeneratedCode, generate};
 pub use language::Language;
 pub use limbs::LimbLayout;
 pub use plan::Plan;
 pub use program::{Counts, Program, ScalarType};
-pub use robot_file::{RobotFile, RobotFileError};
+pub use robot_file::{RobotFile, unreadable};
 pub use search::Effort;
 pub use seeds::Start;
 pub use sincos::SinCos;
-pub use task::options::{OPTIONS, OptionRow, Problem, Purpose};
-pub use task::{Prefer, Request};
+pub use task::options::{OPTIONS, OptionRow, Purpose};
+pub use task::{GenerateError, Prefer, Request};
 pub use watch::Watch;
-pub use words::Complaint;

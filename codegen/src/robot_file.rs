@@ -1,11 +1,11 @@
-//! A robot file from a path, with errors fit to show.
+//! A robot file from a path.
 
-use std::fmt;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-use dalembert_model::read::{self, Diagnostic, closest};
+use dalembert_model::diagnostic::{Diagnostic, Diagnostics};
+use dalembert_model::read::{self, closest};
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
@@ -34,7 +34,7 @@ impl RobotFile {
     ///
     /// # Errors
     /// Everything that is wrong with the file.
-    pub fn read(path: &Path) -> Result<RobotFile, RobotFileError> {
+    pub fn read(path: &Path) -> Result<RobotFile, Diagnostics> {
         Self::read_as(path, &path.display().to_string())
     }
 
@@ -42,23 +42,30 @@ impl RobotFile {
     ///
     /// # Errors
     /// As [`RobotFile::read`].
-    pub fn read_as(path: &Path, shown: &str) -> Result<RobotFile, RobotFileError> {
+    pub fn read_as(path: &Path, shown: &str) -> Result<RobotFile, Diagnostics> {
         let bytes = plan::file::bytes(path, read::MAX_BYTES)
-            .map_err(|error| RobotFileError::of_system(path, shown, &error))?;
-        let plan = plan::file::beside(path).map_err(|why| RobotFileError::new(why.to_string()))?;
+            .map_err(|error| unreadable(path, shown, &error))?;
+        let plan = plan::file::beside(path)?;
         let file = Self::parse_bytes(&bytes, shown)?;
         Ok(RobotFile { plan, ..file })
     }
 
     /// Reads the text of a robot file, which has no plan; messages call it by this name.
     ///
+    /// ```
+    /// use dalembert_codegen::RobotFile;
+    ///
+    /// let errors = RobotFile::parse("name = \"arm\"\nmas = 2", "arm.toml").unwrap_err();
+    /// assert!(errors.to_string().contains("--> arm.toml:2:1"), "{errors}");
+    /// ```
+    ///
     /// # Errors
     /// Every error of the text.
-    pub fn parse(text: &str, shown: &str) -> Result<RobotFile, RobotFileError> {
+    pub fn parse(text: &str, shown: &str) -> Result<RobotFile, Diagnostics> {
         Self::parse_bytes(text.as_bytes(), shown)
     }
 
-    fn parse_bytes(bytes: &[u8], shown: &str) -> Result<RobotFile, RobotFileError> {
+    fn parse_bytes(bytes: &[u8], shown: &str) -> Result<RobotFile, Diagnostics> {
         let source = String::from_utf8_lossy(bytes).into_owned();
         match read::parse_bytes(bytes) {
             Ok(reading) => Ok(RobotFile {
@@ -69,62 +76,22 @@ impl RobotFile {
                 source,
                 plan: None,
             }),
-            Err(diagnostics) => {
-                let render = |diagnostic: &Diagnostic| {
-                    let text = diagnostic.render(shown, &source);
-                    // Whoever shows it says that it is an error.
-                    text.trim_end().trim_start_matches("error: ").to_owned()
-                };
-                let messages = diagnostics.0.iter().map(render).collect();
-                Err(RobotFileError { messages })
-            }
+            Err(errors) => Err(errors.in_file(shown)),
         }
     }
 }
 
-/// All errors of a robot file, those of the text with their line. Never empty.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct RobotFileError {
-    messages: Vec<String>,
-}
-
-impl RobotFileError {
-    /// Returns the system's error about a path; messages call the file by a shorter name.
-    pub fn of_system(path: &Path, shown: &str, error: &std::io::Error) -> RobotFileError {
-        RobotFileError::new(match error.kind() {
-            ErrorKind::NotFound => {
-                let help = meant(path, shown).map(|meant| format!("did you mean `{meant}`?"));
-                let help = help.map_or_else(String::new, |help| format!("\n  = help: {help}"));
-                format!("`{shown}` does not exist{help}")
-            }
-            _ => format!("cannot read `{shown}`: {error}"),
-        })
-    }
-
-    fn new(message: String) -> RobotFileError {
-        RobotFileError {
-            messages: vec![message],
+/// Returns the system's error about a path; messages call the file by a shorter name.
+pub fn unreadable(path: &Path, shown: &str, error: &std::io::Error) -> Diagnostic {
+    match error.kind() {
+        ErrorKind::NotFound => {
+            let help = meant(path, shown).map(|meant| format!("did you mean `{meant}`?"));
+            Diagnostic::error(format!("`{shown}` does not exist"))
+                .with_help(help.unwrap_or_default())
         }
-    }
-
-    /// Returns the errors.
-    pub fn messages(&self) -> &[String] {
-        &self.messages
+        _ => Diagnostic::error(format!("cannot read `{shown}`: {error}")),
     }
 }
-
-/// All messages, each marked as an error, an empty line between two.
-impl fmt::Display for RobotFileError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, message) in self.messages.iter().enumerate() {
-            let gap = if index > 0 { "\n\n" } else { "" };
-            write!(f, "{gap}error: {message}")?;
-        }
-        Ok(())
-    }
-}
-
-impl std::error::Error for RobotFileError {}
 
 fn meant(path: &Path, shown: &str) -> Option<String> {
     let parent = path.parent().filter(|p| !p.as_os_str().is_empty());

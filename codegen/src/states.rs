@@ -204,7 +204,6 @@ fn range(joint: &Joint, argument: Argument) -> [f64; 2] {
     [-most, most]
 }
 
-/// Returns the range of a coordinate of a base that floats; none of positions.
 fn base_range(robot: &Robot, argument: Argument, coordinate: usize) -> Option<[f64; 2]> {
     let limit = argument.limit().filter(|limit| *limit != Limit::Position)?;
     let most = robot

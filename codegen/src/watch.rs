@@ -46,7 +46,6 @@ pub struct Progress {
 
 /// An observer of a search.
 pub trait Observer: Send + Sync {
-    /// Tells that the search has come this far.
     fn step(&self, progress: &Progress);
 
     /// True if the search should end. Once `true` it should stay so: functions that

@@ -1,9 +1,7 @@
 //! Values that users name by a word, and the words that there are.
 
-use std::fmt;
-
+use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::outputs::RuntimeParameter;
-use dalembert_model::read::closest;
 
 use crate::function::Function;
 
@@ -15,12 +13,10 @@ pub trait Word: Copy {
     /// Returns every value with its word, in the order that messages list them: the default first.
     fn all() -> Vec<(&'static str, Self)>;
 
-    /// Returns every word.
     fn known() -> Vec<&'static str> {
         Self::all().into_iter().map(|(word, _)| word).collect()
     }
 
-    /// Returns the value of a word.
     fn from_name(text: &str) -> Option<Self> {
         let mut words = Self::all().into_iter();
         words.find_map(|(word, value)| (word == text).then_some(value))
@@ -84,53 +80,13 @@ impl Word for bool {
     }
 }
 
-/// A mistake in a word, a line or a file, and the likely fix.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Complaint {
-    /// The message: the fault, with the value.
-    pub message: String,
-    /// The likely fix; empty if none is known.
-    pub help: String,
-}
-
-impl Complaint {
-    pub(crate) fn new(message: impl Into<String>, help: impl Into<String>) -> Complaint {
-        let (message, help) = (message.into(), help.into());
-        Complaint { message, help }
-    }
-
-    pub(crate) fn unknown(message: String, word: &str, known: &[&str], none: &str) -> Complaint {
-        let help = match (closest(word, known), known) {
-            (Some(meant), _) => format!("did you mean `{meant}`?"),
-            (None, []) => none.to_owned(),
-            (None, known) => format!("known: {}", known.join(", ")),
-        };
-        Complaint { message, help }
-    }
-}
-
-impl fmt::Display for Complaint {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.help.as_str() {
-            "" => f.write_str(&self.message),
-            help => write!(f, "{}: {help}", self.message),
-        }
-    }
-}
-
-impl std::error::Error for Complaint {}
-
-pub(crate) fn complaint(message: impl Into<String>) -> Complaint {
-    Complaint::new(message, "")
-}
-
 /// Returns the value of a word.
 ///
 /// # Errors
 /// The word that was probably meant.
-pub fn parse<W: Word>(text: &str) -> Result<W, Complaint> {
+pub fn parse<W: Word>(text: &str) -> Result<W, Diagnostic> {
     W::from_name(text).ok_or_else(|| {
         let message = format!("unknown {} `{text}`", W::WHAT);
-        Complaint::unknown(message, text, &W::known(), "")
+        Diagnostic::unknown(message, text, &W::known(), "")
     })
 }

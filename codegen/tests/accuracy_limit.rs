@@ -3,7 +3,10 @@
 
 use std::ops::Range;
 
-use dalembert_codegen::workspace::{Rounding, Runtime, Setup, seeded};
+use dalembert_codegen::workspace::{
+    Runtime, Setup,
+    testing::{Rounding, seeded},
+};
 use dalembert_codegen::{Function, GeneratedFunction, Request, ScalarType, Start, generate};
 use dalembert_model::equations::Formulation;
 use dalembert_model::number::Rational;

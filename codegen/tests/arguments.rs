@@ -55,7 +55,7 @@ fn check(case: &Case, count: usize) {
         let compared = states.iter().map(|state| {
             let state = state.in_scalar(emitted.scalar);
             let merged = in_the_file(case.robot(), &state);
-            let runtime = Runtime::in_scene(plain.setup(&merged).unwrap());
+            let runtime = Runtime::in_scene(plain.prepare(&merged).unwrap());
             let granted = runtime.granted(function, &state);
             let expected = runtime.run(function, &state);
             (run(&generated, emitted, &state), expected, granted)

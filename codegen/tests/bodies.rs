@@ -1,7 +1,7 @@
 //! Bodies and drives that are arguments: what is generated gives what the robot file with other bodies
 //! gives, and the checker shows it.
 
-use dalembert_checker::certify::{Demand, Line, Report, certify};
+use dalembert_checker::certify::{Demand, FunctionReport, Report, certify};
 use dalembert_codegen::workspace::{JointState, RunnableCode, Runtime, claim, keep};
 use dalembert_codegen::{Function, GeneratedCode, Request};
 use dalembert_model::outputs::RuntimeParameter;
@@ -76,7 +76,7 @@ fn check(source: &str, asked: &str, count: usize) -> GeneratedCode {
     let case = Case::read(source, asked);
     let name = &case.robot().name;
     let generated = case.rounds_well(count, name);
-    let setup = case.request.setup(case.robot()).unwrap();
+    let setup = case.request.prepare(case.robot()).unwrap();
     let (_, states) = case.runtime(count, 0x626f_6479);
     let plain = Request {
         scene: case.request.scene.clone(),
@@ -100,7 +100,7 @@ fn check(source: &str, asked: &str, count: usize) -> GeneratedCode {
                 .filter(|(is_zero, _)| **is_zero)
                 .for_each(|(_, x)| *x = 0.0);
             let merged = read_robot(&with_bodies(source, &state, &setup.body_links()));
-            let runtime = Runtime::in_scene(plain.setup(&merged).unwrap());
+            let runtime = Runtime::in_scene(plain.prepare(&merged).unwrap());
             let granted = runtime.granted(function, &state);
             let expected = runtime.run(function, &state);
             (run(&generated, emitted, &state), expected, granted)
@@ -338,7 +338,7 @@ fn loads_that_are_measured_have_their_signs() {
         let asked = "outputs: forward_dynamics; parameters: bodies; scalar: f64";
         let report = report(&source, asked);
         let lines = &report.lines;
-        let is_small = |line: &Line| match &line.result {
+        let is_small = |line: &FunctionReport| match &line.result {
             Ok(findings) => findings.costs[0].rounding < 1e-10,
             Err(_) => false,
         };

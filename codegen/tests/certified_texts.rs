@@ -541,14 +541,14 @@ fn files_of_attacks() {
         file
     });
     for (file, name, words) in [
-        (&rust, "ulp.rs", "not of the grammar: `q` expected"),
-        (&rust, "far32.rs", "not of the grammar: `q` expected"),
+        (&rust, "ulp.rs.txt", "not of the grammar: `q` expected"),
+        (&rust, "far32.rs.txt", "not of the grammar: `q` expected"),
         (
             &rust,
-            "trait1.rs",
+            "trait1.rs.txt",
             "nothing that is generated: `#[derive(Clone, Copy, Debug, Default",
         ),
-        (&rust, "n1.rs", ""),
+        (&rust, "n1.rs.txt", ""),
         (&c, "hide.h", ""),
     ] {
         let other = file.with(&attack(name));

@@ -9,7 +9,8 @@ use std::sync::LazyLock;
 
 use dalembert_checker::certify::ResultBound;
 use dalembert_codegen::workspace::{
-    InputBox, Interval, JointState, Library, Node, Random, Runtime, Setup, Variant, keep,
+    JointState, Library, Node, Random, Runtime, Setup, Variant, keep,
+    testing::{InputBox, Interval},
 };
 use dalembert_codegen::{Function, GeneratedCode, Plan, generate};
 use dalembert_model::number::{Exact, Rational};

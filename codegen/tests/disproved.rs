@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
 use dalembert_codegen::workspace::{
-    Argument, Dag, Disproof, Id, Input, Node, Operand, Operation, Points, Reference, Setup, Step,
-    Steps, TrueValue, prove, run_exactly,
+    Argument, Dag, Disproof, Input, Node, Operation, Points, Reference, Setup, Steps, TrueValue,
+    prove,
+    testing::{Id, Operand, Step, run_exactly},
 };
 use dalembert_codegen::{Function, Program};
 use dalembert_model::number::{Exact, Rational, Rounded};
@@ -32,7 +33,7 @@ static CASES: LazyLock<Vec<(Case, Program)>> = LazyLock::new(|| {
 });
 
 fn proof(case: &Case, program: &Program) -> Result<(), Disproof> {
-    let setup = case.request.setup(case.robot()).unwrap();
+    let setup = case.request.prepare(case.robot()).unwrap();
     prove(&setup, program).map(|_| ())
 }
 

@@ -3,7 +3,7 @@
 //! `text` lines that say something else.
 
 use dalembert_codegen::workspace::{
-    Argument, Code, JointState, Library, Rounding, Setup, Signature, Sizes, Variant, keep,
+    Argument, Code, JointState, Library, Setup, Signature, Sizes, Variant, keep, testing::Rounding,
 };
 use dalembert_codegen::{Function, GeneratedCode, ScalarType};
 

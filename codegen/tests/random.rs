@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use dalembert_codegen::workspace::{Random, Word, seeded};
+use dalembert_codegen::workspace::{Random, Word, testing::seeded};
 use dalembert_codegen::{Function, GenerateError, Request, ScalarType, Start, generate};
 use dalembert_model::read::parse;
 use dalembert_model::robot::write;

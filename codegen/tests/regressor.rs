@@ -2,7 +2,7 @@
 //! as few columns as there can be; and what a wrong combination is refused with.
 
 use dalembert_codegen::workspace::{
-    BaseParameters, Disproof, Parameter, Runtime, Setup, prove_base,
+    BaseParameters, Disproof, Parameter, Runtime, Setup, testing::prove_base,
 };
 use dalembert_codegen::{Function, Language};
 use dalembert_model::equations::Arm;
@@ -160,7 +160,7 @@ fn columns_times_parameters_are_the_torques(table: &str) {
             let what = format!("{name} {scene} {regressor}");
             let case = case(linear, &name, &scene, options);
             let (generated, (runtime, states)) = (case.generated(), case.runtime(50, 0x7275));
-            let setup = case.request.setup(case.robot()).unwrap();
+            let setup = case.request.prepare(case.robot()).unwrap();
             let rank = rank(&runtime, &setup);
             let base: usize = match base.strip_prefix('+') {
                 Some(drives) => rank + drives.parse::<usize>().unwrap(),

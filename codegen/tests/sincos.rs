@@ -6,8 +6,8 @@ use core::ops::Range;
 
 use dalembert_checker::certify::Bound;
 use dalembert_codegen::workspace::{
-    AngleKernel, Candidates, Code, Dag, Edge, Input, Interval, Library, Node, Signature,
-    write_function,
+    Code, Dag, Input, Library, Node, Signature,
+    testing::{AngleKernel, Candidates, Edge, Interval, write_function},
 };
 use dalembert_codegen::{Function, Program, ScalarType};
 use dalembert_model::outputs::Sizes;

@@ -4,7 +4,7 @@
 use std::fs;
 
 use dalembert_codegen::workspace::{
-    Dag, Folding, Job, Limits, Schedule, cost, search, search_graphs,
+    Dag, Folding, Job, Limits, cost, search, search_graphs, testing::Schedule,
 };
 use dalembert_codegen::{Effort, Function, Request};
 use dalembert_model::robot::Robot;
@@ -64,7 +64,7 @@ fn by_hand_every_source_earns() {
         .flat_map(|robot| FUNCTIONS.map(|function| (robot, function)));
     let seeds = |(robot, function): (&Robot, Function)| -> Vec<Dag> {
         let request = Request::new(&[function]);
-        let setup = request.setup(robot).unwrap();
+        let setup = request.prepare(robot).unwrap();
         let job = Job {
             robot,
             setup: &setup,

@@ -2,7 +2,7 @@
 //! in every language no change of a line passes for the program.
 
 use dalembert_codegen::workspace::{
-    Argument, Code, JointState, Library, Names, Signature, Sizes, Text,
+    Argument, Code, Fault, JointState, Library, Names, Signature, Sizes, Text,
 };
 use dalembert_codegen::{Function, GeneratedCode, Language, ScalarType};
 
@@ -30,9 +30,9 @@ fn signature(function: Function, arguments: &[Argument]) -> Signature<'_> {
 
 fn read(text: &str) -> Result<Code, usize> {
     let signature = signature(Function::Gravity, &[Argument::Position]);
-    Code::parse(text, &signature).map_err(|error| {
-        assert!(!error.reason.is_empty());
-        error.line
+    Code::parse(text, &signature).map_err(|fault| match fault {
+        Fault::Text(line, reason) if !reason.is_empty() => line,
+        other => panic!("{other}"),
     })
 }
 
@@ -225,7 +225,7 @@ fn unfused(line: &str) -> Vec<String> {
 
 fn passes(case: &Case, generated: &GeneratedCode, scalar: ScalarType, text: &str) -> bool {
     let (function, request) = (&generated.functions[0], &case.request);
-    let code = function.code(scalar, request.library());
+    let code = function.code(scalar, request.sincos.library());
     let signature = Signature::of(&function.program, scalar);
     let names = Names::new(&request.module_name(case.robot()), request.language, scalar);
     let text = match request.language {

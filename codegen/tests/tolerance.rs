@@ -5,8 +5,8 @@
 use std::ops::Range;
 
 use dalembert_codegen::workspace::{
-    Budget, JointState, Node, Random, SearchEffort, Setup, ToleranceError, Variant, VariantSet,
-    attempt, draw, stated,
+    Budget, JointState, Node, Random, SearchEffort, Setup, Variant, VariantSet, attempt, draw,
+    testing::{Miss, stated},
 };
 use dalembert_codegen::{Function, GenerateError, Program, Request, ScalarType, generate};
 use dalembert_model::number::{Angle, Exact, Rational};
@@ -126,7 +126,10 @@ fn a_program_of_another_robot_is_bounded_against_the_exact_one() {
     let budget = subject.budget();
     let half = budget.all_allowed(0.5 * error);
     let refused = budget.shown(&other, ScalarType::F64, &[], &half);
-    assert!(matches!(refused, Err(ToleranceError::Above(_))));
+    assert!(matches!(
+        refused,
+        Err(GenerateError::Tolerance(_, Miss::Above, _))
+    ));
 }
 
 #[test]
@@ -159,7 +162,7 @@ fn a_joint_without_limits_turns_on() {
     let generated = case.generated();
     let admitted = generated.functions[0].admitted.as_ref().unwrap();
     assert_eq!(admitted.variants.len(), 2);
-    let setup = case.request.setup(case.robot()).unwrap();
+    let setup = case.request.prepare(case.robot()).unwrap();
     for variant in &admitted.variants {
         let held = variant.positions(case.robot(), 0).unwrap();
         assert!(held.high() >= stated(variant.scalar), "{held:?}");
@@ -184,7 +187,7 @@ tolerance = { value = 0.1, relative_to = "range" }
         scene: reading.scenes.last().cloned(),
         ..Request::new(&[Function::InverseDynamics])
     };
-    let setup = request.setup(&reading.robot).unwrap();
+    let setup = request.prepare(&reading.robot).unwrap();
     let generated = generate(&reading.robot, &request).unwrap();
     let admitted = generated.functions[1].admitted.clone().unwrap();
     assert!(admitted.is_other());
@@ -424,7 +427,7 @@ fn an_inertia_that_no_body_has_is_named() {
         let why = generate(case.robot(), &case.request).unwrap_err();
         let said = why.to_string();
         assert!(said.contains("an inertia that no body has"), "{said}");
-        let GenerateError::Tolerance(_, ToleranceError::Indefinite(why)) = why else {
+        let GenerateError::Tolerance(_, Miss::Indefinite, why) = why else {
             panic!("{said}")
         };
         assert!(why.message.contains("a motion of joint 1"), "{why}");

@@ -5,8 +5,8 @@
 use std::collections::BTreeSet;
 
 use dalembert_codegen::workspace::{
-    Argument, Columns, JointState, Literal, Node, Quantity, Reference, Runtime, Setup, TrueValue,
-    seeded,
+    Argument, JointState, Literal, Node, Quantity, Reference, RegressorColumns, Runtime, Setup,
+    TrueValue, testing::seeded,
 };
 use dalembert_codegen::{Function, ScalarType};
 use dalembert_model::outputs::Axis;
@@ -255,7 +255,7 @@ fn followers_beside_the_truth(is_tried: fn(usize) -> bool) {
     let (runtime, setup) = (Runtime::new(&robot), Setup::whole(&robot));
     let truth = Reference::new(&setup);
     // Of base parameters there are none: its axes are turned against each other anyhow.
-    let is_own = |function: &Function| function.columns() == Columns::None;
+    let is_own = |function: &Function| function.columns() == RegressorColumns::None;
     let functions = Function::of(&robot).into_iter().filter(is_own).enumerate();
     for (_, function) in functions.filter(|(place, _)| is_tried(*place)) {
         let generated = Case::in_scene("wafer", "", function.name()).generated();

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use dalembert_codegen::{Complaint, Language, RobotFile, ask};
+use dalembert_codegen::{Language, Place, RobotFile, ask};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote, quote_spanned};
 
@@ -20,9 +20,9 @@ pub(crate) fn texts(
     };
     let file = match file {
         Ok(file) => file,
-        Err(error) => {
-            for message in error.messages() {
-                errors.say(&invocation.robot, message, "");
+        Err(found) => {
+            for error in &found.0 {
+                errors.say(&invocation.robot, error.render_plain().trim_end(), "");
             }
             return Default::default();
         }
@@ -34,13 +34,18 @@ pub(crate) fn texts(
             (made.generated.texts, warnings.collect())
         }
         Err(problems) => {
-            for problem in problems {
-                let Complaint { message, help } = &problem.complaint;
-                let at = match problem.option {
-                    "" => quote::ToTokens::to_token_stream(&invocation.robot),
-                    option => invocation.word(option, &problem.item, message),
+            for problem in problems.0 {
+                let at = match &problem.place {
+                    Place::Option(option, item) if !option.is_empty() => {
+                        invocation.word(option, item, &problem.message)
+                    }
+                    _ => quote::ToTokens::to_token_stream(&invocation.robot),
                 };
-                errors.say(at, message, help);
+                errors.say(
+                    at,
+                    &problem.message,
+                    problem.help.as_deref().unwrap_or_default(),
+                );
             }
             Default::default()
         }

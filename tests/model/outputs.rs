@@ -5,7 +5,7 @@ mod frames;
 mod slopes;
 
 use crate::equations_support::random::{self, CONVENTIONS, Case, case, fields, pair, pose};
-use dalembert_model::equations::chain::Body;
+use dalembert_model::equations::chain::MomentBody;
 use dalembert_model::equations::regressor::{Column, Probed, of_links};
 use dalembert_model::equations::{Arm, DhVariables, Formulation, Link};
 use dalembert_model::outputs::{Argument, Axis, Function, Motion, Quantity, Sizes, Written};
@@ -159,7 +159,7 @@ fn columns(case: &Case, points: &mut Points) -> Vec<Column<Field>> {
     let n = case.arm.links.len();
     let mut columns = of_links(&case.arm);
     for (joint, place) in [(0, 3), (n - 1, 7)] {
-        let body = Body {
+        let body = MomentBody {
             mass: points.field(),
             first: [(); 3].map(|()| points.field()),
             second: Inertia::of([(); 6].map(|()| points.field())),

@@ -135,7 +135,7 @@ fn errors_say_where_and_what() {
             .iter()
             .find(|d| d.message.contains(&message))
             .unwrap_or_else(|| panic!("{to}: nothing says {message}"));
-        assert_eq!(diagnostic.line.to_string(), line, "{to}");
+        assert_eq!(diagnostic.line().unwrap().to_string(), line, "{to}");
         has(diagnostic, &message, &help);
     }
     let far = placed.replace("xyz = [0, 0, 0.387]", "xyz = [0, 0, 387]");

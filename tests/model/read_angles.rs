@@ -126,7 +126,10 @@ fn in_a_file() {
     ] {
         let reading = parse(&format!("{head}{alpha}")).expect("reads");
         assert_eq!(reading.robot.joints[0].alpha, angle, "{alpha}");
-        let said = reading.notes.iter().map(|note| (note.severity, note.line));
+        let said = reading
+            .notes
+            .iter()
+            .map(|note| (note.severity, note.line().unwrap()));
         let expected = severity.map(|severity| (severity, 8));
         assert!(said.eq(expected), "{alpha}: {:?}", reading.notes);
         for note in &reading.notes {

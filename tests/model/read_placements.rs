@@ -75,7 +75,7 @@ fn errors_say_where_and_what() {
     assert!(refused(&file("base = [0, 0, 1]")).contains("base = { xyz = ["));
     let odd = reading(&file("tool = { xyz = [0, 0, 107] }")).notes;
     assert!(odd[0].message.contains("longer than 10 m"));
-    assert_eq!(odd[0].line, 4);
+    assert_eq!(odd[0].line().unwrap(), 4);
 }
 
 #[test]

@@ -48,7 +48,7 @@ velocity = 2 | velocity = 500 | 17 | | write 0.5
 
 fn oddity([what, by, line]: [&str; 3], good: &str) -> Diagnostic {
     let notes = reading(&replaced(good, what, by)).notes;
-    assert_eq!(only(&notes).line.to_string(), line, "{by}");
+    assert_eq!(only(&notes).line().unwrap().to_string(), line, "{by}");
     notes[0].clone()
 }
 
@@ -163,7 +163,10 @@ const ALLOW: &str = r#"
 fn names_of_warnings() {
     for [allow, message, help] in rows(ALLOW) {
         let errors = errors(&format!("allow = {allow}\n{GOOD}"));
-        assert_eq!((only(&errors).line, &errors[0].message), (1, &message));
+        assert_eq!(
+            (only(&errors).line().unwrap(), &errors[0].message),
+            (1, &message)
+        );
         let hint = errors[0].help.as_deref().unwrap_or_default();
         assert!(hint.starts_with(&help), "{hint}");
     }

@@ -3,9 +3,10 @@
 use crate::support::{errors, has, only, ratio, reading, replaced, rows};
 use dalembert_model::number::Angle;
 use dalembert_model::outputs::Function;
+use dalembert_model::read::Severity;
 use dalembert_model::read::{Diagnostic, RobotWarning};
-use dalembert_model::robot::{Position, Severity};
-use dalembert_model::scene::{Float, Scale, Scene, write};
+use dalembert_model::robot::Position;
+use dalembert_model::scene::{Scale, Scene, SceneScalar, write};
 
 const ROBOT: &str = r#"
 name = "arm"
@@ -50,7 +51,12 @@ fn notes(text: &str, begin: &str) -> Vec<(usize, Diagnostic)> {
     let reading = reading(&with(text));
     assert_eq!(reading.scenes.len(), 1);
     let notes = reading.notes.into_iter();
-    let lines = notes.map(|note| (note.line.wrapping_sub(ROBOT.lines().count() + 1), note));
+    let lines = notes.map(|note| {
+        (
+            note.line().unwrap().wrapping_sub(ROBOT.lines().count() + 1),
+            note,
+        )
+    });
     let matches = lines.filter(|(_, note)| note.message.starts_with(begin));
     matches.collect()
 }
@@ -92,7 +98,7 @@ scalar = "f64"
     let tolerance = pick.tolerance.as_ref().expect("has one");
     assert_eq!(tolerance.relative_to, Scale::Actuator);
     assert_eq!(tolerance.of(2), Some(&ratio(1, 10)));
-    assert_eq!(pick.scalar, Some(Float::F32));
+    assert_eq!(pick.scalar, Some(SceneScalar::F32));
     assert_eq!(pick.bounds.velocity.as_ref().map(Vec::len), Some(3));
     assert_eq!(pick.bounds.acceleration, None);
     let payloads = pick.bounds.payload.as_ref().expect("has a range");
@@ -153,10 +159,7 @@ acceleration = [1, 1, 1] | box = { acceleration = [1, …] }
 lock = "wrist" | lock = { wrist = 0 }
 lock = 3 | lock = { wrist = 0 }
 box = { velocity = ["120deg", 1, 1] } | in rad/s, as a number: write 2.0944
-outputs = ["hold = inertia + gravity", "servo = hold + jacobian"] | `hold` is a bundle itself (
-outputs = ["hold = inertia + gravity", "servo = hold + jacobian"] | itself (bundles do not nest:
-outputs = ["hold = inertia + gravity", "servo = hold + jacobian"] | nest: write its parts, inertia
-outputs = ["hold = inertia + gravity", "servo = hold + jacobian"] | inertia + gravity)
+outputs = ["hold = inertia + gravity", "servo = hold + jacobian"] | `hold` is a bundle itself: bundles do not nest: write its parts, inertia + gravity
 payload = { mass = -1, com = [0, 0, 0] } | mass is negative
 payload = { mass = 1 } | has no `com`
 scalar = "f46" | did you mean "f64"?
@@ -175,7 +178,11 @@ fn mistakes() {
         let errors = errors(&with(&text));
         let shown = only(&errors).to_string();
         assert!(shown.contains(&words), "{text}: {shown}");
-        assert_eq!(errors[0].line, ROBOT.lines().count() + 2, "{text}: {shown}");
+        assert_eq!(
+            errors[0].line().unwrap(),
+            ROBOT.lines().count() + 2,
+            "{text}: {shown}"
+        );
     }
 }
 
@@ -229,7 +236,7 @@ fn a_limit_of_zero() {
     ] {
         let errors = errors(&source);
         let line = 1 + source.lines().position(|line| line.contains(at)).unwrap();
-        assert_eq!(only(&errors).line, line, "{source}");
+        assert_eq!(only(&errors).line().unwrap(), line, "{source}");
         has(&errors[0], message, "");
     }
     for good in [

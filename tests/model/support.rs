@@ -23,7 +23,7 @@ pub fn generated(name: &str) -> String {
 
 #[track_caller]
 pub fn reading(text: &str) -> Reading {
-    parse(text).unwrap_or_else(|e| panic!("{}", e.render("arm.toml", text)))
+    parse(text).unwrap_or_else(|e| panic!("{}", e.in_file("arm.toml").render()))
 }
 
 pub fn errors(text: &str) -> Vec<Diagnostic> {
@@ -40,7 +40,7 @@ pub fn said(text: &str) -> Vec<Diagnostic> {
 #[track_caller]
 pub fn refused(text: &str) -> String {
     let errors = parse(text).expect_err(text);
-    errors.render("arm.toml", text)
+    errors.in_file("arm.toml").render()
 }
 
 #[track_caller]

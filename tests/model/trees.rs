@@ -89,7 +89,10 @@ fn mistakes_are_said_at_their_lines() {
         let errors = errors(&text);
         let error = only(&errors);
         has(error, message, help);
-        let error_line = text[..error.span.start].matches('\n').count() + 1;
+        let error_line = text[..error.excerpt().unwrap().span.start]
+            .matches('\n')
+            .count()
+            + 1;
         assert_eq!(error_line, *line, "{}", refused(&text));
     }
 }

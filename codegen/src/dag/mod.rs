@@ -27,7 +27,8 @@ pub(crate) use builder::Builder;
 pub use builder::Folding;
 pub(crate) use lanes::Lanes;
 pub use operation::{Counts, Input, Operation};
-pub use print::{Fingerprint, Points};
+pub(crate) use print::Fingerprint;
+pub use print::Points;
 pub(crate) use writer::Writer;
 
 /// The index of a node.

@@ -21,7 +21,7 @@ pub(crate) const POINTS: usize = 3;
 
 /// The values of one node at every point. A divisor that is zero at a point has a chance of
 /// 2⁻⁶¹ if it is not zero everywhere.
-pub type Fingerprint = Lanes<Field, POINTS>;
+pub(crate) type Fingerprint = Lanes<Field, POINTS>;
 
 /// By its first value, which is as good as random: other prints hardly ever have the same.
 impl Hash for Fingerprint {

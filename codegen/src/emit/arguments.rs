@@ -225,7 +225,6 @@ fn methods(kind: &str, none: &str, doc: &[String], scalar: ScalarType) -> String
     indented(&methods.replace(new, &documented))
 }
 
-/// Writes the types of a body and of all bodies, and those of this robot.
 fn bodies(text: &mut String, setup: &Setup, scalar: ScalarType) {
     let count = setup.body_links().len();
     *text +=

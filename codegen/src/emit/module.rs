@@ -63,7 +63,12 @@ pub(crate) fn write(
             text.push_str(&parameters::constant(generated.function, setup, scalar));
         }
         let doc = function_doc(job, generated, scalar);
-        text.push_str(&function::write(program, code, request.library(), &doc));
+        text.push_str(&function::write(
+            program,
+            code,
+            request.sincos.library(),
+            &doc,
+        ));
         if request.batch && columns::are_there(program.function, Language::Rust) {
             text += &format!("\n{}", columns::columns(program, code));
         }

@@ -4,7 +4,7 @@
 use dalembert_model::number::Exact;
 
 use super::say;
-use crate::function::{Columns, Function};
+use crate::function::{Function, RegressorColumns};
 use crate::language::c99::{Names, float};
 use crate::program::{Literal, ScalarType};
 use crate::setup::Setup;
@@ -12,8 +12,8 @@ use crate::setup::base::{BaseParameters, Parameter};
 
 pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
     let mut lines = match function.columns() {
-        Columns::None => return Vec::new(),
-        Columns::Links | Columns::Base(_) => vec![String::new()],
+        RegressorColumns::None => return Vec::new(),
+        RegressorColumns::Links | RegressorColumns::Base(_) => vec![String::new()],
     };
     let is_placed = setup
         .robot()
@@ -135,8 +135,8 @@ fn values(
 
 pub(super) fn name(function: Function) -> Option<&'static str> {
     match function.columns() {
-        Columns::Base(quantity) => Some(quantity.facts().linear?.1),
-        Columns::Links | Columns::None => None,
+        RegressorColumns::Base(quantity) => Some(quantity.facts().linear?.1),
+        RegressorColumns::Links | RegressorColumns::None => None,
     }
 }
 
@@ -146,7 +146,7 @@ fn over_base(
     function: Function,
     setup: &Setup,
 ) -> Option<((&'static str, &'static str), &BaseParameters)> {
-    let Columns::Base(quantity) = function.columns() else {
+    let RegressorColumns::Base(quantity) = function.columns() else {
         return None;
     };
     Some((quantity.facts().linear?, setup.base(quantity).ok()?))

@@ -2,6 +2,7 @@
 //! which the checker compares their text.
 
 use dalembert_checker::claim::{Claim, FunctionClaim};
+use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::robot::Robot;
 
 use super::{GeneratedCode, Request, language};
@@ -14,7 +15,6 @@ use crate::program::{Program, ScalarType};
 use crate::search::price;
 use crate::setup::{SceneKey, input_hash};
 use crate::tolerance::claim::{document, tolerated};
-use crate::words::Complaint;
 
 #[derive(Clone, Debug)]
 pub struct PlanUpdate {
@@ -86,15 +86,15 @@ fn emitted(entry: &Entry) -> &Program {
 /// Returns the claim about the functions that were generated for the robot of a file.
 ///
 /// # Errors
-/// As of [`Request::setup`].
+/// As of [`Request::prepare`].
 pub fn claim(
     robot: &Robot,
     source: &str,
     request: &Request,
     generated: &GeneratedCode,
-) -> Result<Claim, Complaint> {
+) -> Result<Claim, Diagnostic> {
     let request = &*language::with_short_name(robot, request);
-    let setup = &request.setup(robot)?;
+    let setup = &request.prepare(robot)?;
     let name = request.module_name(robot);
     let mut constants = ConstantTable::default();
     let functions = generated.functions.iter().map(|function| {

@@ -2,7 +2,6 @@
 
 mod again;
 pub(crate) mod contradiction;
-pub(crate) mod error;
 pub(crate) mod keep;
 mod lanes;
 pub(crate) mod language;
@@ -14,7 +13,9 @@ mod sines;
 #[doc(hidden)]
 pub(crate) mod tolerate;
 
+use dalembert_checker::Fault;
 use dalembert_checker::read::Text;
+use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::read::closest;
 use dalembert_model::robot::{Frame, HAND, Robot};
 use dalembert_stamp::{Comment, Stamp};
@@ -22,7 +23,7 @@ use dalembert_stamp::{Comment, Stamp};
 use crate::emit::{GeneratedFunction, header, module};
 use crate::function::Function;
 use crate::language::c99::Names;
-use crate::language::read::{Signature, TextError};
+use crate::language::read::Signature;
 use crate::language::{Language, columns};
 use crate::limbs::LimbLayout;
 use crate::parallel;
@@ -30,16 +31,13 @@ use crate::program::{Code, Program, ScalarType};
 use crate::search::Effort;
 use crate::seeds::depends_on_coulomb;
 use crate::setup::{ParametersKey, Setup, input_hash};
-use crate::task::{Job, Prefer, Request};
-pub use crate::tolerance::refusals::ToleranceError;
-use crate::tolerance::refusals::{FOLLOWS, FRICTION, unbounded};
+use crate::task::{GenerateError, Job, Miss, Prefer, Request};
+use crate::tolerance::refusals::{FOLLOWERS_ARE_UNBOUNDED, FRICTION_IS_UNBOUNDED, unbounded};
 use crate::verify::exact::prove;
 use crate::verify::measure::RunnableCode;
 use crate::verify::parameters::prove_base;
 use crate::verify::singular::without_inertia;
-use crate::words::{Complaint, complaint};
 pub use again::generate_anew;
-pub use error::GenerateError;
 use range::{check_constants, leave_out_single, vanishing, warn_of_overflow};
 use search::{found, replay};
 use tolerate::tolerate;
@@ -115,17 +113,38 @@ pub(crate) type Outcome<T> = Result<T, GenerateError>;
 
 /// The most numbers a function may return: beyond, the code that returns
 /// them alone takes a compiler minutes.
-pub const MAX_OUTPUTS: usize = 20_000;
+const MAX_OUTPUTS: usize = 20_000;
 
 /// Generates the requested functions for `robot`: searches for programs, proves each equal to
 /// Lagrange–Euler, prints them and parses the text back.
+///
+/// ```
+/// use dalembert_codegen::{Function, Request, RobotFile, generate};
+///
+/// let pendulum = "
+///     name = \"pendulum\"
+///     gravity = [0, -9.81, 0]
+///     [[joint]]
+///     kind = \"revolute\"
+///     a = 0.5
+///     mass = 2
+///     com = [-0.25, 0, 0]
+///     inertia = [0, 0.01, 0.01, 0, 0, 0]
+/// ";
+/// let file = RobotFile::parse(pendulum, "pendulum.toml")?;
+/// let code = generate(&file.robot, &Request::new(&[Function::Gravity]))?;
+/// let counts = code.functions[0].counts();
+/// assert_eq!((counts.mul, counts.add, counts.sincos), (1, 0, 1)); // m g l cos(q)
+/// assert!(code.texts[0].contains("pub fn gravity(q: &[f64; 1]) -> [f64; 1] {"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// Why nothing was generated.
 pub fn generate(robot: &Robot, request: &Request) -> Result<GeneratedCode, GenerateError> {
     let asked = request;
     let request = &*language::with_short_name(robot, asked);
-    let setup = &request.setup(robot)?;
+    let setup = &request.prepare(robot)?;
     check(robot, setup, request)?;
     let job = &Job {
         robot,
@@ -135,8 +154,8 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<GeneratedCode, Gener
     if job.tolerance().is_some() {
         let mut functions = request.functions.iter();
         if let Some(&function) = functions.find(|&&f| depends_on_coulomb(setup.task(f))) {
-            let why = ToleranceError::Refused(complaint(FRICTION));
-            return Err(GenerateError::Tolerance(function, why));
+            let why = Diagnostic::error(FRICTION_IS_UNBOUNDED);
+            return Err(GenerateError::Tolerance(function, Miss::Refused, why));
         }
     }
     parameters::check(job)?;
@@ -163,7 +182,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<GeneratedCode, Gener
         }
     }
     let in_scalar = |&scalar: &ScalarType| {
-        let code = |function: &GeneratedFunction| function.code(scalar, request.library());
+        let code = |function: &GeneratedFunction| function.code(scalar, request.sincos.library());
         (scalar, functions.iter().map(code).collect::<Vec<Code>>())
     };
     let codes: Vec<(ScalarType, Vec<Code>)> = scalars.iter().map(in_scalar).collect();
@@ -189,7 +208,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<GeneratedCode, Gener
         };
         for (generated, code) in functions.iter().zip(codes) {
             let scalar = Some(code.scalar);
-            let fail = |error: &TextError| {
+            let fail = |error: &Fault| {
                 GenerateError::Defect(generated.function, scalar, error.to_string())
             };
             let words = words.as_ref().map_err(fail)?;
@@ -248,7 +267,7 @@ fn check(robot: &Robot, setup: &Setup, request: &Request) -> Outcome<()> {
     let has_tolerance = scene.is_some_and(|scene| scene.tolerance.is_some());
     let refused = |&function: &Function| {
         let why = match robot.followers.is_empty() {
-            false => complaint(FOLLOWS),
+            false => Diagnostic::error(FOLLOWERS_ARE_UNBOUNDED),
             true => unbounded(function, setup.robot().floating.is_some())?,
         };
         Some((function, why))
@@ -257,8 +276,7 @@ fn check(robot: &Robot, setup: &Setup, request: &Request) -> Outcome<()> {
     let Some((function, why)) = refused.filter(|_| has_tolerance) else {
         return Ok(());
     };
-    let why = ToleranceError::Refused(why);
-    Err(GenerateError::Tolerance(function, why))
+    Err(GenerateError::Tolerance(function, Miss::Refused, why))
 }
 
 fn check_frames(robot: &Robot, setup: &Setup, function: Function) -> Outcome<()> {
@@ -334,24 +352,24 @@ fn no_hand(robot: &Robot, function: Function, names: &[&str]) -> GenerateError {
     GenerateError::refused(function, message, fix)
 }
 
-type SearchResult = (Vec<GeneratedFunction>, Vec<ScalarType>);
+type FunctionsInScalars = (Vec<GeneratedFunction>, Vec<ScalarType>);
 
 /// With a tolerance, the cheapest exact programs are the start; those that cost fewer digits have
 /// their turn if it refuses these.
-fn functions(job: &Job<'_>) -> Outcome<SearchResult> {
+fn functions(job: &Job<'_>) -> Outcome<FunctionsInScalars> {
     let request = job.request;
     if job.tolerance().is_none() || request.prefer != Prefer::Accuracy {
-        return attempt(job);
+        return all_proved(job);
     }
     let mut cheapest = request.clone();
     cheapest.prefer = Prefer::Operations;
-    match attempt(&job.with(&cheapest)) {
-        Err(GenerateError::Tolerance(_, ToleranceError::Above(_))) => attempt(job),
+    match all_proved(&job.with(&cheapest)) {
+        Err(GenerateError::Tolerance(_, Miss::Above, _)) => all_proved(job),
         outcome => outcome,
     }
 }
 
-fn attempt(job: &Job<'_>) -> Outcome<SearchResult> {
+fn all_proved(job: &Job<'_>) -> Outcome<FunctionsInScalars> {
     let mut functions = Function::in_order(&job.request.functions);
     if job.setup.has_load() {
         functions.insert(0, Function::Load);
@@ -401,7 +419,7 @@ fn proved(job: &Job<'_>, function: Function) -> Outcome<GeneratedFunction> {
         );
         let help = "give what it moves mass or inertia, or the joint an `armature`, or lock it in a \
                     scene";
-        let why = Complaint::new(message, help);
+        let why = Diagnostic::error(message).with_help(help);
         return Err(GenerateError::Singular(function, why));
     }
     let entry = replay(job, job.request.plan.as_ref(), function)?;

@@ -1,18 +1,18 @@
 //! Checks that parameters can be arguments of the functions asked for.
 
+use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::outputs::{PayloadDependence, RuntimeParameter};
 
 use super::GenerateError;
 use crate::function::Function;
 use crate::seeds::Start;
 use crate::task::Job;
-use crate::tolerance::refusals::{is_bounded, reads};
-use crate::words::Complaint;
+use crate::tolerance::refusals::{is_bounded, without_range};
 
 pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
     let Job { setup, request, .. } = *job;
     let refused = |function: Option<Function>, message: String, help: &str| {
-        GenerateError::Parameter(function, Complaint::new(message, help))
+        GenerateError::Parameter(function, Diagnostic::error(message).with_help(help))
     };
     let Some(&first) = request.parameters.first() else {
         return Ok(());
@@ -44,7 +44,7 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
             Some((function, argument?))
         });
         if let Some((function, argument)) = taking {
-            let why = reads(argument);
+            let why = without_range(argument);
             return Err(refused(Some(function), format!("`{function}`: {why}"), ""));
         }
     }

@@ -1,5 +1,6 @@
 //! Constants out of a scalar's range, and overflow inside the robot's limits.
 
+use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
@@ -12,7 +13,6 @@ use crate::program::{Program, ScalarType};
 use crate::setup::Setup;
 use crate::tolerance::input_box::InputBox;
 use crate::tolerance::overflow::overflows;
-use crate::words::Complaint;
 
 pub(super) fn vanishing(setup: &Setup) -> Option<Exact> {
     let mut lost = None;
@@ -49,7 +49,7 @@ pub(super) fn leave_out_single(
 pub(super) fn check_constants(
     program: &Program,
     scalar: ScalarType,
-) -> Result<Vec<String>, Complaint> {
+) -> Result<Vec<String>, Diagnostic> {
     let mut warnings = Vec::new();
     for node in &program.dag.nodes {
         let Node::Constant(constant) = node else {
@@ -68,7 +68,7 @@ pub(super) fn check_constants(
                 f64::nearest(constant)
             );
             let help = scalar.of("choose other units", "choose other units or a wider scalar");
-            return Err(Complaint::new(message, help));
+            return Err(Diagnostic::error(message).with_help(help));
         }
         if rounded != 0.0 && rounded.abs() < scalar.least_normal() {
             warnings.push(format!(

@@ -9,7 +9,7 @@ use crate::function::Function;
 use crate::plan::{Entry, Plan};
 use crate::program::{Counts, Program, ScalarType};
 use crate::search::{self, Effort, Pass, Searched};
-use crate::seeds::start::{Approach, Problem, Start};
+use crate::seeds::start::{Approach, Start, Tuning};
 use crate::seeds::{ChainChoice, Limit, Seed, Source};
 use crate::setup::{ParametersKey, SceneKey, Task, input_hash};
 use crate::task::Prefer;
@@ -264,7 +264,7 @@ impl<'a> Search<'a> {
     ) -> Result<SearchResult, GenerateError> {
         let excess = |graph: &Dag, bound| self.judge.excess(graph, bound);
         let limit: Option<Limit<'_>> = limited.then_some(&excess);
-        let problem = Problem {
+        let problem = Tuning {
             task: self.task,
             effort,
             limit,

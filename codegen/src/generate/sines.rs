@@ -1,5 +1,7 @@
 //! Polynomials in place of sines, where they are asked for and no tolerance says how exact they are.
 
+use dalembert_model::diagnostic::Diagnostic;
+
 use super::{GenerateError, GeneratedFunction, Job};
 use crate::figures::bound_of;
 use crate::function::Function;
@@ -9,7 +11,6 @@ use crate::sincos::reach::OutOfReach;
 use crate::sincos::{self, AngleKernel, SinCos, Sines};
 use crate::tolerance::definite::is_definite;
 use crate::tolerance::reference::domain;
-use crate::words::Complaint;
 
 /// In each scalar all err by no more than [`SinCos::ERROR`], or else by no more than the least
 /// error of two digits that can be had. An error that was asked for is kept to.
@@ -67,7 +68,10 @@ fn polynomials(
 }
 
 fn refused(function: Function, miss: &OutOfReach) -> GenerateError {
-    GenerateError::SinCos(function, Complaint::new(miss.to_string(), miss.help()))
+    GenerateError::SinCos(
+        function,
+        Diagnostic::error(miss.to_string()).with_help(miss.help()),
+    )
 }
 
 fn check_inertia(
@@ -86,7 +90,7 @@ fn check_inertia(
          any more"
     );
     let help = "use a smaller `sincos_error`, or `sincos: libm`";
-    let why = Complaint::new(message, help);
+    let why = Diagnostic::error(message).with_help(help);
     Err(GenerateError::SinCos(generated.function, why))
 }
 

@@ -4,18 +4,19 @@
 //! How hard to look is a matter of the request's effort, as for the exact
 //! programs: little while a compiler waits, minutes for a plan.
 
+use dalembert_model::diagnostic::Diagnostic;
+
 use crate::function::Function;
 use crate::generate::{GenerateError, GeneratedFunction, Job, Outcome};
 use crate::program::{Program, ScalarType};
 use crate::search::Effort;
 use crate::setup::SceneKey;
 use crate::sincos::SinCos;
+use crate::task::Miss;
 use crate::tolerance::budget::{Budget, Tolerances};
-use crate::tolerance::refusals::ToleranceError;
 use crate::tolerance::search::SearchEffort;
 use crate::tolerance::variant::{Variant, VariantSet};
 use crate::tolerance::work::Meter;
-use crate::words::Complaint;
 
 pub(super) fn tolerate(
     job: &Job<'_>,
@@ -71,14 +72,13 @@ pub fn admitted(
         && let Some(program) = programs.first()
     {
         let message = "a scene's tolerance decides how exact its sines are";
-        let why = Complaint::new(message, "give no error for them");
+        let why = Diagnostic::error(message).with_help("give no error for them");
         return Err(GenerateError::SinCos(program.function, why));
     }
     let mut budgets = Vec::new();
     for program in programs {
-        let budget = Budget::new(job.setup, program, load, tolerance.relative_to)
-            .map_err(|why| GenerateError::Tolerance(program.function, why))?;
-        budgets.push(budget.emitting(request.library(), request.fma));
+        let budget = Budget::new(job.setup, program, load, tolerance.relative_to)?;
+        budgets.push(budget.emitting(request.sincos.library(), request.fma));
     }
     let meter = Meter::new(request.work);
     let last = choices.len() - 1;
@@ -87,12 +87,7 @@ pub fn admitted(
             Ok(admitted) => return Ok(Some(admitted)),
             // What rounding alone forbids, the wider scalar may do.
             Err(
-                GenerateError::Tolerance(
-                    _,
-                    ToleranceError::Above(_)
-                    | ToleranceError::Indefinite(_)
-                    | ToleranceError::Overflow(_),
-                )
+                GenerateError::Tolerance(_, Miss::Above | Miss::Indefinite | Miss::Overflow, _)
                 | GenerateError::SinCos(..),
             ) if index < last => {}
             Err(error) => return Err(error),
@@ -102,7 +97,7 @@ pub fn admitted(
 }
 
 /// The variant of a plan, or those of the exact program, to search from.
-enum Start {
+enum VariantStart {
     Planned(VariantSet),
     Exact(VariantSet),
 }
@@ -121,15 +116,11 @@ fn in_scalars(
     for budget in budgets {
         let allowed = budget.allowed(tolerance);
         starts.push(match usable(job, budget, &allowed, scalars)? {
-            Some(planned) => Start::Planned(planned),
-            None => {
-                let exact = budget.unedited(scalars, &allowed);
-                let fail = |why| GenerateError::Tolerance(budget.exact.function, why);
-                Start::Exact(exact.map_err(fail)?)
-            }
+            Some(planned) => VariantStart::Planned(planned),
+            None => VariantStart::Exact(budget.unedited(scalars, &allowed)?),
         });
     }
-    let chosen = |(budget, start): (&Budget<'_>, Start)| {
+    let chosen = |(budget, start): (&Budget<'_>, VariantStart)| {
         let allowed = budget.allowed(tolerance);
         chosen(job, budget, start, &allowed, scalars, meter)
     };
@@ -169,14 +160,13 @@ fn usable(
 fn chosen(
     job: &Job<'_>,
     budget: &Budget<'_>,
-    start: Start,
+    start: VariantStart,
     allowed: &Tolerances,
     scalars: &[ScalarType],
     meter: Meter,
 ) -> Result<VariantSet, GenerateError> {
     let request = job.request;
     let function = budget.exact.function;
-    let fail = |refusal| GenerateError::Tolerance(function, refusal);
     let watch = request.watch.over(function);
     // Who wants an end before a function's turn gets the quick search for it,
     // which nobody ends: it would leave out nothing.
@@ -188,13 +178,10 @@ fn chosen(
     };
     effort.work = request.work.map(|work| work.saturating_sub(meter.done()));
     let mut admitted = match start {
-        Start::Planned(planned) => planned,
-        Start::Exact(exact) => {
-            let choice = budget.choose(&[], exact, allowed, &effort, watch);
-            choice.map_err(fail)?
-        }
+        VariantStart::Planned(planned) => planned,
+        VariantStart::Exact(exact) => budget.choose(&[], exact, allowed, &effort, watch)?,
     };
-    let with = |admitted: &VariantSet| -> Result<Vec<Variant>, Complaint> {
+    let with = |admitted: &VariantSet| -> Result<Vec<Variant>, Diagnostic> {
         let with = |variant| budget.with_polynomials(&admitted.program, variant, allowed);
         admitted.variants.iter().map(with).collect()
     };
@@ -210,7 +197,7 @@ fn chosen(
             // What was left out may have used up what polynomials need.
             if variants.is_err() {
                 let exact = budget.unedited(scalars, allowed);
-                admitted = exact.map_err(fail)?;
+                admitted = exact?;
                 variants = with(&admitted);
             }
             admitted.variants = variants.map_err(|why| {
@@ -220,7 +207,7 @@ fn chosen(
                     false => "",
                 };
                 let help = format!("use a larger tolerance{wider} or `sincos: libm`");
-                GenerateError::SinCos(function, Complaint::new(message, help))
+                GenerateError::SinCos(function, Diagnostic::error(message).with_help(help))
             })?;
         }
     }

@@ -106,7 +106,6 @@ pub(crate) fn columns(program: &Program, code: &Code) -> String {
     text
 }
 
-/// Returns the number of entries of all arguments.
 fn entries(program: &Program) -> usize {
     let arguments = program.arguments.iter();
     arguments
@@ -311,7 +310,6 @@ pub(crate) fn batch(program: &Program, code: &Code, names: &Names) -> String {
     )
 }
 
-/// Returns the place of an entry of one of so many states, or loads.
 fn entry(index: usize, [count, one]: [&str; 2]) -> String {
     match index {
         0 => one.to_owned(),

@@ -167,7 +167,6 @@ impl Blocks<'_> {
     }
 }
 
-/// Returns the last operation that reads each node; past the end for results.
 fn last_uses(code: &Code) -> Vec<Id> {
     let mut last = vec![0; code.dag.nodes.len()];
     for (id, _, operands) in code.dag.operations() {

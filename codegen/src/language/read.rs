@@ -2,8 +2,8 @@
 
 use std::hash::Hash;
 
+use dalembert_checker::Fault;
 use dalembert_checker::program::{self as straight, Operand as Read};
-pub use dalembert_checker::read::TextError;
 use dalembert_checker::read::{self, Head, Source, Text};
 
 use crate::dag::Dag;
@@ -65,7 +65,7 @@ impl Code {
         signature: &Signature<'_>,
         names: &Names,
         has_many: bool,
-    ) -> Result<Code, TextError> {
+    ) -> Result<Code, Fault> {
         let is_c = names.language() != Language::Rust;
         let symbols = is_c.then(|| names.symbols(signature.function));
         let (read, _) = text.function(&signature.head(), symbols.as_ref(), has_many)?;
@@ -73,13 +73,13 @@ impl Code {
     }
 
     /// Reads a function out of a text in Rust, as [`Code::read`] does.
-    pub fn parse(text: &str, signature: &Signature<'_>) -> Result<Code, TextError> {
+    pub fn parse(text: &str, signature: &Signature<'_>) -> Result<Code, Fault> {
         let names = Names::new("", Language::Rust, signature.scalar);
         Code::read(&Text::rust(text)?, signature, &names, false)
     }
 }
 
-fn code(read: read::Function, scalar: ScalarType) -> Result<Code, TextError> {
+fn code(read: read::ReadFunction, scalar: ScalarType) -> Result<Code, Fault> {
     let mut libraries = read.sines.iter().filter_map(|sine| match sine.source {
         Source::Libm => Some(Library::Libm),
         Source::Together => Some(Library::Together),
@@ -88,7 +88,7 @@ fn code(read: read::Function, scalar: ScalarType) -> Result<Code, TextError> {
     let first = libraries.next().unwrap_or_default();
     if libraries.any(|other| other != first) {
         let reason = "sines of two libraries".to_owned();
-        return Err(TextError { line: 1, reason });
+        return Err(Fault::Text(1, reason));
     }
     let pairs = read.sines.into_iter().map(|sine| {
         let [sin, cos] = sine.needs;

@@ -5,7 +5,7 @@ use dalembert_model::scalar::Scalar;
 use rustc_hash::FxHashMap;
 
 use super::parts::{Import, Part, Parts};
-use super::rolled::{LimbRows, Value};
+use super::rolled::{LaneOperand, LimbRows};
 use super::structure::Limbs;
 use crate::dag::{Dag, Edge, Id, Node, Writer};
 use crate::program::{Input, Loop, Operation};
@@ -49,7 +49,7 @@ impl<'a, 'd> Composer<'a, 'd> {
                 None => {
                     let edges = self.part(part, None);
                     for (value, edge) in part.exports.iter().zip(edges) {
-                        if let Value::Shared(id) = value {
+                        if let LaneOperand::Shared(id) = value {
                             self.shared.insert(*id, edge);
                         }
                     }
@@ -76,7 +76,7 @@ impl<'a, 'd> Composer<'a, 'd> {
         for lane in 0..lanes {
             let edges = self.part(part, Some((class, lane)));
             for (value, edge) in part.exports.iter().zip(edges) {
-                if let Value::Row(row) = value {
+                if let LaneOperand::Row(row) = value {
                     self.rows.entry(*row).or_default().push(edge);
                 }
             }

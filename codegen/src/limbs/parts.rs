@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use dalembert_model::number::Exact;
 use rustc_hash::FxHashMap;
 
-use super::rolled::{Content, LimbRows, Value};
+use super::rolled::{Content, LaneOperand, LimbRows};
 use super::structure::{Limbs, OPAQUE, tuple_input};
 use crate::dag::{Builder, Dag, Edge, Folding, Id, Node};
 use crate::function::Argument;
@@ -28,7 +28,7 @@ pub(super) struct Part {
     /// As lane 0 computes it. Its inputs are the function's, entries of tuples and imports.
     pub graph: Dag,
     /// The values that the graph returns.
-    pub exports: Vec<Value>,
+    pub exports: Vec<LaneOperand>,
 }
 
 pub(super) struct Parts {
@@ -51,19 +51,25 @@ impl Parts {
     pub(super) fn of(rolled: &LimbRows<'_>, limbs: &mut Limbs, base: usize) -> Parts {
         let constants = rolled.constants(limbs);
         let phases = Phases::of(rolled, &constants);
-        let mut contents: BTreeMap<(usize, Option<usize>), Vec<Value>> = BTreeMap::new();
+        let mut contents: BTreeMap<(usize, Option<usize>), Vec<LaneOperand>> = BTreeMap::new();
         let live = |id: Id| rolled.dag.node(id).operands().is_some();
         let reads = rolled.dag.reads();
         for id in (0..rolled.dag.nodes.len() as Id).filter(|&id| live(id)) {
             if reads[id as usize] > 0 && rolled.member(id).is_none() {
                 let place = (phases.shared[id as usize], None);
-                contents.entry(place).or_default().push(Value::Shared(id));
+                contents
+                    .entry(place)
+                    .or_default()
+                    .push(LaneOperand::Shared(id));
             }
         }
         for (index, row) in rolled.rows.iter().enumerate() {
             if matches!(row.content, Content::Apply(..)) && constants[index].is_none() {
                 let place = (phases.rows[index], Some(row.class));
-                contents.entry(place).or_default().push(Value::Row(index));
+                contents
+                    .entry(place)
+                    .or_default()
+                    .push(LaneOperand::Row(index));
             }
         }
         let exported = exported(rolled, &phases);
@@ -87,7 +93,7 @@ impl Parts {
             for &value in &values {
                 writer.write(value);
             }
-            let exports: Vec<Value> = values
+            let exports: Vec<LaneOperand> = values
                 .into_iter()
                 .filter(|value| exported.contains_key(value))
                 .collect();
@@ -104,10 +110,10 @@ impl Parts {
 }
 
 /// The values that other parts or results read.
-fn exported(rolled: &LimbRows<'_>, phases: &Phases) -> FxHashMap<Value, ()> {
+fn exported(rolled: &LimbRows<'_>, phases: &Phases) -> FxHashMap<LaneOperand, ()> {
     let value = |id: Id| match rolled.member(id) {
-        Some(member) => Value::Row(member.row),
-        None => Value::Shared(id),
+        Some(member) => LaneOperand::Row(member.row),
+        None => LaneOperand::Shared(id),
     };
     let mut exported = FxHashMap::default();
     for edge in &rolled.dag.outputs {
@@ -122,10 +128,10 @@ fn exported(rolled: &LimbRows<'_>, phases: &Phases) -> FxHashMap<Value, ()> {
         for operand in operands {
             let other = value(operand);
             let is_here = match (reader, other) {
-                (Value::Row(reader), Value::Row(other)) => {
+                (LaneOperand::Row(reader), LaneOperand::Row(other)) => {
                     phases.rows[reader] == phases.rows[other]
                 }
-                (Value::Shared(reader), Value::Shared(other)) => {
+                (LaneOperand::Shared(reader), LaneOperand::Shared(other)) => {
                     phases.shared[reader as usize] == phases.shared[other as usize]
                 }
                 _ => false,
@@ -196,20 +202,20 @@ struct PartWriter<'a, 'd> {
     imports: &'a mut Vec<Import>,
     places: &'a mut FxHashMap<Import, usize>,
     builder: Builder,
-    known: FxHashMap<Value, Edge>,
+    known: FxHashMap<LaneOperand, Edge>,
 }
 
 impl PartWriter<'_, '_> {
-    fn write(&mut self, value: Value) {
+    fn write(&mut self, value: LaneOperand) {
         let (operation, operands) = match value {
-            Value::Row(row) => match self.rolled.rows[row].content {
+            LaneOperand::Row(row) => match self.rolled.rows[row].content {
                 Content::Apply(operation, operands) => (
                     operation,
                     operands.map(|operand| self.of_lane(operand, row)),
                 ),
                 Content::Input(_) => return,
             },
-            Value::Shared(id) => match *self.rolled.dag.node(id) {
+            LaneOperand::Shared(id) => match *self.rolled.dag.node(id) {
                 Node::Apply(operation, operands) => {
                     (operation, operands.map(|operand| self.shared(operand)))
                 }
@@ -231,9 +237,9 @@ impl PartWriter<'_, '_> {
         self.builder.input(input)
     }
 
-    fn of_lane(&mut self, operand: Value, reader: usize) -> Edge {
+    fn of_lane(&mut self, operand: LaneOperand, reader: usize) -> Edge {
         match operand {
-            Value::Row(row) => {
+            LaneOperand::Row(row) => {
                 if let Some(numbers) = &self.constants[row] {
                     if numbers.iter().all(|number| *number == numbers[0]) {
                         return self.builder.constant(&numbers[0]);
@@ -251,7 +257,7 @@ impl PartWriter<'_, '_> {
                     },
                 }
             }
-            Value::Shared(id) => match self.rolled.dag.node(id) {
+            LaneOperand::Shared(id) => match self.rolled.dag.node(id) {
                 Node::Constant(constant) => self.builder.constant(constant),
                 // An entry of a joint of the limbs would be taken for the lane's.
                 Node::Input(input) if self.limbs.lane_of(*input, self.base).is_none() => {
@@ -279,7 +285,7 @@ impl PartWriter<'_, '_> {
                 }
             }
             (Node::Input(input), None) => self.builder.input(*input),
-            (Node::Apply(..), None) => match self.known.get(&Value::Shared(operand)) {
+            (Node::Apply(..), None) => match self.known.get(&LaneOperand::Shared(operand)) {
                 Some(edge) => *edge,
                 None => self.import(Import::Shared(operand)),
             },

@@ -10,7 +10,7 @@ use crate::program::{Input, Operation};
 
 /// An operand, or a node as what it is for all lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) enum Value {
+pub(super) enum LaneOperand {
     /// One that all lanes share.
     Shared(Id),
     /// A row.
@@ -22,7 +22,7 @@ pub(super) enum Value {
 pub(super) enum Content {
     /// As lane 0 reads it.
     Input(Input),
-    Apply(Operation, [Value; 2]),
+    Apply(Operation, [LaneOperand; 2]),
 }
 
 #[derive(Clone, Debug)]
@@ -123,8 +123,8 @@ impl<'d> LimbRows<'d> {
             return None;
         }
         let signed = [0, 1].map(|side| match members[side] {
-            Some(member) => (Value::Row(member.row), member.negative),
-            None => (Value::Shared(operands[side]), false),
+            Some(member) => (LaneOperand::Row(member.row), member.negative),
+            None => (LaneOperand::Shared(operands[side]), false),
         });
         let [mut a, mut b] = signed;
         let (operation, negative) = match operation {
@@ -158,9 +158,9 @@ impl<'d> LimbRows<'d> {
     pub(super) fn constants(&self, limbs: &Limbs) -> Vec<Option<Vec<Exact>>> {
         let mut constants: Vec<Option<Vec<Exact>>> = Vec::with_capacity(self.rows.len());
         for row in &self.rows {
-            let value = |value: &Value, lane: usize| match *value {
-                Value::Row(row) => Some(constants.get(row)?.as_ref()?[lane].clone()),
-                Value::Shared(id) => match self.dag.node(id) {
+            let value = |value: &LaneOperand, lane: usize| match *value {
+                LaneOperand::Row(row) => Some(constants.get(row)?.as_ref()?[lane].clone()),
+                LaneOperand::Shared(id) => match self.dag.node(id) {
                     Node::Constant(constant) => Some(constant.clone()),
                     _ => None,
                 },

@@ -18,7 +18,7 @@ use crate::setup::Setup;
 
 /// A lane's place: the class of its limb, the limb among those of the class, and the link in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Place {
+pub(super) struct LanePlace {
     pub class: usize,
     pub lane: usize,
     pub link: usize,
@@ -102,7 +102,7 @@ pub(super) struct Limbs {
     /// Numbers that differ, one a lane, with the class of the lanes.
     pub tuples: Vec<(usize, Vec<Exact>)>,
     /// The place of the link that a joint moves first.
-    joints: BTreeMap<usize, Place>,
+    joints: BTreeMap<usize, LanePlace>,
 }
 
 /// More limbs are not lanes of one loop.
@@ -119,7 +119,7 @@ impl Limbs {
             for (lane, limb) in limbs.iter().enumerate() {
                 for (link, &i) in limb.iter().enumerate() {
                     let joint = robot.mover_of(rows[base + i] - base);
-                    let place = Place { class, lane, link };
+                    let place = LanePlace { class, lane, link };
                     joints.entry(joint).or_insert(place);
                 }
             }
@@ -131,21 +131,21 @@ impl Limbs {
         }
     }
 
-    fn place(&self, link: usize) -> Option<Place> {
+    fn place(&self, link: usize) -> Option<LanePlace> {
         let limbs = self.classes.iter().enumerate().flat_map(|(class, limbs)| {
             let lanes = limbs.iter().enumerate();
             lanes.map(move |(lane, limb)| (class, lane, limb))
         });
         let mut places = limbs.filter_map(|(class, lane, limb)| {
             let link = limb.binary_search(&link).ok()?;
-            Some(Place { class, lane, link })
+            Some(LanePlace { class, lane, link })
         });
         places.next()
     }
 
     /// Returns the input in which lane 0 of a class reads what a lane reads as this one, with the lane;
     /// none of what all lanes share.
-    pub(super) fn lane_of(&self, input: Input, base: usize) -> Option<(Place, Input)> {
+    pub(super) fn lane_of(&self, input: Input, base: usize) -> Option<(LanePlace, Input)> {
         let joint = match input {
             Input::Sin(joint) | Input::Cos(joint) => joint,
             Input::PerSpeed(coordinate) => coordinate.checked_sub(base)?,
@@ -153,7 +153,7 @@ impl Limbs {
             Input::Entry(Argument::Load, entry) => {
                 let (tuple, lane) = (entry / MAX_LANES, entry % MAX_LANES);
                 let class = self.tuples[tuple].0;
-                let place = Place {
+                let place = LanePlace {
                     class,
                     lane,
                     link: 0,
@@ -170,7 +170,7 @@ impl Limbs {
         let first = self
             .joints
             .iter()
-            .find(|(_, other)| **other == Place { lane: 0, ..place });
+            .find(|(_, other)| **other == LanePlace { lane: 0, ..place });
         let first = *first?.0;
         let input = match input {
             Input::Sin(_) => Input::Sin(first),
@@ -186,7 +186,7 @@ impl Limbs {
     pub(super) fn in_lane(&self, input: Input, class: usize, lane: usize, base: usize) -> Input {
         let moved = |joint: usize| {
             let place = self.joints.get(&joint).filter(|place| place.class == class);
-            let fellow = place.map(|place| Place { lane, ..*place });
+            let fellow = place.map(|place| LanePlace { lane, ..*place });
             let counterpart = self
                 .joints
                 .iter()
@@ -258,7 +258,8 @@ impl Limbs {
         let mut count = 0;
         chain.map(|_| count += 1);
         let of_base = count - 1 - of_links.iter().map(Vec::len).sum::<usize>();
-        let places: Vec<Option<Place>> = (0..of_links.len()).map(|link| self.place(link)).collect();
+        let places: Vec<Option<LanePlace>> =
+            (0..of_links.len()).map(|link| self.place(link)).collect();
         let links = of_links.iter().enumerate().flat_map(|(link, numbers)| {
             let numbers = 0..numbers.len();
             numbers.map(move |number| (link, number))

@@ -3,6 +3,7 @@
 use dalembert_checker::Fault;
 use dalembert_checker::claim::{Claim, FunctionClaim, SearchRecord, ToleranceClaim};
 use dalembert_checker::program::Program as Straight;
+use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::equations::BASE_COORDINATES;
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Axis, Sizes};
@@ -16,7 +17,7 @@ use crate::program::{Counts, Input, Loop, Program, ScalarType};
 use crate::search::Pass;
 use crate::seeds::{Source, Start};
 use crate::setup::{ParametersKey, SceneKey};
-use crate::words::{Complaint, Word, complaint};
+use crate::words::Word;
 
 /// A load has no more numbers: ten of each link, and differences of two of them.
 const MAX_LOAD: usize = 100 * Robot::MAX_JOINTS;
@@ -41,26 +42,28 @@ impl Plan {
     ///
     /// # Errors
     /// The first word that is not as [`Plan::write`] writes it.
-    pub fn parse(text: &str) -> Result<Plan, Complaint> {
+    pub fn parse(text: &str) -> Result<Plan, Diagnostic> {
         if text.starts_with("# Programs kept by") {
             let why = "a plan of an earlier version: delete it, and save it again";
-            return Err(complaint(why));
+            return Err(Diagnostic::error(why));
         }
         let document = Claim::read(text).map_err(refused)?;
         if document.input.is_empty() {
-            return Err(complaint("there is no `input`, the hash of the robot"));
+            return Err(Diagnostic::error(
+                "there is no `input`, the hash of the robot",
+            ));
         }
         let constant = |text: &String| {
-            let wrong = |error| complaint(format!("`{text:.40}`: {error}"));
+            let wrong = |error| Diagnostic::error(format!("`{text:.40}`: {error}"));
             text.parse::<Exact>().map_err(wrong)
         };
         let constants = document
             .constants
             .iter()
             .map(constant)
-            .collect::<Result<Vec<Exact>, Complaint>>()?;
+            .collect::<Result<Vec<Exact>, Diagnostic>>()?;
         let entries = document.functions.iter().map(|claim| {
-            let wrong = |why: Complaint| complaint(format!("`{}`: {why}", claim.function));
+            let wrong = |why: Diagnostic| Diagnostic::error(format!("`{}`: {why}", claim.function));
             entry(claim, &constants).map_err(wrong)
         });
         Ok(Plan {
@@ -71,8 +74,8 @@ impl Plan {
     }
 }
 
-fn refused(fault: Fault) -> Complaint {
-    complaint(match fault {
+fn refused(fault: Fault) -> Diagnostic {
+    Diagnostic::error(match fault {
         Fault::Claim(why) => why,
         fault => fault.to_string(),
     })
@@ -137,12 +140,12 @@ fn loops(program: &Program) -> Vec<[usize; 3]> {
         .collect()
 }
 
-fn entry(claim: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Complaint> {
-    let unknown = |what: &str, word: &str| complaint(format!("`{word:.40}` is no {what}"));
+fn entry(claim: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Diagnostic> {
+    let unknown = |what: &str, word: &str| Diagnostic::error(format!("`{word:.40}` is no {what}"));
     let planned = (claim.planned.as_ref())
-        .ok_or_else(|| complaint("there is no `planned`: what was searched for"))?;
+        .ok_or_else(|| Diagnostic::error("there is no `planned`: what was searched for"))?;
     let asked = Function::parse(&planned.asked);
-    let function = asked.map_err(|error| complaint(error.message))?;
+    let function = asked.map_err(|error| Diagnostic::error(error.message))?;
     if !(1..=Robot::MAX_JOINTS).contains(&planned.joints) {
         return Err(unknown("number of joints", &planned.joints.to_string()));
     }
@@ -151,7 +154,7 @@ fn entry(claim: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Complaint>
     let starts = planned.limbs.iter().map(|start| {
         let start = start.checked_sub(1).filter(|joint| *joint < planned.joints);
         let bit = start.map(|joint| 1u64 << joint);
-        bit.ok_or_else(|| complaint("expected the joints with which limbs begin"))
+        bit.ok_or_else(|| Diagnostic::error("expected the joints with which limbs begin"))
     });
     let mut limbs = 0;
     for start in starts {
@@ -162,11 +165,11 @@ fn entry(claim: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Complaint>
     let most = sizes.coordinates();
     let rows = planned.rows.iter().map(|row| {
         let row = row.checked_sub(1).filter(|row| *row < most);
-        row.ok_or_else(|| complaint("expected joints such as `[1, 2, 3]`"))
+        row.ok_or_else(|| Diagnostic::error("expected joints such as `[1, 2, 3]`"))
     });
     empty.rows = rows.take(most + 1).collect::<Result<_, _>>()?;
     if empty.rows.len() > most {
-        return Err(complaint("more rows than joints"));
+        return Err(Diagnostic::error("more rows than joints"));
     }
     let taken = taken(claim, &mut empty)?;
     let parameters = match (&planned.load, taken.is_empty()) {
@@ -178,7 +181,7 @@ fn entry(claim: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Complaint>
         }),
         _ => {
             let why = "expected the load's length and hash where parameters are arguments";
-            return Err(complaint(why));
+            return Err(Diagnostic::error(why));
         }
     };
     empty.load = parameters.as_ref().map_or(0, |key| key.load);
@@ -191,7 +194,9 @@ fn entry(claim: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Complaint>
         .map(|&[first, rows, lanes]| Loop { first, rows, lanes });
     program.loops = loops.collect();
     if !program.has_lanes() {
-        return Err(complaint("a loop whose lanes have different operations"));
+        return Err(Diagnostic::error(
+            "a loop whose lanes have different operations",
+        ));
     }
     let edited = exact.map(|_| edited(&empty, &emitted)).transpose()?;
     Ok(Entry {
@@ -214,7 +219,7 @@ fn entry(claim: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Complaint>
     })
 }
 
-fn taken(claim: &FunctionClaim, empty: &mut Program) -> Result<Vec<Argument>, Complaint> {
+fn taken(claim: &FunctionClaim, empty: &mut Program) -> Result<Vec<Argument>, Diagnostic> {
     const TAKEN: [Argument; 2] = [Argument::Gravity, Argument::Load];
     empty.arguments.extend(TAKEN);
     empty.arguments.sort();
@@ -222,13 +227,13 @@ fn taken(claim: &FunctionClaim, empty: &mut Program) -> Result<Vec<Argument>, Co
     empty.arguments.retain(|argument| is_taken(*argument));
     if empty.arguments.len() != claim.arguments.len() {
         let why = "expected arguments of the function, each once, `load` or `g`";
-        return Err(complaint(why));
+        return Err(Diagnostic::error(why));
     }
     let taken = TAKEN.into_iter();
     Ok(taken.filter(|argument| is_taken(*argument)).collect())
 }
 
-fn program(empty: &Program, read: &Straight<Exact>) -> Result<Program, Complaint> {
+fn program(empty: &Program, read: &Straight<Exact>) -> Result<Program, Diagnostic> {
     let program = Program {
         dag: graph(read, Exact::clone, input),
         ..empty.clone()
@@ -241,20 +246,20 @@ fn program(empty: &Program, read: &Straight<Exact>) -> Result<Program, Complaint
     };
     if let Some(input) = program.dag.inputs().find(|input| !is_own(input)) {
         let why = format!("`{}` is no input of it", input.name());
-        return Err(complaint(why));
+        return Err(Diagnostic::error(why));
     }
     let (expected, found) = (program.function.outputs(sizes), program.dag.outputs.len());
     if found != expected {
         let why = format!("expected {expected} results, found {found}");
-        return Err(complaint(why));
+        return Err(Diagnostic::error(why));
     }
     Ok(program)
 }
 
-fn edited(empty: &Program, emitted: &Straight<Exact>) -> Result<Program, Complaint> {
+fn edited(empty: &Program, emitted: &Straight<Exact>) -> Result<Program, Diagnostic> {
     let program = program(empty, emitted)?;
     match program.divides() {
-        true => Err(complaint("a quotient, of which no bound is known")),
+        true => Err(Diagnostic::error("a quotient, of which no bound is known")),
         false => Ok(program),
     }
 }

@@ -5,9 +5,9 @@ use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use dalembert_checker::claim::MOST_BYTES;
+use dalembert_model::diagnostic::Diagnostic;
 
 use super::Plan;
-use crate::words::{Complaint, complaint};
 
 /// Returns where a robot file's plan is: `puma560.plan` beside `puma560.toml`.
 pub fn path(robot_file: &Path) -> PathBuf {
@@ -32,21 +32,21 @@ pub(crate) fn bytes(path: &Path, most: usize) -> std::io::Result<Vec<u8>> {
 }
 
 /// Reads the plan beside a robot file; there need not be one.
-pub fn beside(robot_file: &Path) -> Result<Option<Plan>, Complaint> {
+pub fn beside(robot_file: &Path) -> Result<Option<Plan>, Diagnostic> {
     let path = path(robot_file);
     let shown = path.display();
     // Opening a pipe would wait for somebody who writes into it.
     if fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file()) {
         let why = format!("cannot read `{shown}`: a plan is a file");
-        return Err(complaint(why));
+        return Err(Diagnostic::error(why));
     }
     let bytes = match bytes(&path, MOST_BYTES) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
-        Err(error) => return Err(complaint(format!("cannot read `{shown}`: {error}"))),
+        Err(error) => return Err(Diagnostic::error(format!("cannot read `{shown}`: {error}"))),
         Ok(bytes) => bytes,
     };
-    let text =
-        String::from_utf8(bytes).map_err(|_| complaint(format!("`{shown}` is not UTF-8")))?;
-    let plan = Plan::parse(&text).map_err(|why| complaint(format!("{shown}: {why}")))?;
+    let text = String::from_utf8(bytes)
+        .map_err(|_| Diagnostic::error(format!("`{shown}` is not UTF-8")))?;
+    let plan = Plan::parse(&text).map_err(|why| Diagnostic::error(format!("{shown}: {why}")))?;
     Ok(Some(plan))
 }

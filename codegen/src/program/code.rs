@@ -54,7 +54,7 @@ impl Speed<Literal> {
 }
 
 impl Code {
-    /// A library that takes all angles together is called after the sines that are computed alone.
+    /// Rounds every constant of a program to a scalar, once, and chooses the source of each sine.
     pub(crate) fn new(
         program: &Program,
         scalar: ScalarType,

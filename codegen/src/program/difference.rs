@@ -1,11 +1,12 @@
 //! The first difference between two pieces of code.
 
+use dalembert_model::diagnostic::Diagnostic;
+
 use super::{Code, Steps};
-use crate::words::{Complaint, complaint};
 
 impl Code {
     /// Returns the first difference from other code, but for the order of constants and inputs.
-    pub fn difference(&self, other: &Code) -> Option<Complaint> {
+    pub fn difference(&self, other: &Code) -> Option<Diagnostic> {
         let (a, b) = (self, other);
         let counts = [a, b].map(|code| code.dag.operations().count());
         let results = [a, b].map(|code| code.dag.outputs.len());
@@ -22,7 +23,7 @@ impl Code {
             .find(|(is_equal, _)| !is_equal)
             .map(|(_, what)| what.to_owned())
             .or_else(|| self.first_difference(other));
-        differs.map(complaint)
+        differs.map(Diagnostic::error)
     }
 
     /// Compares operations and results one by one: equal operations read equal ones before them.

@@ -14,10 +14,10 @@ use dalembert_model::scalar::Scalar;
 
 pub use crate::dag::{Counts, Input, Operation};
 use crate::dag::{Dag, Edge, Id, Node};
-use crate::function::{Argument, Columns, Function, Sizes};
+use crate::function::{Argument, Function, RegressorColumns, Sizes};
 pub(crate) use code::Speed;
 pub use code::{Code, Pair};
-pub use kernel::SinCosUse;
+pub(crate) use kernel::SinCosUse;
 pub use machine::Library;
 pub use scalar_type::{Literal, ScalarType};
 pub use steps::{Operand, Output, Step, Steps};
@@ -280,7 +280,7 @@ impl Program {
             ..Sizes::floating(self.floating, self.joints, self.limbs)
         };
         let mut sizes = whole.over(&self.rows);
-        if let Columns::Base(_) = self.function.columns() {
+        if let RegressorColumns::Base(_) = self.function.columns() {
             // What a bundle returns beside its regressor is of known lengths.
             let others = self.function.outputs(sizes);
             sizes.base = self.dag.outputs.len().saturating_sub(others) / rows.max(1);

@@ -96,7 +96,6 @@ case!(TrueValue, True, true_number, Rc::new, Rc::unwrap_or_clone);
 case!(Symbol, Symbol, symbol, Rc::new, Rc::unwrap_or_clone);
 
 impl AnyScalar {
-    /// Returns a number as a value of the scalar of `self`.
     fn alike(&self, number: &Rational) -> AnyScalar {
         match self {
             Number(_) => Number(Rc::new(number.clone())),

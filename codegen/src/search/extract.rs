@@ -46,7 +46,7 @@ const NONE: u32 = u32::MAX;
 
 /// Leaves have a way that costs nothing; sines read their angle, which costs their evaluation.
 #[derive(Clone, Copy, Default)]
-struct Step {
+struct ClassStep {
     cost: u64,
     reads: [u32; 2],
     way: Option<Way>,
@@ -54,7 +54,7 @@ struct Step {
 
 pub(super) struct Extraction<'a> {
     classes: &'a Classes,
-    steps: Vec<Step>,
+    steps: Vec<ClassStep>,
     starts: Vec<u32>,
     outputs: Vec<u32>,
     /// The chosen way of each class, an index into `steps`.
@@ -73,7 +73,7 @@ impl<'a> Extraction<'a> {
         let ids = classes.ids();
         let mut places = vec![NONE; classes.bound()];
         // Nothing, the classes, then the angles.
-        let mut ways: Vec<Vec<Step>> = vec![Vec::new(); 1 + ids.len()];
+        let mut ways: Vec<Vec<ClassStep>> = vec![Vec::new(); 1 + ids.len()];
         let mut angles = BTreeMap::new();
         for (place, &id) in (1usize..).zip(ids) {
             places[usize::from(id)] = place as u32;
@@ -85,23 +85,23 @@ impl<'a> Extraction<'a> {
                 && let Some(angle) = input.angle()
             {
                 let place = angles.entry(angle).or_insert_with(|| {
-                    ways.push(vec![Step {
+                    ways.push(vec![ClassStep {
                         cost: SINCOS,
-                        ..Step::default()
+                        ..ClassStep::default()
                     }]);
                     ways.len() as u32 - 1
                 });
                 reads = [*place; 2];
             }
-            ways[place].push(Step {
+            ways[place].push(ClassStep {
                 reads,
-                ..Step::default()
+                ..ClassStep::default()
             });
         }
         let count = ways.len();
         for (class, way) in classes.ways() {
             let reads = way.1.map(|id| places[usize::from(id)]);
-            let step = Step {
+            let step = ClassStep {
                 cost: price_of(way.0),
                 reads,
                 way: Some(way),
@@ -161,7 +161,7 @@ impl<'a> Extraction<'a> {
         self.steps[way as usize].reads.iter().all(is_ready)
     }
 
-    fn reads(steps: &[Step], chosen: &[u32], id: u32) -> [u32; 2] {
+    fn reads(steps: &[ClassStep], chosen: &[u32], id: u32) -> [u32; 2] {
         let step = steps.get(chosen[id as usize] as usize);
         step.map_or([NOTHING; 2], |step| step.reads)
     }

@@ -1,4 +1,5 @@
-//! Algebraic identities, a row each: a pattern, and (?b ∘ ?c) ∘ ?a as another way to compute it.
+//! Algebraic identities, a row each: a pattern, and (?b inner ?c) outer ?a as another way to compute
+//! it.
 //!
 //! Patterns are over values up to sign: ± is a sum or a difference, and fingerprints tell which
 //! signs the right side has. Distribution is no row: it would double the e-graph for every product
@@ -10,7 +11,7 @@ use egg::{Language, Pattern, PatternAst, Var};
 
 use super::egraph::{Classes, ENode, Kind, PRODUCT, SUM};
 
-/// Name, left side, and the kinds of the outer and the inner operation of the right side.
+/// Name, left side, and the outer and the inner operation of the right side, each up to signs.
 pub(super) const RULES: &[(&str, &str, Kind, Kind)] = &[
     ("factor", "(± (* ?a ?b) (* ?a ?c))", PRODUCT, SUM),
     ("mul-associates", "(* (* ?a ?b) ?c)", PRODUCT, PRODUCT),

@@ -132,7 +132,7 @@ pub fn skeleton(setup: &Setup) -> Skeleton<Exact> {
 
 /// Builds the skeleton of a function: of a regressor with its columns; of one that takes a
 /// load, with parameters that are unknown.
-pub fn skeleton_for(task: Task<'_>) -> Skeleton<Exact> {
+pub(crate) fn skeleton_for(task: Task<'_>) -> Skeleton<Exact> {
     let Task { setup, function } = task;
     if !setup.takes_load(function) {
         return with_columns(setup, &setup.columns(function, Exact::clone));

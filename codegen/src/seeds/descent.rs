@@ -7,7 +7,7 @@ use dalembert_model::equations::matrix::zero_vector;
 use dalembert_model::number::Exact;
 
 use super::chain::{merged, skeleton_for};
-use super::start::Problem;
+use super::start::Tuning;
 use super::tune::{self, ChainChoice};
 use super::{Form, MAX_QUICK_LINKS};
 use crate::dag::Dag;
@@ -43,14 +43,14 @@ fn price(graph: &Dag, limit: Option<Limit<'_>>, below: u64) -> u64 {
 }
 
 /// Returns the cheapest regrouping before a search.
-pub(crate) fn tuned(problem: &Problem<'_>, forms: &[Form]) -> ChainChoice {
+pub(crate) fn tuned(problem: &Tuning<'_>, forms: &[Form]) -> ChainChoice {
     tunings(problem, forms).0
 }
 
 /// Returns the regrouping that a descent from base parameters ends at. One link at a time it does
 /// not get to frames whose origins are all beside those of the links that carry them: also returns
 /// where a descent from there ends, if that is cheaper before the search. After it either may be.
-pub(crate) fn tunings(problem: &Problem<'_>, forms: &[Form]) -> (ChainChoice, Option<ChainChoice>) {
+pub(crate) fn tunings(problem: &Tuning<'_>, forms: &[Form]) -> (ChainChoice, Option<ChainChoice>) {
     let (task, effort, limit) = (problem.task, problem.effort, problem.limit);
     let Task { setup, function } = task;
     let arm = skeleton_for(task);

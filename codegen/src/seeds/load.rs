@@ -9,7 +9,7 @@ use dalembert_model::scalar::Scalar;
 
 use super::chain::{skeleton_for, trace_chain};
 use super::descent::tuned;
-use super::start::Problem;
+use super::start::Tuning;
 use crate::dag::symbol::Symbol;
 use crate::dag::{Builder, Folding, Node, signed};
 use crate::function::{Argument, Function};
@@ -28,7 +28,7 @@ pub(crate) fn chosen(setup: Setup) -> Setup {
     let full = setup.in_full_motion();
     let task = full.task(Function::InverseDynamics);
     let forms = task.function.forms();
-    let best = tuned(&Problem::new(task, Effort::Quick), &forms);
+    let best = tuned(&Tuning::new(task, Effort::Quick), &forms);
     let chain = Chain::new(&skeleton_for(task), &best.regrouping);
     let (graph, _) = trace_chain(task, &chain, best.form, Folding::Semantic);
     let is_read = |index: usize| {

@@ -20,8 +20,9 @@ use crate::function::Argument;
 use crate::program::{Counts, Input};
 use crate::scalar::{AnyLeaves, restored};
 use crate::setup::Task;
+pub(crate) use chain::skeleton_for;
 pub(crate) use chain::{regrouped, trace_symbols};
-pub use chain::{skeleton, skeleton_for, trace_chain};
+pub use chain::{skeleton, trace_chain};
 pub(crate) use descent::{Limit, tuned, tunings};
 pub use start::Start;
 pub(crate) use tune::ChainChoice;
@@ -34,7 +35,7 @@ const MAX_QUICK_LINKS: usize = 10;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Source {
     /// A formulation as the textbook has it.
-    Textbook(Formulation),
+    Formulation(Formulation),
     /// The chain formulas with regrouped parameters.
     Regrouped,
     /// The definition of a load.
@@ -44,16 +45,16 @@ pub enum Source {
 impl Source {
     pub fn name(self) -> &'static str {
         match self {
-            Source::Textbook(Formulation::LagrangeEuler) => "lagrange_euler",
-            Source::Textbook(Formulation::Dalembert) => "dalembert",
-            Source::Textbook(_) => "newton_euler",
+            Source::Formulation(Formulation::LagrangeEuler) => "lagrange_euler",
+            Source::Formulation(Formulation::Dalembert) => "dalembert",
+            Source::Formulation(_) => "newton_euler",
             Source::Regrouped => "regrouped",
             Source::Definition => "definition",
         }
     }
 
     pub fn from_name(name: &str) -> Option<Source> {
-        let textbook = start::TEXTBOOK.into_iter().map(Source::Textbook);
+        let textbook = start::TEXTBOOK.into_iter().map(Source::Formulation);
         let mut sources = textbook.chain([Source::Regrouped]);
         sources.find(|source| source.name() == name)
     }
@@ -105,7 +106,7 @@ pub fn trace(task: Task<'_>, formulation: Formulation) -> Seed {
         .map(|output| output.edge(&mut builder))
         .collect();
     Seed {
-        source: Source::Textbook(formulation),
+        source: Source::Formulation(formulation),
         traced: builder.asked(),
         graph: builder.finish(outputs),
     }

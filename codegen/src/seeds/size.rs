@@ -2,7 +2,7 @@
 //! almost zero, such as the sine between axes that are almost parallel, adds large moments to one
 //! link and takes them from another: exact, and lost to rounding.
 
-use dalembert_model::equations::chain::{Body, Chain, Skeleton};
+use dalembert_model::equations::chain::{Chain, MomentBody, Skeleton};
 use dalembert_model::number::{Exact, Rounded};
 
 /// A moment may be so many times as large as those of what a link carries.
@@ -46,7 +46,7 @@ impl Sizes {
         let length = |x: &[f64; 3]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
         let mut moments = vec![LinkMoments::default(); arm.links.len()];
         for (i, segment) in arm.links.iter().enumerate().rev() {
-            let Body {
+            let MomentBody {
                 mass,
                 first,
                 second,

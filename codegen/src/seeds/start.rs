@@ -35,7 +35,7 @@ impl Start {
     pub fn name(self) -> &'static str {
         match self {
             Start::Auto => "auto",
-            Start::Only(formulation) => Source::Textbook(formulation).name(),
+            Start::Only(formulation) => Source::Formulation(formulation).name(),
         }
     }
 
@@ -45,7 +45,7 @@ impl Start {
         (!is_loaded).then(|| Approach::of(vec![trace(task, Formulation::NewtonEulerLink)]))
     }
 
-    pub(crate) fn approaches(self, problem: &Problem<'_>) -> Vec<Approach> {
+    pub(crate) fn approaches(self, problem: &Tuning<'_>) -> Vec<Approach> {
         let task = problem.task;
         let function = task.function;
         let mut quantities = function.quantities().iter();
@@ -90,7 +90,7 @@ impl Approach {
 }
 
 #[derive(Clone, Copy)]
-pub(crate) struct Problem<'a> {
+pub(crate) struct Tuning<'a> {
     pub task: Task<'a>,
     pub effort: Effort,
     pub limit: Option<Limit<'a>>,
@@ -98,9 +98,9 @@ pub(crate) struct Problem<'a> {
     pub watch: FunctionWatch<'a>,
 }
 
-impl<'a> Problem<'a> {
-    pub(crate) fn new(task: Task<'a>, effort: Effort) -> Problem<'a> {
-        Problem {
+impl<'a> Tuning<'a> {
+    pub(crate) fn new(task: Task<'a>, effort: Effort) -> Tuning<'a> {
+        Tuning {
             task,
             effort,
             limit: None,
@@ -112,7 +112,7 @@ impl<'a> Problem<'a> {
 
 /// From the recursion or Lagrange–Euler, whichever is cheaper, and from other forms: these are
 /// small, and a form that is dearer by itself often ends lower.
-fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
+fn by_textbook(problem: &Tuning<'_>) -> Vec<Approach> {
     let textbook = |form| trace(problem.task, form);
     let recursion = textbook(Formulation::NewtonEulerLink);
     let products = textbook(Formulation::LagrangeEuler);
@@ -133,7 +133,7 @@ fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
     [both].into_iter().chain(others).collect()
 }
 
-fn by_chain(problem: &Problem<'_>) -> Vec<Approach> {
+fn by_chain(problem: &Tuning<'_>) -> Vec<Approach> {
     let task = problem.task;
     let Task { setup, function } = task;
     // Where no axes meet at the base, the forms that need it are the others.

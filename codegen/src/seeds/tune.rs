@@ -6,7 +6,7 @@
 
 use dalembert_model::equations::chain::body::entry;
 use dalembert_model::equations::chain::{
-    Body, Chain, ChainLink, LinkRegrouping, MetricChain, Regrouping, Skeleton,
+    Chain, ChainLink, LinkRegrouping, MetricChain, MomentBody, Regrouping, Skeleton,
 };
 use dalembert_model::equations::matrix::{Vector, zero_vector};
 use dalembert_model::number::Exact;
@@ -93,7 +93,7 @@ pub(crate) fn tune(
     rounds: usize,
     price: impl Fn(&Chain<Exact>, Form, u64) -> u64,
 ) -> ChainChoice {
-    let mut descent = Descent {
+    let mut descent = RegroupingDescent {
         arm,
         sizes: Sizes::of(arm),
         price,
@@ -121,7 +121,7 @@ pub(crate) fn tune(
     descent.best
 }
 
-struct Descent<'a, P> {
+struct RegroupingDescent<'a, P> {
     arm: &'a Skeleton<Exact>,
     sizes: Sizes,
     price: P,
@@ -130,7 +130,7 @@ struct Descent<'a, P> {
     metric: MetricChain<Exact>,
 }
 
-impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
+impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> RegroupingDescent<'_, P> {
     fn attempt(&mut self, regrouping: Regrouping<Exact>, metric: MetricChain<Exact>) {
         let chain = metric.in_unit(&regrouping);
         if is_large(&chain) || !self.sizes.admits(&metric.chain) {
@@ -231,7 +231,7 @@ fn terms(link: &ChainLink<Exact>) -> usize {
     body_terms(&link.body).max(free)
 }
 
-fn body_terms(body: &Body<Exact>) -> usize {
+fn body_terms(body: &MomentBody<Exact>) -> usize {
     let second =
         [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|(i, j)| entry(&body.second, i, j));
     let constants = second.into_iter().chain(&body.first);
@@ -244,9 +244,9 @@ fn quotient(a: &Exact, b: &Exact) -> Option<Exact> {
 
 /// A moment about its axis that a revolute link may keep: of its regrouping, of a body, and how
 /// much of it besides nothing.
-type Moment = (
+type AxisMoment = (
     fn(&mut Link) -> &mut Exact,
-    fn(&mut Body<Exact>) -> &mut Exact,
+    fn(&mut MomentBody<Exact>) -> &mut Exact,
     Vec<Exact>,
 );
 
@@ -255,7 +255,7 @@ fn revolute(arm: &Skeleton<Exact>, chain: &Chain<Exact>, now: &Link, i: usize) -
     let body = &link.body;
     let [mass, first, second] = link.free.clone();
     let seconds = vec![second, body.second.xx.neg(), body.second.yy.neg()];
-    let moments: [Moment; 3] = [
+    let moments: [AxisMoment; 3] = [
         (|link| &mut link.mass, |body| &mut body.mass, vec![mass]),
         (
             |link| &mut link.first,
@@ -275,7 +275,7 @@ fn revolute(arm: &Skeleton<Exact>, chain: &Chain<Exact>, now: &Link, i: usize) -
         if let Some(carrier) = carrier {
             // Moments that a link keeps do not arrive at what carries it.
             let parent = costly(carrier);
-            let mut unit = Body::zero();
+            let mut unit = MomentBody::zero();
             *of_body(&mut unit) = Exact::one();
             let effect = costly(&unit.carried(&link.rotation, &link.offset));
             let needed = parent
@@ -328,7 +328,7 @@ fn prismatic(chain: &Chain<Exact>, now: &Link, i: usize) -> Vec<Link> {
     origins.chain(kept).collect()
 }
 
-fn costly(body: &Body<Exact>) -> Vec<Exact> {
+fn costly(body: &MomentBody<Exact>) -> Vec<Exact> {
     let second = &body.second;
     let [x, y, _] = &body.first;
     let entries = [

@@ -7,7 +7,7 @@
 //! is known. So unknown bodies go through regrouping like any others, and what comes out says what
 //! the load's numbers are.
 
-use dalembert_model::equations::chain::{Body, Regrouping};
+use dalembert_model::equations::chain::{MomentBody, Regrouping};
 use dalembert_model::equations::load::LoadRow;
 use dalembert_model::equations::regressor::{Column, LinkParameter, Probed};
 use dalembert_model::number::{Angle, Exact, Rational};
@@ -69,9 +69,9 @@ impl Setup {
         };
         let general = self.given_bodies(drawn, Exact::clone);
         let unit = |place: usize, parameter: LinkParameter| {
-            let body = general.get(place).map(Body::of);
+            let body = general.get(place).map(MomentBody::of);
             match body.is_some_and(|body| parameter.of_body(&body).is_zero()) {
-                true => Body::zero(),
+                true => MomentBody::zero(),
                 false => parameter.unit(),
             }
         };

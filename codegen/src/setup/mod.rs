@@ -28,13 +28,14 @@ mod task;
 
 use std::sync::OnceLock;
 
-use dalembert_model::equations::chain::Body;
+use dalembert_model::diagnostic::Diagnostic;
+use dalembert_model::equations::chain::MomentBody;
 use dalembert_model::equations::following::FollowerLine;
 use dalembert_model::equations::regressor::{Column, of_links};
 use dalembert_model::equations::{JointPosition, SinCosPair, base_position};
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::{Columns, Motion, RuntimeParameter, Sizes};
-use dalembert_model::robot::{Finding, JointKind, Position, Robot};
+use dalembert_model::outputs::{Motion, RegressorColumns, RuntimeParameter, Sizes};
+use dalembert_model::robot::{JointKind, Position, Robot};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scene::Scene;
 
@@ -42,11 +43,10 @@ use base::BaseParameters;
 pub(crate) use key::ParametersKey;
 pub use key::{SceneKey, input_hash};
 use load::LoadParameters;
-pub use task::{Task, TaskArm};
+pub(crate) use task::{Task, TaskArm};
 
 use crate::function::{Argument, Function, Quantity};
 use crate::program::Input;
-use crate::words::{Complaint, complaint};
 
 /// A robot, whole or in a scene.
 #[derive(Clone, Debug)]
@@ -72,12 +72,12 @@ pub struct Setup {
 #[derive(Clone, Debug)]
 pub(crate) struct FittedLink {
     /// About the origin and in the axes of the joint's segment.
-    pub body: Body<Exact>,
+    pub body: MomentBody<Exact>,
     pub armature: Exact,
     pub viscous: Exact,
 }
 
-type Bases = [OnceLock<Result<BaseParameters, Complaint>>; Quantity::ALL.len()];
+type Bases = [OnceLock<Result<BaseParameters, Diagnostic>>; Quantity::ALL.len()];
 
 impl Setup {
     /// Returns the whole robot.
@@ -102,16 +102,16 @@ impl Setup {
     ///
     /// # Errors
     /// Returns the findings of [`Scene::validate`], but for warnings.
-    pub fn in_scene(robot: &Robot, scene: Option<&Scene>) -> Result<Setup, Complaint> {
+    pub fn in_scene(robot: &Robot, scene: Option<&Scene>) -> Result<Setup, Diagnostic> {
         let Some(scene) = scene else {
             return Ok(Setup::whole(robot));
         };
         let mut findings = scene.validate(robot);
-        findings.retain(Finding::is_error);
+        findings.retain(Diagnostic::is_error);
         if !findings.is_empty() {
-            let findings: Vec<String> = findings.iter().map(Finding::to_string).collect();
+            let findings: Vec<String> = findings.iter().map(Diagnostic::to_string).collect();
             let message = format!("scene `{}`: {}", scene.name, findings.join("; "));
-            return Err(complaint(message));
+            return Err(Diagnostic::error(message));
         }
         let n = robot.joints.len();
         let locks: Vec<_> = (0..n).map(|i| scene.locked(i).map(position)).collect();
@@ -161,7 +161,7 @@ impl Setup {
     ///
     /// # Errors
     /// There is no such link.
-    pub fn taking_bodies(self, links: &[usize], keeps_zeros: bool) -> Result<Setup, Complaint> {
+    pub fn taking_bodies(self, links: &[usize], keeps_zeros: bool) -> Result<Setup, Diagnostic> {
         if !self.has(RuntimeParameter::Bodies) {
             return Ok(self);
         }
@@ -173,7 +173,7 @@ impl Setup {
         Ok(setup)
     }
 
-    fn of_links(self, links: &[usize]) -> Result<Setup, Complaint> {
+    fn of_links(self, links: &[usize]) -> Result<Setup, Diagnostic> {
         if links.is_empty() {
             return Ok(self);
         }
@@ -188,10 +188,10 @@ impl Setup {
                     let first = usize::from(self.robot.floating.is_none());
                     let message = format!("bodies: there is no link {link}");
                     let last = self.robot.rows().len();
-                    Complaint::new(message, format!("links are {first} to {last}"))
+                    Diagnostic::error(message).with_help(format!("links are {first} to {last}"))
                 })
             })
-            .collect::<Result<Vec<usize>, Complaint>>()?;
+            .collect::<Result<Vec<usize>, Diagnostic>>()?;
         bodies.sort_unstable();
         bodies.dedup();
         Ok(Setup { bodies, ..self })
@@ -416,7 +416,7 @@ impl Setup {
     ///
     /// # Errors
     /// Why there are none that could be written down.
-    pub fn base(&self, quantity: Quantity) -> Result<&BaseParameters, &Complaint> {
+    pub fn base(&self, quantity: Quantity) -> Result<&BaseParameters, &Diagnostic> {
         // Nothing at a frame is over base parameters.
         let place = quantity.index().unwrap_or_default();
         let base = self.base[place].get_or_init(|| BaseParameters::find(self, quantity));
@@ -427,10 +427,10 @@ impl Setup {
     ///
     /// # Errors
     /// As of [`Setup::base`].
-    pub fn base_of(&self, function: Function) -> Result<Option<&BaseParameters>, &Complaint> {
+    pub fn base_of(&self, function: Function) -> Result<Option<&BaseParameters>, &Diagnostic> {
         match function.columns() {
-            Columns::Base(quantity) => self.base(quantity).map(Some),
-            Columns::Links | Columns::None => Ok(None),
+            RegressorColumns::Base(quantity) => self.base(quantity).map(Some),
+            RegressorColumns::Links | RegressorColumns::None => Ok(None),
         }
     }
 
@@ -446,7 +446,7 @@ impl Setup {
         mut constant: impl FnMut(&Exact) -> S,
     ) -> Vec<Column<S>> {
         let columns = match function.columns() {
-            Columns::Links => of_links(&self.arm(Exact::clone)),
+            RegressorColumns::Links => of_links(&self.arm(Exact::clone)),
             _ => match self.base_of(function) {
                 Ok(Some(base)) => base.columns.clone(),
                 Ok(None) | Err(_) => Vec::new(),
@@ -477,7 +477,6 @@ impl Setup {
             .collect()
     }
 
-    /// Returns the row of the arm that a coordinate is of.
     fn arm_row(&self, coordinate: usize) -> usize {
         match self.robot.joint_of(coordinate) {
             None => coordinate,

@@ -174,7 +174,6 @@ impl Setup {
         self.bodies.iter().enumerate().map(body).collect()
     }
 
-    /// Returns the payload in the frame of the last row, if it is an argument.
     fn given_payload<S: Scalar>(
         &self,
         input: impl FnMut(Input) -> S,
@@ -204,8 +203,8 @@ impl Setup {
         arguments.flat_map(move |argument| (0..rows).map(move |row| (argument, row)))
     }
 
-    /// Returns the robot file's numbers in the place of an argument of `load`: bodies in the frames of
-    /// its links.
+    /// Returns the values that the robot file has for a parameter that `load` takes, rounded: bodies
+    /// are in the frames of their links.
     pub(crate) fn defaults(&self, parameter: RuntimeParameter, scalar: ScalarType) -> Vec<Literal> {
         let values = self.exact_defaults(parameter);
         let literal = |value: &Exact| match is_nothing(value) {
@@ -215,7 +214,7 @@ impl Setup {
         values.iter().map(literal).collect()
     }
 
-    /// Returns the robot file's numbers in the place of an argument of `load`, as doubles.
+    /// Returns the values that the robot file has for a parameter that `load` takes, as doubles.
     pub fn file_values(&self, parameter: RuntimeParameter) -> Vec<f64> {
         let values = self.defaults(parameter, ScalarType::F64);
         values.into_iter().map(|Literal(value)| value).collect()

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use super::forms::{Centre, Form};
 use super::proof::{Errors, prove};
-use super::series::Fit;
+use super::series::MinimaxFit;
 use crate::program::ScalarType;
 use crate::program::kernel::{Kernel, SinCosUse};
 use crate::sincos::interval::Interval;
 use crate::sincos::reduction;
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Choice {
+pub struct KernelChoice {
     pub form: Form,
     pub kernel: Kernel,
     pub errors: Errors,
@@ -34,7 +34,7 @@ pub struct Candidates {
     need: SinCosUse,
     scalar: ScalarType,
     range: Interval,
-    fits: Vec<Fit>,
+    fits: Vec<MinimaxFit>,
     /// Operations, estimated error, form, and which fit it takes.
     forms: Vec<(usize, f64, Form, usize)>,
 }
@@ -79,7 +79,7 @@ impl Candidates {
             Centre::At(x) => (0, x, 1, [1, 1]),
         };
         for halvings in 0..=most {
-            let Some(fit) = Fit::new(offset, radius, halvings as i32) else {
+            let Some(fit) = MinimaxFit::new(offset, radius, halvings as i32) else {
                 continue;
             };
             let mut best: BTreeMap<usize, (f64, Form)> = BTreeMap::new();
@@ -112,17 +112,17 @@ impl Candidates {
 
     /// Returns each kernel that is more accurate than all cheaper ones, from cheap to dear, until
     /// one errs no more than `enough`. Those that are thought to err more than `most` are left out.
-    pub fn front(&self, most: f64, enough: f64) -> Vec<Choice> {
+    pub fn front(&self, most: f64, enough: f64) -> Vec<KernelChoice> {
         // Far below what rounding costs, degrees bring nothing.
         let floor = self.scalar.unit_roundoff() / 16.0;
-        let mut front: Vec<Choice> = Vec::new();
+        let mut front: Vec<KernelChoice> = Vec::new();
         let mut least = f64::INFINITY;
         for &(cost, estimate, form, fit) in &self.forms {
             let idle = estimate < floor && least < 8.0 * floor;
             if estimate * HOPE > most || estimate * HOPE >= least || idle {
                 continue;
             }
-            let dearer = |c: &Choice| c.kernel.operations() < cost;
+            let dearer = |c: &KernelChoice| c.kernel.operations() < cost;
             if least <= enough && front.last().is_some_and(dearer) {
                 break;
             }
@@ -132,11 +132,11 @@ impl Candidates {
             };
             if errors.worst() < least {
                 least = errors.worst();
-                let same = |c: &Choice| c.kernel.operations() == kernel.operations();
+                let same = |c: &KernelChoice| c.kernel.operations() == kernel.operations();
                 if front.last().is_some_and(same) {
                     front.pop();
                 }
-                front.push(Choice {
+                front.push(KernelChoice {
                     form,
                     kernel,
                     errors,
@@ -147,8 +147,8 @@ impl Candidates {
     }
 
     /// Returns the cheapest kernel that errs no more than `enough`, else the most accurate one.
-    pub fn cheapest(&self, enough: f64) -> Option<Choice> {
-        let fit = |choice: &Choice| choice.errors.worst() <= enough;
+    pub fn cheapest(&self, enough: f64) -> Option<KernelChoice> {
+        let fit = |choice: &KernelChoice| choice.errors.worst() <= enough;
         let choice = self.front(enough, enough).pop().filter(fit);
         choice.or_else(|| self.front(f64::INFINITY, 0.0).pop())
     }

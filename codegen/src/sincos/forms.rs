@@ -17,7 +17,7 @@ use num_bigint::BigInt;
 use num_traits::One;
 
 use super::reduction;
-use super::series::{Fit, Wave};
+use super::series::{MinimaxFit, Wave};
 use crate::dag::{Edge, Node};
 use crate::program::kernel::{Kernel, KernelWriter, SinCosUse};
 use crate::program::{Literal, Operation, ScalarType};
@@ -63,7 +63,7 @@ impl fmt::Display for Form {
 impl Form {
     /// Returns its kernel; `fit` is of the form's centre and halvings. Without a fit
     /// every coefficient is one: the kernel has the right number of operations.
-    pub fn kernel(&self, fit: Option<&Fit>, need: SinCosUse, scalar: ScalarType) -> Kernel {
+    pub fn kernel(&self, fit: Option<&MinimaxFit>, need: SinCosUse, scalar: ScalarType) -> Kernel {
         let mut kernel = KernelWriter::default();
         let rest = match self.reduced {
             true => reduction::write(&mut kernel, reduction::constants(scalar), scalar),
@@ -120,7 +120,7 @@ impl Form {
     }
 
     /// Estimates the error of the form: the fits' errors through the doublings.
-    pub fn estimate(&self, fit: &Fit, need: SinCosUse) -> f64 {
+    pub fn estimate(&self, fit: &MinimaxFit, need: SinCosUse) -> f64 {
         let [mut s, mut c] = [
             fit.tail(Wave::Sin, self.degrees[0]),
             fit.tail(Wave::Cos, self.degrees[1]),

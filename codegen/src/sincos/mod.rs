@@ -48,12 +48,11 @@ impl SinCos {
     /// The error of polynomials for which none is given, where it can be had.
     pub const ERROR: f64 = 1e-6;
 
-    /// Returns the library of what is called, where `auto` is this one.
-    pub fn library(self, auto: Library) -> Library {
+    /// Returns the library whose sines are called, if any are.
+    pub fn library(self) -> Library {
         match self {
-            SinCos::Auto => auto,
             SinCos::Together => Library::Together,
-            SinCos::Libm | SinCos::Polynomial => Library::Libm,
+            SinCos::Auto | SinCos::Libm | SinCos::Polynomial => Library::Libm,
         }
     }
 }
@@ -72,7 +71,7 @@ pub struct AngleKernel {
 
 /// The code of a program's angles, one each, in the order of
 /// [`Program::trig`]; none if they are a library's.
-pub type Sines = Vec<AngleKernel>;
+pub(crate) type Sines = Vec<AngleKernel>;
 
 /// Returns the largest |q| for which the polynomials of a joint without limits hold.
 pub fn stated(scalar: ScalarType) -> f64 {

@@ -65,22 +65,22 @@ impl Taylor {
 
 /// The Chebyshev series of sin and cos of (centre + x/2^halvings) for |x| up to a radius.
 #[derive(Clone, Debug)]
-pub struct Fit {
+pub struct MinimaxFit {
     waves: [Poly; 2],
     factorial: BigInt,
     radius: f64,
 }
 
-impl Fit {
+impl MinimaxFit {
     /// Returns `None` beyond [`FARTHEST`].
-    pub fn new(centre: f64, radius: f64, halvings: i32) -> Option<Fit> {
+    pub fn new(centre: f64, radius: f64, halvings: i32) -> Option<MinimaxFit> {
         let radius = coarse(radius);
         let scaled = radius * libm::exp2(-f64::from(halvings));
         let taylor = Taylor::up_to(centre.abs() + scaled)?;
         let slope = Poly::variable().mul(&Poly::constant(scaled)?);
         let inner = Poly::constant(centre)?.add(&slope);
         let series = |wave: &Poly| wave.compose(&inner).chebyshev();
-        Some(Fit {
+        Some(MinimaxFit {
             waves: taylor.waves.each_ref().map(series),
             factorial: taylor.factorial,
             radius,
@@ -145,7 +145,7 @@ mod tests {
     #[test]
     fn a_fit_errs_as_much_as_its_tail() {
         let (centre, radius) = (0.75, 1.5);
-        let fit = Fit::new(centre, radius, 1).unwrap();
+        let fit = MinimaxFit::new(centre, radius, 1).unwrap();
         let one = Rational::one();
         for degree in 3..9 {
             let c = fit.coefficients(Wave::Cos, degree, &one, ScalarType::F64);

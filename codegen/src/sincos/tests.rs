@@ -1,6 +1,6 @@
 //! Kernels against libm, and their proofs against samples.
 
-use super::choose::{Candidates, Choice};
+use super::choose::{Candidates, KernelChoice};
 use super::proof::prove;
 use super::*;
 use crate::dag::{Edge, Id, Node};
@@ -46,7 +46,7 @@ fn range(low: f64, high: f64) -> Interval {
     Interval::new(low, high).unwrap()
 }
 
-fn cheapest(need: SinCosUse, scalar: ScalarType, over: Interval, error: f64) -> Choice {
+fn cheapest(need: SinCosUse, scalar: ScalarType, over: Interval, error: f64) -> KernelChoice {
     let choice = Candidates::new(need, scalar, over).cheapest(error);
     choice.filter(|c| c.errors.worst() <= error).unwrap()
 }

@@ -2,8 +2,10 @@
 //! fill in, and that every stage of a generation reads.
 //!
 //! - this file: [`Job`]
+//! - `error`: the reasons for which nothing is generated
 //! - `request`: what somebody wants of a robot; [`options`]: the table of its options
 
+mod error;
 pub(crate) mod options;
 mod request;
 
@@ -12,6 +14,7 @@ use dalembert_model::scene::Tolerance;
 
 use crate::program::Program;
 use crate::setup::Setup;
+pub use error::{GenerateError, Miss};
 pub use request::{Prefer, Request};
 
 /// A request for a robot in its scene.
@@ -19,7 +22,7 @@ pub use request::{Prefer, Request};
 pub struct Job<'a> {
     /// The robot as its file has it.
     pub robot: &'a Robot,
-    /// The robot in the request's scene, by [`Request::setup`].
+    /// The robot in the request's scene, by [`Request::prepare`].
     pub setup: &'a Setup,
     /// The functions and their options.
     pub request: &'a Request,

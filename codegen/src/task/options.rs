@@ -2,10 +2,8 @@
 //! first lines of a generated file give the same text (`Asked`), and a mistake names the option and
 //! the item.
 
-use std::fmt;
-
+use dalembert_model::diagnostic::{Diagnostic, Diagnostics, Place};
 use dalembert_model::outputs::RuntimeParameter;
-use dalembert_model::read::for_bundle;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 use dalembert_stamp::Asked;
@@ -15,7 +13,7 @@ use crate::function::Function;
 use crate::limbs::LimbLayout;
 use crate::program::ScalarType;
 use crate::sincos::SinCos;
-use crate::words::{Complaint, Word, complaint, parse};
+use crate::words::{Word, parse};
 
 /// An option of a request.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +28,7 @@ pub struct OptionRow {
     pub words: fn() -> Vec<&'static str>,
     /// `true` if it takes several items.
     pub is_list: bool,
-    set: fn(&mut Draft, &str) -> Result<(), Complaint>,
+    set: fn(&mut Draft, &str) -> Result<(), Diagnostic>,
 }
 
 /// The purpose of an option.
@@ -43,25 +41,6 @@ pub enum Purpose {
     /// It chooses the form of the printed code.
     Code,
 }
-
-/// A mistake in what was asked: the option, the item, what is wrong and the likely fix.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Problem {
-    /// The option.
-    pub option: &'static str,
-    /// The item of its value; empty where it is about the option as a whole.
-    pub item: String,
-    /// The mistake and the likely fix.
-    pub complaint: Complaint,
-}
-
-impl fmt::Display for Problem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.option, self.complaint)
-    }
-}
-
-impl std::error::Error for Problem {}
 
 #[derive(Default)]
 struct Draft {
@@ -76,47 +55,45 @@ fn add<T>(
     item: T,
     is_same: impl Fn(&T, &T) -> bool,
     text: &str,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     if list.iter().any(|other| is_same(other, &item)) {
-        return Err(complaint(format!("`{text}` is given twice")));
+        return Err(Diagnostic::error(format!("`{text}` is given twice")));
     }
     list.push(item);
     Ok(())
 }
 
-fn output(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
+fn output(draft: &mut Draft, item: &str) -> Result<(), Diagnostic> {
     let outputs = draft.outputs.get_or_insert_default();
-    let function = Function::parse(item).map_err(|error| {
-        let error = error.among(outputs);
-        Complaint::new(error.message.as_str(), for_bundle(&error))
-    })?;
+    let function = Function::parse_among(item, outputs)?;
     let name = function.name();
     add(outputs, function, |a, b| a.is_namesake(*b), name)
 }
 
-fn find<'s>(scenes: &'s [Scene], name: &str) -> Result<&'s Scene, Complaint> {
+fn find<'s>(scenes: &'s [Scene], name: &str) -> Result<&'s Scene, Diagnostic> {
     let scene = scenes.iter().find(|scene| scene.name == name);
     scene.ok_or_else(|| {
         let known: Vec<&str> = scenes.iter().map(|scene| scene.name.as_str()).collect();
         let message = format!("the robot has no scene `{name}`");
         let none = format!("its file has none: add a table [scene.{name}]");
-        Complaint::unknown(message, name, &known, &none)
+        Diagnostic::unknown(message, name, &known, &none)
     })
 }
 
-fn sincos_error(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
+fn sincos_error(draft: &mut Draft, item: &str) -> Result<(), Diagnostic> {
     let error = item.replace('_', "").parse::<f64>().ok();
     let error = error.filter(|error| *error > 0.0 && *error < 1.0);
-    let wrong = || Complaint::new("expected an error above 0 and below 1", "such as 1e-9");
+    let wrong =
+        || Diagnostic::error("expected an error above 0 and below 1").with_help("such as 1e-9");
     draft.request.sincos_error = Some(error.ok_or_else(wrong)?);
     Ok(())
 }
 
-fn name(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
+fn name(draft: &mut Draft, item: &str) -> Result<(), Diagnostic> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
     if !item.starts_with(|c: char| c.is_ascii_alphabetic()) || !item.chars().all(plain) {
         let help = "letters, digits and `_`, a letter first";
-        return Err(Complaint::new(format!("`{item}` is not a name"), help));
+        return Err(Diagnostic::error(format!("`{item}` is not a name")).with_help(help));
     }
     draft.request.module = Some(item.to_owned());
     Ok(())
@@ -251,7 +228,8 @@ pub static OPTIONS: [OptionRow; 16] = [
         set: |draft, item| {
             let is_number = item.chars().all(|c| c.is_ascii_digit());
             let link = item.parse::<usize>().ok().filter(|_| is_number);
-            let why = || Complaint::new("expected the number of a link", "bodies: 2, 5");
+            let why =
+                || Diagnostic::error("expected the number of a link").with_help("bodies: 2, 5");
             let link = link.ok_or_else(why)?;
             add(&mut draft.request.bodies, link, PartialEq::eq, item)
         },
@@ -276,7 +254,7 @@ pub static OPTIONS: [OptionRow; 16] = [
             let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
             if !item.chars().all(is_word) {
                 let help = "scene: pick; of the robot file's [scene.pick]";
-                return Err(Complaint::new("expected the name of a scene", help));
+                return Err(Diagnostic::error("expected the name of a scene").with_help(help));
             }
             draft.scene = Some(item.to_owned());
             Ok(())
@@ -315,16 +293,12 @@ impl Request {
         robot: &Robot,
         outputs: &[Function],
         scenes: &[Scene],
-    ) -> Result<Request, Vec<Problem>> {
+    ) -> Result<Request, Diagnostics> {
         let mut draft = Draft::default();
         draft.request.scalars = scalars.to_vec();
         let mut problems = Vec::new();
-        let mut report = |option, item: &str, complaint| {
-            problems.push(Problem {
-                option,
-                item: item.to_owned(),
-                complaint,
-            });
+        let mut report = |option, item: &str, problem: Diagnostic| {
+            problems.push(problem.at(Place::Option(option, item.to_owned())));
         };
         for row in &OPTIONS {
             let items = asked.items(row.name);
@@ -334,7 +308,7 @@ impl Request {
             };
             for (index, item) in items.iter().enumerate() {
                 let wrong = match index > 0 && !row.is_list {
-                    true => Err(complaint("expected one word only")),
+                    true => Err(Diagnostic::error("expected one word only")),
                     false => (row.set)(&mut draft, item),
                 };
                 if let Err(wrong) = wrong {
@@ -353,7 +327,7 @@ impl Request {
         {
             let help = "add `parameters: bodies`, or leave this out";
             let message = "it is about bodies that are arguments, and none are";
-            report(option, "", Complaint::new(message, help));
+            report(option, "", Diagnostic::error(message).with_help(help));
         }
         let scene = draft.scene.as_deref().map(|name| find(scenes, name));
         let scene = scene.transpose().unwrap_or_else(|error| {
@@ -364,10 +338,14 @@ impl Request {
         if has_error && draft.request.sincos != SinCos::Polynomial {
             let message = "only polynomials have an error to choose";
             let help = "add `sincos: polynomial`, or leave this out";
-            report("sincos_error", "", Complaint::new(message, help));
+            report(
+                "sincos_error",
+                "",
+                Diagnostic::error(message).with_help(help),
+            );
         }
         if !problems.is_empty() {
-            return Err(problems);
+            return Err(Diagnostics(problems));
         }
         let request = draft.request.for_file(robot, outputs);
         Ok(request.choose(draft.outputs, draft.scalars, scene))
@@ -419,13 +397,13 @@ impl Request {
 mod tests {
     use super::*;
 
-    fn parse(asked: &Asked, scalars: &[ScalarType]) -> Result<Request, Vec<Problem>> {
+    fn parse(asked: &Asked, scalars: &[ScalarType]) -> Result<Request, Diagnostics> {
         let source = include_str!("../../../generated/robots/planar2r.toml");
         let robot = dalembert_model::read::parse(source).unwrap().robot;
         Request::parse(asked, scalars, &robot, &[], &[])
     }
 
-    fn read(text: &str) -> Result<Request, Vec<Problem>> {
+    fn read(text: &str) -> Result<Request, Diagnostics> {
         parse(&text.parse().unwrap(), &ScalarType::ALL)
     }
 
@@ -454,11 +432,9 @@ mod tests {
             requests.dedup();
             assert_eq!(requests.len(), words.len(), "{}", row.name);
             let problems = read(&format!("{}: non?sense", row.name)).unwrap_err();
-            assert_eq!(problems.len(), 1, "{problems:?}");
-            assert_eq!(
-                (problems[0].option, &*problems[0].item),
-                (row.name, "non?sense")
-            );
+            assert_eq!(problems.0.len(), 1, "{problems:?}");
+            let place = Place::Option(row.name, "non?sense".to_owned());
+            assert_eq!(problems.0[0].place, place);
         }
     }
 
@@ -467,7 +443,7 @@ mod tests {
         let text = "outputs: gravty, gravity, gravity, hold = inertia + gravty; scalar: double; \
                     fma: on, off; sincos_error: 1e-9; parameters: paylod";
         let problems = read(text).unwrap_err();
-        let said: Vec<String> = problems.iter().map(Problem::to_string).collect();
+        let said: Vec<String> = problems.0.iter().map(Diagnostic::to_string).collect();
         assert_eq!(
             said,
             [
@@ -480,11 +456,12 @@ mod tests {
                 "sincos_error: only polynomials have an error to choose: add `sincos: polynomial`, or leave this out",
             ]
         );
-        assert_eq!(problems[2].item, "hold=inertia+gravty");
+        let place = Place::Option("outputs", "hold=inertia+gravty".to_owned());
+        assert_eq!(problems.0[2].place, place);
         let nested =
             read("outputs: hold = inertia + gravity, servo = hold + jacobian").unwrap_err();
         assert!(
-            nested[0].to_string().contains("`hold` is a bundle itself"),
+            nested.to_string().contains("`hold` is a bundle itself"),
             "{nested:?}"
         );
     }

@@ -1,20 +1,21 @@
 //! A request: the functions to generate, and the options.
 
+use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::outputs::{PayloadDependence, RuntimeParameter};
 use dalembert_model::robot::Robot;
-use dalembert_model::scene::{Float, Scene};
+use dalembert_model::scene::{Scene, SceneScalar};
 
 use crate::function::Function;
 use crate::language::Language;
 use crate::limbs::LimbLayout;
 use crate::plan::Plan;
-use crate::program::{Library, ScalarType};
+use crate::program::ScalarType;
 use crate::search::Effort;
 use crate::seeds::{Start, load};
 use crate::setup::Setup;
 use crate::sincos::SinCos;
 use crate::watch::Watch;
-use crate::words::{Complaint, words};
+use crate::words::words;
 
 /// Some minutes where nothing is optimised.
 const WORK_WHILE_COMPILING: u64 = 400_000_000;
@@ -32,7 +33,19 @@ words! {
     }
 }
 
-/// A request for code.
+/// A request for code: the functions, and the options that say how they are searched for and
+/// printed.
+///
+/// ```
+/// use dalembert_codegen::{Effort, Function, Language, Request};
+///
+/// let request = Request {
+///     language: Language::C,
+///     effort: Effort::Thorough,
+///     ..Request::new(&[Function::InverseDynamics, Function::Gravity])
+/// };
+/// assert!(request.asked().to_string().starts_with("outputs: inverse_dynamics, gravity"));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Request {
     /// The functions, in any order; duplicates count once.
@@ -56,8 +69,6 @@ pub struct Request {
     /// is [`SinCos::ERROR`], or the least error of two digits that each scalar can have. A scene's
     /// tolerance says it by itself.
     pub sincos_error: Option<f64>,
-    /// The library whose sines are called where `sincos` leaves the choice open.
-    pub auto: Library,
     /// `true` for functions of any number of states beside those of one.
     pub batch: bool,
     /// The language of the code.
@@ -106,7 +117,6 @@ impl Default for Request {
             limbs: LimbLayout::default(),
             sincos: SinCos::default(),
             sincos_error: None,
-            auto: Library::default(),
             batch: false,
             language: Language::default(),
             plan: None,
@@ -134,11 +144,6 @@ impl Request {
         }
     }
 
-    /// Returns the library whose sines are called, if any are.
-    pub fn library(&self) -> Library {
-        self.sincos.library(self.auto)
-    }
-
     /// Returns the units of [`work`](Request::work) of the ways in that keep a compiler waiting,
     /// `dynamics!` and build scripts; no limit for who asks for a thorough search there.
     pub fn work_while_compiling(effort: Effort) -> Option<u64> {
@@ -148,11 +153,12 @@ impl Request {
         }
     }
 
-    /// Returns the robot in the scene, where functions take the parameters.
+    /// Puts the robot into the scene, where functions take the parameters. If they take a load, this
+    /// searches for the regrouping that its numbers are of, which takes seconds.
     ///
     /// # Errors
     /// The scene is none of this robot, or a function needs mass and no link has any.
-    pub fn setup(&self, robot: &Robot) -> Result<Setup, Complaint> {
+    pub fn prepare(&self, robot: &Robot) -> Result<Setup, Diagnostic> {
         let setup = Setup::in_scene(robot, self.scene.as_ref())?
             .taking(&self.parameters)
             .taking_bodies(&self.bodies, self.keeps_zeros)?;
@@ -161,7 +167,7 @@ impl Request {
                            branch";
             let help =
                 "give it to a link in a scene: payload = { link = \"left_hand\", mass = 2.5, … }";
-            return Err(Complaint::new(message, help));
+            return Err(Diagnostic::error(message).with_help(help));
         }
         if !setup.robot().has_mass() && !setup.has_load() {
             // A function that no payload changes is kinematics, or over any parameters.
@@ -174,7 +180,7 @@ impl Request {
                 );
                 let help = "give each link its `mass`, `com` and `inertia`, in a URDF an <inertial>; outputs such \
                             as `jacobian` need none";
-                return Err(Complaint::new(message, help));
+                return Err(Diagnostic::error(message).with_help(help));
             }
         }
         Ok(load::chosen(setup))
@@ -206,8 +212,8 @@ impl Request {
                 self.functions = scene.outputs.clone();
             }
             match of_scene {
-                Some(Float::F64) => self.scalars = vec![ScalarType::F64],
-                Some(Float::F32) => self.scalars = vec![ScalarType::F32],
+                Some(SceneScalar::F64) => self.scalars = vec![ScalarType::F64],
+                Some(SceneScalar::F32) => self.scalars = vec![ScalarType::F32],
                 None => {}
             }
             if self.is_scalar_open && scene.tolerance.is_some() {

@@ -4,10 +4,12 @@
 //! The text runs in its scalar, polynomials for sines and all. Doubles of the exact program say where
 //! errors are large; how large they are there is found in 256 bits, so a violation is one.
 
+use dalembert_checker::Fault;
+
 use super::input_box::InputBox;
 use super::sample::climb;
 use super::variant::Variant;
-use crate::language::read::{Signature, TextError};
+use crate::language::read::Signature;
 use crate::program::{Code, ScalarType};
 use crate::random::Random;
 use crate::setup::Setup;
@@ -44,9 +46,9 @@ pub fn attempt(
     samples: usize,
     climbs: usize,
     seed: u64,
-) -> Result<Attempt, TextError> {
+) -> Result<Attempt, Fault> {
     let signature = Signature::of(&variant.emitted, variant.scalar);
-    let run = Run {
+    let run = VariantCode {
         variant,
         emitted: Code::parse(&variant.text, &signature)?,
         exact: variant.exact.in_doubles(),
@@ -114,18 +116,17 @@ pub fn attempt(
     Ok(attempt)
 }
 
-struct Run<'v> {
+struct VariantCode<'v> {
     variant: &'v Variant,
     emitted: Code,
     exact: Code,
 }
 
-impl Run<'_> {
+impl VariantCode<'_> {
     fn error(&self, output: usize, state: &JointState) -> f64 {
         self.errors(std::slice::from_ref(state))[output][0]
     }
 
-    /// Returns about how far the results are off, a column a result.
     fn errors(&self, states: &[JointState]) -> Vec<Vec<f64>> {
         let Variant { scalar, limits, .. } = self.variant;
         let states: Vec<JointState> = states.iter().map(|s| held(s, *scalar, limits)).collect();

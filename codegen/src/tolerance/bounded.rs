@@ -3,13 +3,13 @@
 
 use dalembert_checker::Fault;
 use dalembert_checker::certify::{Demand, certify};
+use dalembert_model::diagnostic::Diagnostic;
 
 use super::claim::claim_in;
 use super::reference::source;
-use super::refusals::above;
+use super::refusals::not_shown;
 use super::variant::Variant;
 use crate::setup::Setup;
-use crate::words::Complaint;
 
 /// Returns the variant with T and the bounds that the checker finds. A `tolerance` takes the place of
 /// the scene's.
@@ -20,7 +20,7 @@ pub(super) fn bounded(
     setup: &Setup,
     variant: &Variant,
     tolerance: Option<f64>,
-) -> Result<Variant, Complaint> {
+) -> Result<Variant, Diagnostic> {
     let (source, scene) = source(setup);
     let claim = claim_in(setup.robot(), &source, setup, scene.as_ref(), variant).write();
     let demand = Demand {
@@ -40,7 +40,7 @@ pub(super) fn bounded(
             let none = || Fault::Claim("the function is not in the file".into());
             Ok(entry.ok_or_else(none)?.0)
         })
-        .map_err(|fault| above(variant, &fault))?;
+        .map_err(|fault| not_shown(variant, &fault))?;
     Ok(Variant {
         bounds: findings
             .results

@@ -4,14 +4,15 @@
 //! bounds what comes out, text and all, and only that decides: what it refuses gives way to the next
 //! candidate, and in the end nothing is left out.
 
+use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::scene::{Scale, Tolerance};
 
 use super::bounded::bounded;
 use super::definite;
 use super::input_box::InputBox;
 use super::overflow::overflows;
-use super::reference::Reference;
-use super::refusals::{ToleranceError, unbounded_by};
+use super::reference::Engine;
+use super::refusals::unbounded_by;
 use super::search::{self, SearchEffort, Target};
 use super::sines::{self, Slopes};
 use super::variant::{Variant, VariantSet};
@@ -23,8 +24,8 @@ use crate::setup::Setup;
 use crate::sincos::AngleKernel;
 use crate::sincos::interval::Interval;
 use crate::states::JointState;
+use crate::task::{GenerateError, Miss};
 use crate::watch::{FunctionWatch, Part};
-use crate::words::{Complaint, complaint};
 
 /// Rounding of the exact program is set aside so many times: the variant is another program.
 const ASIDE: f64 = 2.0;
@@ -52,7 +53,7 @@ pub struct Budget<'a> {
     reached: Vec<JointState>,
     /// The function that makes the load, where a payload is an argument of this one.
     load: Option<&'a Program>,
-    reference: Reference,
+    reference: Engine,
     library: Library,
     is_fused: bool,
 }
@@ -69,26 +70,26 @@ impl<'a> Budget<'a> {
     /// that is an argument.
     ///
     /// # Errors
-    /// [`ToleranceError::Refused`]: a function without bounds, a limit that is missing, or actuators
+    /// [`Miss::Refused`]: a function without bounds, a limit that is missing, or actuators
     /// that are no measure of it.
     pub fn new(
         setup: &'a Setup,
         exact: &'a Program,
         load: Option<&'a Program>,
         relative_to: Scale,
-    ) -> Result<Budget<'a>, ToleranceError> {
-        unbounded_by(exact).map_or(Ok(()), |why| Err(ToleranceError::Refused(why)))?;
-        let mut limits =
-            InputBox::within(setup, exact.function).map_err(ToleranceError::Refused)?;
+    ) -> Result<Budget<'a>, GenerateError> {
+        let refused = |why| GenerateError::Tolerance(exact.function, Miss::Refused, why);
+        unbounded_by(exact).map_or(Ok(()), |why| Err(refused(why)))?;
+        let mut limits = InputBox::within(setup, exact.function).map_err(refused)?;
         let load = load.filter(|_| exact.arguments.contains(&Argument::Load));
-        let reference = Reference::new(setup, exact, load).map_err(ToleranceError::Refused)?;
+        let reference = Engine::new(setup, exact, load).map_err(refused)?;
         let ranges = reference.domain().load().iter();
         let range = ranges.map(|ends| Interval::new(ends[0], ends[1]).unwrap_or(Interval::ALL));
         limits.load = range.collect();
         let (scales, reached) = match relative_to {
             Scale::Actuator => {
                 let scales = scale::actuator(setup.robot(), exact);
-                (scales.map_err(ToleranceError::Refused)?, Vec::new())
+                (scales.map_err(refused)?, Vec::new())
             }
             Scale::Range => scale::range(exact, load, &limits).into_iter().unzip(),
         };
@@ -132,21 +133,25 @@ impl<'a> Budget<'a> {
         }
     }
 
-    fn definite(&self) -> Result<(), ToleranceError> {
+    fn missed(&self, miss: Miss, why: Diagnostic) -> GenerateError {
+        GenerateError::Tolerance(self.exact.function, miss, why)
+    }
+
+    fn definite(&self) -> Result<(), GenerateError> {
         let none = vec![0.0; self.scales.len()];
         if self.reference.is_definite(self.exact, &[], None, &none) {
             return Ok(());
         }
-        let why = definite::complaint_about(self.exact, &self.limits);
-        let why = complaint(format!("the full model: {why}"));
-        Err(ToleranceError::Indefinite(why))
+        let why = definite::indefinite(self.exact, &self.limits);
+        let why = Diagnostic::error(format!("the full model: {why}"));
+        Err(self.missed(Miss::Indefinite, why))
     }
 
     /// Returns a program as it is printed in a scalar, with the bounds that the checker finds.
     ///
     /// # Errors
-    /// [`ToleranceError::Above`] if the checker does not show that every result is within its
-    /// tolerance; [`ToleranceError::Overflow`]; [`ToleranceError::Indefinite`] if its D, if it has one,
+    /// [`Miss::Above`] if the checker does not show that every result is within its
+    /// tolerance; [`Miss::Overflow`]; [`Miss::Indefinite`] if its D, if it has one,
     /// is not shown to be positive definite.
     pub fn shown(
         &self,
@@ -154,7 +159,7 @@ impl<'a> Budget<'a> {
         scalar: ScalarType,
         sines: &[AngleKernel],
         allowed: &Tolerances,
-    ) -> Result<Variant, ToleranceError> {
+    ) -> Result<Variant, GenerateError> {
         let emitted = match self.is_fused {
             true => program.fused(),
             false => program.clone(),
@@ -162,7 +167,7 @@ impl<'a> Budget<'a> {
         let wider = scalar.of("", ", or choose a wider scalar");
         // Bounds of rounding are of numbers that the scalar holds.
         if let Some(first) = overflows(&emitted, scalar, &self.limits).first() {
-            return Err(ToleranceError::Overflow(complaint(format!(
+            return Err(self.missed(Miss::Overflow, Diagnostic::error(format!(
                 "inside the box {first} in {scalar}, and no error is bounded of what overflows: \
                  bound the box, choose other units{wider}"
             ))));
@@ -188,15 +193,16 @@ impl<'a> Budget<'a> {
             scales: Vec::new(),
             bounds: Vec::new(),
         };
-        let variant =
-            bounded(self.setup, &draft.printed(), allowed.one).map_err(ToleranceError::Above)?;
+        let variant = bounded(self.setup, &draft.printed(), allowed.one)
+            .map_err(|why| self.missed(Miss::Above, why))?;
         let is_changed = variant.emitted != *self.exact || !sines.is_empty();
         if is_changed {
             let rounding = variant.in_units(|bound| bound.rounding);
             let (reference, errors) = (&self.reference, variant.errors());
             if !reference.is_definite(program, sines, Some(&rounding), &errors) {
-                let why = complaint("with its errors D cannot be shown to be positive definite");
-                return Err(ToleranceError::Indefinite(why));
+                let why =
+                    Diagnostic::error("with its errors D cannot be shown to be positive definite");
+                return Err(self.missed(Miss::Indefinite, why));
             }
         }
         Ok(variant)
@@ -211,7 +217,7 @@ impl<'a> Budget<'a> {
         program: &Program,
         scalars: &[ScalarType],
         allowed: &Tolerances,
-    ) -> Result<VariantSet, ToleranceError> {
+    ) -> Result<VariantSet, GenerateError> {
         let variants = scalars
             .iter()
             .map(|&scalar| self.shown(program, scalar, &[], allowed));
@@ -231,7 +237,7 @@ impl<'a> Budget<'a> {
         &self,
         scalars: &[ScalarType],
         allowed: &Tolerances,
-    ) -> Result<VariantSet, ToleranceError> {
+    ) -> Result<VariantSet, GenerateError> {
         self.definite()?;
         self.admitted(self.exact, scalars, allowed)
     }
@@ -239,13 +245,13 @@ impl<'a> Budget<'a> {
     /// Returns a plan's variant, as [`admitted`](Self::admitted): a plan is a text that anybody can edit.
     ///
     /// # Errors
-    /// A program that is not of the function, or reads what it may not; [`ToleranceError`].
+    /// A program that is not of the function, or reads what it may not; no variant meets the tolerance.
     pub(crate) fn planned(
         &self,
         program: &Program,
         scalars: &[ScalarType],
         allowed: &Tolerances,
-    ) -> Result<Result<VariantSet, ToleranceError>, Complaint> {
+    ) -> Result<Result<VariantSet, GenerateError>, Diagnostic> {
         shape::check(self.setup, program, self.exact)?;
         Ok(self.admitted(program, scalars, allowed))
     }
@@ -255,7 +261,7 @@ impl<'a> Budget<'a> {
     /// programs that others found for smaller tolerances: it is never dearer than they are.
     ///
     /// # Errors
-    /// [`ToleranceError::Refused`] beyond the work of the effort.
+    /// [`Miss::Refused`] beyond the work of the effort.
     pub fn choose(
         &self,
         from: &[Program],
@@ -263,7 +269,7 @@ impl<'a> Budget<'a> {
         allowed: &Tolerances,
         effort: &SearchEffort,
         watch: FunctionWatch<'_>,
-    ) -> Result<VariantSet, ToleranceError> {
+    ) -> Result<VariantSet, GenerateError> {
         let meter = Meter::new(effort.work);
         let scalars: Vec<ScalarType> = exact
             .variants
@@ -289,7 +295,7 @@ impl<'a> Budget<'a> {
         }
         if let Some(limit) = effort.work.filter(|_| meter.is_over()) {
             let scene = self.setup.scene().map_or("", |scene| &scene.name);
-            return Err(ToleranceError::Refused(complaint(format!(
+            return Err(self.missed(Miss::Refused, Diagnostic::error(format!(
                 "the search for a program within the tolerance was stopped: it takes too long for \
                  a compilation (more than {limit} units of work). Run `dalembert generate \
                  ROBOT.toml --scene {scene} --effort thorough --save-plan` once: macro and build \
@@ -314,7 +320,7 @@ impl<'a> Budget<'a> {
         program: &Program,
         variant: &Variant,
         allowed: &Tolerances,
-    ) -> Result<Variant, Complaint> {
+    ) -> Result<Variant, Diagnostic> {
         if program.trig().is_empty() {
             return Ok(variant.clone());
         }
@@ -334,7 +340,7 @@ impl<'a> Budget<'a> {
         let slopes = Slopes::new(program, &self.limits);
         let scalar = variant.scalar;
         let positions = self.limits.sine_positions(self.setup.robot(), scalar);
-        let mut last: Option<Complaint> = None;
+        let mut last: Option<Diagnostic> = None;
         for part in PARTS {
             let allowances: Vec<f64> = left.iter().map(|remainder| remainder * part).collect();
             let sines = sines::within(program, scalar, &positions, &allowances, &slopes);
@@ -344,13 +350,12 @@ impl<'a> Budget<'a> {
             };
             match self.shown(program, scalar, &sines, allowed) {
                 Ok(replacement) => return Ok(replacement),
-                Err(why) => last = Some(complaint(why.to_string())),
+                Err(why) => last = Some(Diagnostic::error(why.to_string())),
             }
         }
-        Err(last.unwrap_or_else(|| complaint("no part of the tolerance is left")))
+        Err(last.unwrap_or_else(|| Diagnostic::error("no part of the tolerance is left")))
     }
 
-    /// Returns the error in real numbers that each result may have, in its unit.
     fn allowances(&self, exact: &VariantSet, allowed: &Tolerances) -> Vec<f64> {
         let left = |index: usize| {
             let allowances = exact.variants.iter().map(|variant| {

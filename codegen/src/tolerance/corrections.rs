@@ -6,7 +6,7 @@
 
 use super::greedy::{Greedy, is_zero};
 use super::linear::{Factor, dot};
-use super::net::{Arg, State, Value};
+use super::net::{Arg, Edits, NodeValue};
 use crate::program::Operation;
 
 /// The rows of a sketch for ranking, which is also the least for corrections; and those for each
@@ -18,14 +18,14 @@ const INERTIA: f64 = 3.0;
 
 /// A constant that may change: of a step, or in a node's place.
 #[derive(Clone, Copy)]
-enum Place {
+enum ConstantPlace {
     Arg(usize, usize),
     Edit(usize),
 }
 
 /// A constant that may change: how it enters, and how much a change weighs by itself.
 pub(super) struct Unknown {
-    place: Place,
+    place: ConstantPlace,
     node: usize,
     sign: f64,
     other: Option<usize>,
@@ -68,15 +68,16 @@ impl Greedy<'_> {
         (SKETCH_EACH * unknowns).clamp(SKETCH, self.truth.len().max(SKETCH))
     }
 
-    /// Returns the constants that may change.
-    fn unknowns(&self, state: &State, live: &[bool]) -> Vec<Unknown> {
+    fn unknowns(&self, state: &Edits, live: &[bool]) -> Vec<Unknown> {
         let count = self.net.inputs.len();
         let of = |node: usize| {
             // A node's value, the sign of its derivative, and the node that it multiplies.
             let (place, constant, sign, other) = match state.edits[node] {
-                Some(Value::Constant(c)) if c != 0.0 => (Place::Edit(node), c, 1.0, None),
-                Some(Value::Times(c, other)) if c.abs() != 1.0 => {
-                    (Place::Edit(node), c, 1.0, Some(other))
+                Some(NodeValue::Constant(c)) if c != 0.0 => {
+                    (ConstantPlace::Edit(node), c, 1.0, None)
+                }
+                Some(NodeValue::Times(c, other)) if c.abs() != 1.0 => {
+                    (ConstantPlace::Edit(node), c, 1.0, Some(other))
                 }
                 Some(_) => return None,
                 None if node < count => return None,
@@ -90,7 +91,7 @@ impl Greedy<'_> {
                     let is_taken_off = op.operation == Operation::Sub && side == 1;
                     let sign = if is_taken_off { -1.0 } else { 1.0 };
                     let other = (op.operation == Operation::Mul).then_some(other);
-                    (Place::Arg(node - count, side), c, sign, other)
+                    (ConstantPlace::Arg(node - count, side), c, sign, other)
                 }
             };
             let inertia = INERTIA / constant.abs().max(1e-9);
@@ -110,7 +111,7 @@ impl Greedy<'_> {
     /// if they are asked for. Constants that change nothing leave the list.
     fn jacobian(
         &self,
-        state: &State,
+        state: &Edits,
         values: &[f64],
         unknowns: &mut Vec<Unknown>,
         mut kept: Option<&mut Vec<Vec<f64>>>,
@@ -143,7 +144,7 @@ impl Greedy<'_> {
         columns
     }
 
-    pub(super) fn frame(&self, state: &State, live: &[bool]) -> Frame {
+    pub(super) fn frame(&self, state: &Edits, live: &[bool]) -> Frame {
         let values = self.run(state);
         let errors = self.errors(&values);
         let (mut unknowns, mut adjoints) = (self.unknowns(state, live), Vec::new());
@@ -241,7 +242,7 @@ impl Greedy<'_> {
 
     /// Corrects constants so that the largest error is small: least squares again and again, weighed by
     /// the errors (Lawson), by exact gradients and sketched squares. Returns the largest error.
-    pub(super) fn polish(&self, state: &mut State, rounds: usize) -> f64 {
+    pub(super) fn polish(&self, state: &mut Edits, rounds: usize) -> f64 {
         let (mut live, block) = (Vec::new(), self.samples.block());
         self.net.price(state, &mut live);
         let mut best = (f64::INFINITY, state.clone());
@@ -300,16 +301,18 @@ fn normal(columns: &[Vec<f64>], unknowns: &[Unknown]) -> Factor {
     })
 }
 
-pub(super) fn change(state: &mut State, unknowns: &[Unknown], change: &[f64]) {
+pub(super) fn change(state: &mut Edits, unknowns: &[Unknown], change: &[f64]) {
     for (unknown, by) in unknowns.iter().zip(change) {
         match unknown.place {
-            Place::Arg(step, side) => {
+            ConstantPlace::Arg(step, side) => {
                 if let Arg::Constant(c) = &mut state.ops[step].args[side] {
                     *c -= by;
                 }
             }
-            Place::Edit(node) => {
-                if let Some(Value::Constant(c) | Value::Times(c, _)) = &mut state.edits[node] {
+            ConstantPlace::Edit(node) => {
+                if let Some(NodeValue::Constant(c) | NodeValue::Times(c, _)) =
+                    &mut state.edits[node]
+                {
                     *c -= by;
                 }
             }

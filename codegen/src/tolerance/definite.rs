@@ -5,6 +5,7 @@
 //! bound.
 
 use dalembert_checker::domain::Domain;
+use dalembert_model::diagnostic::Diagnostic;
 
 use super::input_box::InputBox;
 use super::reference;
@@ -13,7 +14,6 @@ use crate::random::Random;
 use crate::sincos::AngleKernel;
 use crate::sincos::interval::Interval;
 use crate::states::JointState;
-use crate::words::{Complaint, complaint};
 
 const SAMPLES: usize = 64;
 
@@ -73,8 +73,8 @@ pub(crate) fn is_definite(
 }
 
 /// Returns why D of an exact program is not positive definite, or cannot be shown to be.
-pub(super) fn complaint_about(program: &Program, limits: &InputBox) -> Complaint {
-    complaint(match negative(program, limits) {
+pub(super) fn indefinite(program: &Program, limits: &InputBox) -> Diagnostic {
+    Diagnostic::error(match negative(program, limits) {
         Some(row) => format!(
             "D is not positive definite: at some position of the box a motion of {} and \
              those after it has a negative kinetic energy, so a link that they move has an inertia \

@@ -10,7 +10,7 @@
 
 use super::corrections::{Frame, change};
 use super::linear::dot;
-use super::net::{Arg, Net, State, Value, short};
+use super::net::{Arg, Edits, Net, NodeValue, short};
 use super::samples::Samples;
 use crate::program::{Operation, Program};
 use crate::random::Random;
@@ -80,7 +80,7 @@ impl<'a> Greedy<'a> {
         self.buckets = self.truth.iter().map(|_| bucket()).collect();
     }
 
-    pub(super) fn run(&self, state: &State) -> Vec<f64> {
+    pub(super) fn run(&self, state: &Edits) -> Vec<f64> {
         self.net.run(state, &self.inputs, self.samples.len())
     }
 
@@ -104,7 +104,7 @@ impl<'a> Greedy<'a> {
         rows.iter_mut().for_each(|x| *x *= by);
     }
 
-    pub(super) fn worst(&self, state: &State) -> f64 {
+    pub(super) fn worst(&self, state: &Edits) -> f64 {
         let blocks = self.samples.blocks(&self.errors(&self.run(state)));
         blocks.into_iter().fold(0.0, f64::max)
     }
@@ -150,11 +150,11 @@ impl<'a> Greedy<'a> {
     fn rank(
         &self,
         frame: &Frame,
-        state: &mut State,
+        state: &mut Edits,
         paid: u32,
-        edits: &[(usize, Value)],
+        edits: &[(usize, NodeValue)],
         random: &mut Random,
-    ) -> Vec<(f64, usize, Value)> {
+    ) -> Vec<(f64, usize, NodeValue)> {
         let m = self.samples.len();
         let coarse = &frame.coarse;
         let base = self.sketch(&frame.errors, &frame.weights, coarse.size);
@@ -179,8 +179,8 @@ impl<'a> Greedy<'a> {
                 let pairs = adjoint.iter().zip(values);
                 part.clear();
                 match value {
-                    Value::Constant(c) => part.extend(pairs.map(|(a, x)| a * (c - x))),
-                    Value::Times(c, other) => {
+                    NodeValue::Constant(c) => part.extend(pairs.map(|(a, x)| a * (c - x))),
+                    NodeValue::Times(c, other) => {
                         let others = &frame.values[other * m..];
                         part.extend(pairs.zip(others).map(|((a, x), y)| a * (c * y - x)));
                     }
@@ -206,13 +206,13 @@ impl<'a> Greedy<'a> {
     /// way behind those that are there.
     pub(super) fn drop_all(
         &self,
-        history: &mut Vec<State>,
+        history: &mut Vec<Edits>,
         random: &mut Random,
         is_over: &dyn Fn() -> bool,
     ) {
         let mut state = history[history.len() - 1].clone();
-        let mut refused: Vec<(usize, Value)> = Vec::new();
-        let mut pool: Vec<(usize, Value)> = Vec::new();
+        let mut refused: Vec<(usize, NodeValue)> = Vec::new();
+        let mut pool: Vec<(usize, NodeValue)> = Vec::new();
         let mut live = Vec::new();
         for edits in 0.. {
             if is_over() {
@@ -235,9 +235,10 @@ impl<'a> Greedy<'a> {
                 }
             }
             let now = self.left(&frame, frame.errors.clone(), &[]).sum;
-            let is_open = |edit: &(usize, Value), state: &State, refused: &[(usize, Value)]| {
-                state.edits[edit.0].is_none() && live[edit.0] && !refused.contains(edit)
-            };
+            let is_open =
+                |edit: &(usize, NodeValue), state: &Edits, refused: &[(usize, NodeValue)]| {
+                    state.edits[edit.0].is_none() && live[edit.0] && !refused.contains(edit)
+                };
             let mut is_fresh = false;
             let next = loop {
                 pool.retain(|edit| is_open(edit, &state, &refused));
@@ -252,7 +253,7 @@ impl<'a> Greedy<'a> {
                 let ranked = self.rank(&frame, &mut state, paid, &pool, random);
                 pool = ranked.into_iter().map(|edit| (edit.1, edit.2)).collect();
                 pool.truncate(POOL);
-                let look: Vec<(usize, Value)> = pool.iter().copied().take(LOOKED_AT).collect();
+                let look: Vec<(usize, NodeValue)> = pool.iter().copied().take(LOOKED_AT).collect();
                 if let Some(next) =
                     self.taken(&frame, &mut state, (paid, now), &look, &mut refused, random)
                 {
@@ -265,17 +266,16 @@ impl<'a> Greedy<'a> {
         }
     }
 
-    /// Returns the state with the best of a few edits in it that is allowed.
     fn taken(
         &self,
         frame: &Frame,
-        state: &mut State,
+        state: &mut Edits,
         (paid, now): (u32, f64),
-        look: &[(usize, Value)],
-        refused: &mut Vec<(usize, Value)>,
+        look: &[(usize, NodeValue)],
+        refused: &mut Vec<(usize, NodeValue)>,
         random: &mut Random,
-    ) -> Option<State> {
-        let mut near: Vec<(f64, usize, Value, Vec<f64>)> = Vec::new();
+    ) -> Option<Edits> {
+        let mut near: Vec<(f64, usize, NodeValue, Vec<f64>)> = Vec::new();
         let mut live = Vec::new();
         for &(node, value) in look {
             let kept = state.edits[node].replace(value);
@@ -308,7 +308,7 @@ impl<'a> Greedy<'a> {
 
     /// Returns the values that may stand in the nodes' places: a constant, an operand of a sum, a value
     /// that runs alike.
-    fn candidates(&self, state: &State, values: &[f64], live: &[bool]) -> Vec<(usize, Value)> {
+    fn candidates(&self, state: &Edits, values: &[f64], live: &[bool]) -> Vec<(usize, NodeValue)> {
         let (m, count) = (self.samples.len(), self.net.inputs.len());
         let direction = |node: usize| {
             if !live[node] {
@@ -331,9 +331,9 @@ impl<'a> Greedy<'a> {
             let low = column.iter().copied().fold(f64::INFINITY, f64::min);
             let high = column.iter().copied().fold(f64::NEG_INFINITY, f64::max);
             let middle = 0.5 * (low + high);
-            let mut replacements = vec![Value::Constant(0.0)];
+            let mut replacements = vec![NodeValue::Constant(0.0)];
             if middle.abs() > 0.2 * (high - low) {
-                replacements.push(Value::Constant(short(middle)));
+                replacements.push(NodeValue::Constant(short(middle)));
             }
             if node >= count {
                 let op = &state.ops[node - count];
@@ -345,7 +345,7 @@ impl<'a> Greedy<'a> {
                     };
                     for (arg, sign) in op.args.iter().zip([1.0, sign]) {
                         if let Arg::Node(node) = arg {
-                            replacements.push(Value::Times(sign, *node));
+                            replacements.push(NodeValue::Times(sign, *node));
                         }
                     }
                 }
@@ -365,9 +365,9 @@ impl<'a> Greedy<'a> {
                 let is_constant = |arg: &Arg| matches!(arg, Arg::Constant(_));
                 let is_multiple = op.operation == Operation::Mul && op.args.iter().any(is_constant);
                 for &(_, other, factor) in alike.iter().take(MOST_ALIKE) {
-                    replacements.push(Value::Times(factor.signum(), other));
+                    replacements.push(NodeValue::Times(factor.signum(), other));
                     if !is_multiple {
-                        replacements.push(Value::Times(short(factor), other));
+                        replacements.push(NodeValue::Times(short(factor), other));
                     }
                 }
             }
@@ -378,7 +378,7 @@ impl<'a> Greedy<'a> {
     }
 
     /// Takes back what saves nothing, corrects constants and rounds them to seven digits.
-    pub(super) fn finish(&self, state: &mut State, rounds: usize) {
+    pub(super) fn finish(&self, state: &mut Edits, rounds: usize) {
         let mut without = state.clone();
         let mut live = Vec::new();
         let paid = self.net.price(&without, &mut live);
@@ -404,7 +404,7 @@ impl<'a> Greedy<'a> {
         }
         for edit in state.edits.iter_mut().flatten() {
             match edit {
-                Value::Constant(c) | Value::Times(c, _) => *c = short(*c),
+                NodeValue::Constant(c) | NodeValue::Times(c, _) => *c = short(*c),
             }
         }
     }

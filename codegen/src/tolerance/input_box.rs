@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use dalembert_checker::certify::Body;
+use dalembert_checker::certify::BodyRange;
+use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::number::Rounded;
 use dalembert_model::robot::{FloatingBase, Joint, JointKind, Limit, Position, Robot};
 
@@ -12,7 +13,6 @@ use crate::setup::Setup;
 use crate::sincos::interval::Interval;
 use crate::sincos::stated;
 use crate::states::JointState;
-use crate::words::{Complaint, complaint};
 
 /// Intervals of joint positions, of velocities and accelerations, one a coordinate, and of a load.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,15 +26,15 @@ pub struct InputBox {
     /// The entries of gravity in the axes of a base that floats: those of a ball; none on a fixed base.
     pub gravity: Vec<Interval>,
     /// The bodies that a payload may be, where it is an argument.
-    pub payload: Option<Body>,
+    pub payload: Option<BodyRange>,
     /// The entries of the load that it makes; [`Budget`](super::budget::Budget) knows them.
     pub load: Vec<Interval>,
 }
 
-/// Joints lack limits, or a base that floats, which is none.
+/// Refuses a box without these limits, each with the joints that lack it; `None` is a base that floats.
 pub(super) fn missing(
     limits: impl IntoIterator<Item = (&'static str, Vec<Option<usize>>)>,
-) -> Complaint {
+) -> Diagnostic {
     let of = |(limit, owners): (&str, Vec<Option<usize>>)| {
         let base = owners.contains(&None).then(|| "the base".to_owned());
         let joints = owners.iter().flatten();
@@ -53,13 +53,13 @@ pub(super) fn missing(
         format!("{} {have} no limit `{limit}`", both.join(" and "))
     };
     let limits: Vec<String> = limits.into_iter().map(of).collect();
-    complaint(format!("a bound needs a box: {}", limits.join("; ")))
+    Diagnostic::error(format!("a bound needs a box: {}", limits.join("; ")))
 }
 
 /// Returns the bodies that a payload may be.
-pub(crate) fn payloads(setup: &Setup) -> Body {
+pub(crate) fn payloads(setup: &Setup) -> BodyRange {
     let payload_range = setup.robot().payload_range.as_ref();
-    payload_range.map_or_else(Body::default, |range| Body {
+    payload_range.map_or_else(BodyRange::default, |range| BodyRange {
         mass: range.mass.each_ref().map(f64::nearest_rational),
         radius: f64::nearest_rational(&range.radius),
     })
@@ -71,7 +71,7 @@ impl InputBox {
     ///
     /// # Errors
     /// A limit of motion that the robot does not have.
-    pub fn of(robot: &Robot) -> Result<InputBox, Complaint> {
+    pub fn of(robot: &Robot) -> Result<InputBox, Diagnostic> {
         InputBox::within(&Setup::whole(robot), Function::InverseDynamics)
     }
 
@@ -81,7 +81,7 @@ impl InputBox {
     ///
     /// # Errors
     /// As [`InputBox::of`].
-    pub fn within(setup: &Setup, function: Function) -> Result<InputBox, Complaint> {
+    pub fn within(setup: &Setup, function: Function) -> Result<InputBox, Diagnostic> {
         let arguments = setup.arguments(function);
         let mut limits = InputBox {
             position: Vec::new(),

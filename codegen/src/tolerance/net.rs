@@ -18,7 +18,7 @@ pub(super) enum Arg {
 
 /// The value in a node's place: a constant, or a multiple of an earlier node.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Value {
+pub(super) enum NodeValue {
     Constant(f64),
     Times(f64, usize),
 }
@@ -41,8 +41,8 @@ pub(super) struct Net {
 
 /// The changes of a program: values in nodes' places, and constants of steps.
 #[derive(Clone)]
-pub(super) struct State {
-    pub(super) edits: Vec<Option<Value>>,
+pub(super) struct Edits {
+    pub(super) edits: Vec<Option<NodeValue>>,
     pub(super) ops: Vec<Op>,
 }
 
@@ -96,8 +96,8 @@ impl Net {
         self.inputs.len() + self.ops.len()
     }
 
-    pub(super) fn unedited(&self) -> State {
-        State {
+    pub(super) fn unedited(&self) -> Edits {
+        Edits {
             edits: vec![None; self.len()],
             ops: self.ops.clone(),
         }
@@ -117,7 +117,7 @@ impl Net {
     }
 
     /// Returns the values of all nodes at m samples, node after node.
-    pub(super) fn run(&self, state: &State, inputs: &[f64], m: usize) -> Vec<f64> {
+    pub(super) fn run(&self, state: &Edits, inputs: &[f64], m: usize) -> Vec<f64> {
         work::count(self.len() * m / work::UNIT);
         let mut values = vec![0.0; self.len() * m];
         for node in 0..self.len() {
@@ -125,8 +125,8 @@ impl Net {
             let out = &mut rest[..m];
             let column = |n: usize| &before[n * m..][..m];
             match state.edits[node] {
-                Some(Value::Constant(c)) => out.fill(c),
-                Some(Value::Times(c, other)) => {
+                Some(NodeValue::Constant(c)) => out.fill(c),
+                Some(NodeValue::Times(c, other)) => {
                     let from = out.iter_mut().zip(column(other));
                     from.for_each(|(out, x)| *out = c * x);
                 }
@@ -167,7 +167,7 @@ impl Net {
     /// Puts the derivatives of a result by every node into `adjoints`, node after node.
     pub(super) fn adjoints(
         &self,
-        state: &State,
+        state: &Edits,
         values: &[f64],
         (output, m): (usize, usize),
         adjoints: &mut Vec<f64>,
@@ -190,8 +190,8 @@ impl Net {
                 to.for_each(|(to, derivative)| *to += factor * derivative);
             };
             let op = match state.edits[node] {
-                Some(Value::Constant(_)) => continue,
-                Some(Value::Times(c, other)) => {
+                Some(NodeValue::Constant(_)) => continue,
+                Some(NodeValue::Times(c, other)) => {
                     add(before, other, c);
                     continue;
                 }
@@ -217,7 +217,7 @@ impl Net {
     }
 
     /// Counts the operations that stay, sines and cosines weighed; `live` gets which nodes are computed.
-    pub(super) fn price(&self, state: &State, live: &mut Vec<bool>) -> u32 {
+    pub(super) fn price(&self, state: &Edits, live: &mut Vec<bool>) -> u32 {
         let count = self.inputs.len();
         let mut folded: Vec<(Fold, Option<[Fold; 2]>)> = Vec::with_capacity(self.len());
         for node in 0..self.len() {
@@ -229,8 +229,8 @@ impl Net {
                 _ => (fold, Some([Fold::Constant(c), x])),
             };
             let value = match state.edits[node] {
-                Some(Value::Constant(c)) => (Fold::Constant(c), None),
-                Some(Value::Times(c, other)) => scaled(c, folded[other].0),
+                Some(NodeValue::Constant(c)) => (Fold::Constant(c), None),
+                Some(NodeValue::Times(c, other)) => scaled(c, folded[other].0),
                 None if node < count => (fold, None),
                 None => {
                     let op = &state.ops[node - count];
@@ -285,14 +285,14 @@ impl Net {
     }
 
     /// Returns the edited program, folded.
-    pub(super) fn rebuilt(&self, state: &State) -> Program {
+    pub(super) fn rebuilt(&self, state: &Edits) -> Program {
         let mut builder = Builder::new(Folding::Semantic);
         let count = self.inputs.len();
         let mut edges: Vec<Edge> = Vec::with_capacity(self.len());
         for node in 0..self.len() {
             let edge = match state.edits[node] {
-                Some(Value::Constant(c)) => builder.constant(&decimal(c)),
-                Some(Value::Times(c, other)) => {
+                Some(NodeValue::Constant(c)) => builder.constant(&decimal(c)),
+                Some(NodeValue::Times(c, other)) => {
                     let factor = builder.constant(&decimal(c));
                     builder.mul(factor, edges[other])
                 }

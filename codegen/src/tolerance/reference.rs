@@ -4,6 +4,7 @@ use std::sync::OnceLock;
 
 use dalembert_checker::domain::Domain;
 use dalembert_checker::polynomial::Polynomial;
+use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::robot::write;
 use dalembert_model::scene::{self, Scene};
 
@@ -15,7 +16,6 @@ use crate::function::Argument;
 use crate::program::{Program, has_inertia};
 use crate::setup::Setup;
 use crate::sincos::AngleKernel;
-use crate::words::{Complaint, complaint};
 
 /// If the engine runs out of work, climbs may reach this part of the allowed error: the checker, which may
 /// take longer, mostly shows such a program.
@@ -23,7 +23,7 @@ const OPEN: f64 = 0.8;
 /// A state whose error is at least this part of what is allowed joins the samples.
 const LARGE: f64 = 0.97;
 
-pub(crate) struct Reference {
+pub(crate) struct Engine {
     domain: Domain,
     exact: Vec<Polynomial>,
     /// The exact program, if it has D.
@@ -64,9 +64,11 @@ pub(super) fn source(setup: &Setup) -> (String, Option<Scene>) {
 /// Reads a program as the checker has it.
 pub(super) fn read(
     program: &Program,
-) -> Result<dalembert_checker::program::Program<dalembert_checker::identity::exact::Exact>, Complaint>
-{
-    let refused = |fault: dalembert_checker::Fault| complaint(fault.to_string());
+) -> Result<
+    dalembert_checker::program::Program<dalembert_checker::identity::exact::Exact>,
+    Diagnostic,
+> {
+    let refused = |fault: dalembert_checker::Fault| Diagnostic::error(fault.to_string());
     let mut constants = ConstantTable::default();
     let claim = claimed(program, None, &mut constants);
     let document = constants.document(Vec::new());
@@ -74,7 +76,7 @@ pub(super) fn read(
     claim.program(&constants).map_err(refused)
 }
 
-impl Reference {
+impl Engine {
     /// Writes an exact program out over the box of its robot.
     ///
     /// # Errors
@@ -83,12 +85,12 @@ impl Reference {
         setup: &Setup,
         exact: &Program,
         load: Option<&Program>,
-    ) -> Result<Reference, Complaint> {
-        let refused = |fault: dalembert_checker::Fault| complaint(fault.to_string());
+    ) -> Result<Engine, Diagnostic> {
+        let refused = |fault: dalembert_checker::Fault| Diagnostic::error(fault.to_string());
         let domain = domain(setup, exact, load)?;
         let inertia = has_inertia(exact).then(|| exact.clone());
         let exact = domain.write(&read(exact)?, None).map_err(refused)?;
-        Ok(Reference {
+        Ok(Engine {
             domain,
             exact,
             inertia,
@@ -196,18 +198,18 @@ impl Reference {
     ///
     /// # Errors
     /// A program that the checker refuses.
-    pub(super) fn reached(&self, program: &Program) -> Result<Vec<f64>, Complaint> {
+    pub(super) fn reached(&self, program: &Program) -> Result<Vec<f64>, Diagnostic> {
         let differences = self.differences(program)?;
         let reached = |difference| self.domain.decide(difference, 0.0).0.reached;
         Ok(differences.iter().map(reached).collect())
     }
 
     /// Writes out what a program, which has the results of the exact one, differs by from that.
-    fn differences(&self, program: &Program) -> Result<Vec<Polynomial>, Complaint> {
+    fn differences(&self, program: &Program) -> Result<Vec<Polynomial>, Diagnostic> {
         let written = self
             .domain
             .write(&read(program)?, None)
-            .map_err(|fault| complaint(fault.to_string()))?;
+            .map_err(|fault| Diagnostic::error(fault.to_string()))?;
         let pairs = written.iter().zip(&self.exact);
         Ok(pairs
             .map(|(polynomial, exact)| polynomial.plus(&exact.negated()))
@@ -227,7 +229,7 @@ pub(crate) fn domain(
     setup: &Setup,
     program: &Program,
     load: Option<&Program>,
-) -> Result<Domain, Complaint> {
+) -> Result<Domain, Diagnostic> {
     let (source, scene) = source(setup);
     let arguments: Vec<&str> = program
         .arguments
@@ -237,5 +239,5 @@ pub(crate) fn domain(
     let load = load.map(read).transpose()?;
     let name = scene.as_ref().map(|scene| scene.name.as_str());
     let domain = Domain::read(&source, name, &arguments, load.as_ref());
-    domain.map_err(|fault| complaint(fault.to_string()))
+    domain.map_err(|fault| Diagnostic::error(fault.to_string()))
 }

@@ -1,6 +1,7 @@
 //! T: what errors are relative to, and how large they may be against it.
 
-use dalembert_checker::certify::Body;
+use dalembert_checker::certify::BodyRange;
+use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::number::{Rational, Rounded};
 use dalembert_model::robot::{Limit, Robot};
 use dalembert_model::scene::Tolerance;
@@ -11,7 +12,6 @@ use crate::function::ErrorScale;
 use crate::program::Program;
 use crate::random::Random;
 use crate::states::JointState;
-use crate::words::{Complaint, complaint};
 
 /// The points that a payload is put to, after each climb, and how far they stay inside its radius.
 const POINTS: usize = 40;
@@ -25,12 +25,12 @@ const INSIDE: f64 = 1.0 - 1e-9;
 /// # Errors
 /// A joint without a limit that it needs, or with one of zero; a quantity of which torque limits
 /// are no measure.
-pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, Complaint> {
+pub(crate) fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, Diagnostic> {
     let read = |coordinate: usize, limit: Limit| {
         let joint = robot.joint_of(coordinate);
         match robot.limit_of(coordinate, limit).map(f64::nearest_rational) {
             Some(value) if value > 0.0 => Ok(value),
-            Some(_) => Err(complaint(format!(
+            Some(_) => Err(Diagnostic::error(format!(
                 "the limit `{}` of {} is 0: errors relative to the actuators need \
                  one above 0; give that, or make them relative to the range",
                 limit.key(),
@@ -43,11 +43,11 @@ pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, Complaint>
         }
     };
     // Down, so that an error relative to it is rounded up.
-    let torque = |joint| -> Result<f64, Complaint> { Ok(read(joint, Limit::Torque)?.next_down()) };
+    let torque = |joint| -> Result<f64, Diagnostic> { Ok(read(joint, Limit::Torque)?.next_down()) };
     let velocity = |joint| read(joint, Limit::Velocity);
     let acceleration = |joint| read(joint, Limit::Acceleration);
     let inertia =
-        |i, k| -> Result<f64, Complaint> { Ok((torque(i)? / acceleration(k)?).next_down()) };
+        |i, k| -> Result<f64, Diagnostic> { Ok((torque(i)? / acceleration(k)?).next_down()) };
     let (rows, sizes) = (&program.rows, program.sizes());
     let mut scales = Vec::new();
     for quantity in program.function.quantities() {
@@ -61,7 +61,7 @@ pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, Complaint>
                     (torque(i)? / rates).next_down()
                 }
                 _ => {
-                    return Err(complaint(format!(
+                    return Err(Diagnostic::error(format!(
                         "the actuators' limits are no measure of {}: make its errors relative to \
                          the range",
                         quantity.symbol()
@@ -110,7 +110,7 @@ pub fn range(
 ) -> Vec<(f64, JointState)> {
     let (exact, load) = (program.in_doubles(), load.map(Program::in_doubles));
     let put = |state: &mut JointState, random: &mut Random| {
-        if let (Some(load), Some(Body { mass, radius })) = (&load, limits.payload) {
+        if let (Some(load), Some(BodyRange { mass, radius })) = (&load, limits.payload) {
             let at = [(); 3].map(|()| 2.0 * random.unit() - 1.0);
             let length = at.iter().map(|x| x * x).sum::<f64>().sqrt().max(0.1);
             let point = at.map(|x| INSIDE * radius * x / length);

@@ -11,9 +11,9 @@
 
 use super::greedy::Greedy;
 use super::input_box::InputBox;
-use super::net::{State, cost};
+use super::net::{Edits, cost};
 use super::reduce;
-use super::reference::Reference;
+use super::reference::Engine;
 use super::samples::Samples;
 use super::work::Meter;
 use crate::parallel;
@@ -102,7 +102,7 @@ impl SearchEffort {
 pub(super) struct Target<'a> {
     pub(super) setup: &'a Setup,
     pub(super) exact: &'a Program,
-    pub(super) reference: &'a Reference,
+    pub(super) reference: &'a Engine,
     pub(super) limits: &'a InputBox,
     /// In the results' units.
     pub(super) allowances: &'a [f64],
@@ -128,7 +128,7 @@ pub(super) fn programs(target: Target<'_>, from: &[Program]) -> Vec<Program> {
     starts.sort_by_key(cost);
     // The programs of smaller tolerances are starts as near as any.
     starts.splice(0..0, from.iter().cloned());
-    let mut run = Run {
+    let mut run = ProgramSearch {
         target,
         programs: Vec::new(),
         rounds: [
@@ -168,7 +168,7 @@ pub(super) fn programs(target: Target<'_>, from: &[Program]) -> Vec<Program> {
 /// Starts that are tried beside each other, on any machine.
 const SIDE_BY_SIDE: usize = 2;
 
-struct Run<'a> {
+struct ProgramSearch<'a> {
     target: Target<'a>,
     /// The programs within the allowances, the cheapest first.
     programs: Vec<Program>,
@@ -177,12 +177,11 @@ struct Run<'a> {
     spent: u64,
 }
 
-impl Run<'_> {
+impl ProgramSearch<'_> {
     fn least(&self) -> usize {
         self.programs.first().map_or(usize::MAX, cost)
     }
 
-    /// Returns the cost of the best program from each start.
     fn tried(&mut self, starts: &[(&Program, u64)]) -> Vec<usize> {
         let best = self.programs.first().map(Program::counts);
         let rounds = [self.rounds[0], self.rounds[1].max(self.rounds[0] + 1)];
@@ -223,7 +222,7 @@ fn pruned(target: Target<'_>, start: &Program, seed: u64) -> Vec<Program> {
         ..
     } = target;
     let mut samples = Samples::new(exact, limits, POSITIONS, 7 + seed);
-    let mut descent = Descent {
+    let mut descent = ConstantDescent {
         target,
         random: Random::new(0xabcd ^ seed),
         noise: if seed == 0 { 0.0 } else { NOISE },
@@ -264,7 +263,7 @@ fn pruned(target: Target<'_>, start: &Program, seed: u64) -> Vec<Program> {
     programs
 }
 
-struct Descent<'a> {
+struct ConstantDescent<'a> {
     target: Target<'a>,
     random: Random,
     noise: f64,
@@ -272,7 +271,7 @@ struct Descent<'a> {
     share: f64,
 }
 
-impl Descent<'_> {
+impl ConstantDescent<'_> {
     fn allowances(&self, part: f64) -> Vec<f64> {
         let iter = self.target.allowances.iter();
         iter.map(|allowance| part * allowance).collect()
@@ -345,7 +344,7 @@ impl Descent<'_> {
     fn tried_again(
         &mut self,
         greedy: &mut Greedy<'_>,
-        mut state: State,
+        mut state: Edits,
         mut program: Program,
     ) -> Program {
         let mut live = Vec::new();

@@ -4,14 +4,14 @@
 //! Everything after this may take for granted that there are as many results as the function has,
 //! so as many as scales, and that every input is an argument's entry that the function may read.
 
+use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::robot::JointKind;
 
 use crate::function::Argument;
 use crate::program::{Input, Program};
 use crate::setup::Setup;
-use crate::words::{Complaint, complaint};
 
-pub(super) fn check(setup: &Setup, program: &Program, emitted: &Program) -> Result<(), Complaint> {
+pub(super) fn check(setup: &Setup, program: &Program, emitted: &Program) -> Result<(), Diagnostic> {
     let function = emitted.function;
     let signature = [
         ("function", program.function == function),
@@ -27,14 +27,14 @@ pub(super) fn check(setup: &Setup, program: &Program, emitted: &Program) -> Resu
         ),
     ];
     if let Some((what, _)) = signature.into_iter().find(|(_, same)| !same) {
-        return Err(complaint(format!(
+        return Err(Diagnostic::error(format!(
             "the {what} of the plan's variant is not that of the function in this scene"
         )));
     }
     let mut inputs = program.dag.inputs();
     inputs.try_for_each(|input| match wrong(setup, emitted, *input) {
         None => Ok(()),
-        Some(why) => Err(complaint(format!(
+        Some(why) => Err(Diagnostic::error(format!(
             "the plan's variant reads `{}`: {why}",
             input.name()
         ))),

@@ -9,14 +9,15 @@
 //! run side by side. For a PUMA's four angles, kernels of their own took four
 //! operations of 88 less and a twentieth more time.
 
+use dalembert_model::diagnostic::Diagnostic;
+
 use super::input_box::InputBox;
 use super::net::Net;
 use super::samples::Samples;
 use crate::program::{Input, Pair, Program, ScalarType};
-use crate::sincos::choose::{Candidates, Choice};
+use crate::sincos::choose::{Candidates, KernelChoice};
 use crate::sincos::interval::Interval;
 use crate::sincos::{self, AngleKernel, Sines};
-use crate::words::{Complaint, complaint};
 
 const POSITIONS: usize = 64;
 const SEED: u64 = 0x51e5;
@@ -49,7 +50,6 @@ impl Slopes {
         }
     }
 
-    /// Returns the error of each result by errors of sines and of cosines.
     fn costs(&self, error: impl Fn(Input) -> f64) -> Vec<f64> {
         let errors: Vec<f64> = self.inputs.iter().map(|input| error(*input)).collect();
         let cost = |sizes: &Vec<f64>| sizes.iter().zip(&errors).map(|(x, e)| x * e).sum();
@@ -80,11 +80,11 @@ pub(super) fn within(
     positions: &[Interval],
     allowances: &[f64],
     slopes: &Slopes,
-) -> Result<Sines, Complaint> {
+) -> Result<Sines, Diagnostic> {
     let error = uniform(allowances, slopes);
     let near = |error| {
         let sines = sincos::polynomials(program, scalar, positions, error);
-        sines.map_err(|miss| complaint(miss.to_string()))
+        sines.map_err(|miss| Diagnostic::error(miss.to_string()))
     };
     let mut sines = near(error)?;
     let admitted = |sines: &[AngleKernel]| {
@@ -138,15 +138,15 @@ fn groups(
     scalar: ScalarType,
     positions: &[Interval],
     error: f64,
-) -> Vec<(Vec<usize>, Vec<Choice>)> {
+) -> Vec<(Vec<usize>, Vec<KernelChoice>)> {
     let key = |trig: &Pair| {
         let range = sincos::range_of(trig.joint, positions);
         (range, trig.need)
     };
     let pairs = program.trig();
-    let mut groups: Vec<(Vec<usize>, Vec<Choice>)> = Vec::new();
+    let mut groups: Vec<(Vec<usize>, Vec<KernelChoice>)> = Vec::new();
     for (index, trig) in pairs.iter().enumerate() {
-        let same = |(members, _): &&mut (Vec<usize>, Vec<Choice>)| {
+        let same = |(members, _): &&mut (Vec<usize>, Vec<KernelChoice>)| {
             let first = members.first().and_then(|&first| pairs.get(first));
             first.is_some_and(|first| key(first) == key(trig))
         };
@@ -163,7 +163,7 @@ fn groups(
 
 const MAX: f64 = 1e4;
 
-fn taken(old: &AngleKernel, choice: &Choice) -> AngleKernel {
+fn taken(old: &AngleKernel, choice: &KernelChoice) -> AngleKernel {
     AngleKernel {
         form: choice.form.to_string(),
         kernel: choice.kernel.clone(),

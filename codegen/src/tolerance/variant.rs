@@ -1,5 +1,6 @@
 //! A program in the place of an exact one, as it is printed in a scalar, with its bounds.
 
+use dalembert_checker::Fault;
 use dalembert_checker::certify::Bound;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scale;
@@ -7,7 +8,7 @@ use dalembert_model::scene::Scale;
 use super::input_box::{InputBox, turns_freely};
 use super::sample::draw;
 use crate::language::function;
-use crate::language::read::{Signature, TextError};
+use crate::language::read::Signature;
 use crate::program::{Code, Library, Program, ScalarType};
 use crate::random::Random;
 use crate::sincos::Sines;
@@ -83,7 +84,7 @@ impl Variant {
     ///
     /// # Errors
     /// A text that cannot be read.
-    pub(crate) fn loading(&self) -> Result<Option<Code>, TextError> {
+    pub(crate) fn loading(&self) -> Result<Option<Code>, Fault> {
         let load = self.load.as_ref().map(|load| {
             let signature = Signature::of(load, self.scalar);
             Code::parse(&self.load_text(load), &signature)

@@ -107,8 +107,6 @@ impl fmt::Display for Disproof {
     }
 }
 
-impl std::error::Error for Disproof {}
-
 /// Proves a program of a robot in its scene: against the full arm's formula with
 /// constants in place of what the scene fixes, whatever was merged.
 ///
@@ -151,7 +149,7 @@ pub fn prove(setup: &Setup, program: &Program) -> Result<Proof, Disproof> {
 }
 
 /// Proves that two programs compute the same, or returns the first output that differs.
-pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
+pub(crate) fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
     if a.speeds != b.speeds {
         return Err(Disproof::Shape);
     }

@@ -17,7 +17,7 @@ use dalembert_model::scalar::Scalar;
 use super::exact::{Disproof, compare, reference_formulation};
 use super::points::{Degrees, Residue, written};
 use crate::dag::Leaves;
-use crate::function::{Columns, Quantity};
+use crate::function::{Quantity, RegressorColumns};
 use crate::scalar::{AnyLeaves, Erase, restored};
 use crate::setup::Task;
 use crate::setup::base::{BaseParameters, Parameter};
@@ -28,7 +28,7 @@ use crate::setup::base::{BaseParameters, Parameter};
 /// A parameter whose torques they do not give, or too large a chance of a miss.
 pub fn prove_base(task: Task<'_>, base: &BaseParameters) -> Result<(), Disproof> {
     let Task { setup, function } = task;
-    let Columns::Base(quantity) = function.columns() else {
+    let RegressorColumns::Base(quantity) = function.columns() else {
         return Err(Disproof::Shape);
     };
     let parameters = parameters(setup.robot());

@@ -275,7 +275,7 @@ impl Case {
             &reading.scenes,
         )
         .map_err(|problems| {
-            let said = problems.iter().map(|problem| format!("{problem}\n"));
+            let said = problems.0.iter().map(|problem| format!("{problem}\n"));
             said.collect::<String>()
         })?;
         request.language = parse::<Language>(language).unwrap();
@@ -328,7 +328,7 @@ impl Case {
 
     /// Coulomb friction has its full force at some states and is within its width at others.
     pub fn runtime(&self, count: usize, seed: u64) -> (Runtime, Vec<JointState>) {
-        let setup = self.request.setup(self.robot()).unwrap();
+        let setup = self.request.prepare(self.robot()).unwrap();
         let mut states = setup.states(count, seed);
         let is_rubbed = self.robot().joints.iter().any(|joint| joint.has_coulomb());
         let scales = [1.0, 1e-2, 1e-4, 0.0];

@@ -19,7 +19,7 @@ pub trait Vector<T>: Floats<T> {
     /// Writes the vector from an entry on.
     fn store(self, to: &mut [T], from: usize);
 
-    /// Returns the roots.
+    /// Returns the square roots, correctly rounded.
     #[must_use]
     fn sqrt(self) -> Self;
 

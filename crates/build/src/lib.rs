@@ -227,7 +227,7 @@ impl Generator {
 
     #[cfg(feature = "search")]
     fn generated(&self, path: &Path) -> Result<Vec<Text>, BuildError> {
-        use dalembert_codegen::{Language, RobotFile, ask};
+        use dalembert_codegen::{Diagnostic, Language, Place, RobotFile, ask};
         let language = Language::of(path).map_err(|known| {
             one(format!(
                 "`{}` does not end as a file of any language does\n  = help: {known}",
@@ -235,14 +235,16 @@ impl Generator {
             ))
         })?;
         let shown = self.robot.display().to_string();
-        let file =
-            RobotFile::read(&self.robot).map_err(|error| BuildError(error.messages().to_vec()))?;
+        let file = RobotFile::read(&self.robot).map_err(|errors| {
+            let plain = |error: &Diagnostic| error.render_plain().trim_end().to_owned();
+            BuildError(errors.0.iter().map(plain).collect())
+        })?;
         let made = ask(&file, &self.asked, language, &shown).map_err(|problems| {
-            let of = |problem: &dalembert_codegen::Problem| match problem.option {
-                "" => format!("{shown}: {}", problem.complaint.message),
+            let of = |problem: &Diagnostic| match &problem.place {
+                Place::Option("", _) => format!("{shown}: {}", problem.message),
                 _ => problem.to_string(),
             };
-            BuildError(problems.iter().map(of).collect())
+            BuildError(problems.0.iter().map(of).collect())
         })?;
         made.warnings.iter().for_each(|said| cargo::warn(said));
         let robot = relative(&self.robot, path);
@@ -270,7 +272,6 @@ type Text = (&'static str, String, String);
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Writes a file, and creates its folder.
 fn write(path: &Path, text: &str) -> Result<(), BuildError> {
     let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
     let written = folder.and_then(|()| write_whole(path, text));

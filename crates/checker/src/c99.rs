@@ -94,7 +94,7 @@ pub(crate) fn functions<'t>(
     source: &'t str,
     places: Option<&Places>,
 ) -> Result<Vec<Item<'t>>, Fault> {
-    let text = read::lines(source, true).map_err(|error| Fault::Text(error.line, error.reason))?;
+    let text = read::lines(source, true)?;
     let mut lines = text.as_slice();
     let guard = lines.first().map_or("", |line| line.1);
     let why = "CUDA is not checked: `--language c` prints the same functions";

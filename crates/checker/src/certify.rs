@@ -18,14 +18,14 @@ use crate::identity::setting::Setting;
 use crate::identity::table::{Field, Function, functions, length};
 use crate::identity::{Base, Points, Statement, aligned, check, robot};
 use crate::program::{ARGUMENTS, LOAD, Operand, Program, argument};
-use crate::read::{self, Argument, Head, Source, Text, TextError};
+use crate::read::{self, Argument, Head, Source, Text};
 use crate::rounding::Ranges;
 use crate::sines;
 use crate::tolerance;
 use crate::work::Work;
 
 pub use crate::cost::{Cost, Findings, RATE};
-pub use crate::payload::Body;
+pub use crate::payload::BodyRange;
 pub use crate::tolerance::{Bound, ResultBound};
 
 /// The most times that a function of a claim stands in a file: once for each scalar is usual.
@@ -36,7 +36,7 @@ const IDENTITY: u64 = 400;
 
 /// The findings about one function, or about what stands beside functions.
 #[derive(Clone, Debug)]
-pub struct Line {
+pub struct FunctionReport {
     /// Its module.
     pub module: String,
     /// Its name.
@@ -51,19 +51,19 @@ pub struct Line {
 #[derive(Clone, Debug)]
 pub struct Report {
     /// One a function, in the file's order, then what is not shown beside them.
-    pub lines: Vec<Line>,
+    pub lines: Vec<FunctionReport>,
     /// `true` if the robot file gives rates no limit.
     pub is_unlimited: bool,
     /// The payloads, where a function takes one, and whether they are the default.
-    pub payloads: Option<(Body, bool)>,
+    pub payloads: Option<(BodyRange, bool)>,
     /// The links whose bodies are arguments, from one, a base that floats zero, with those of each.
-    pub bodies: Vec<(usize, Body)>,
+    pub bodies: Vec<(usize, BodyRange)>,
 }
 
 impl Report {
     /// Returns true if every function is shown; if the user is not strict, or measured.
     pub fn passes(&self, is_strict: bool) -> bool {
-        let passes = |line: &Line| {
+        let passes = |line: &FunctionReport| {
             let result = line.result.as_ref();
             result.is_ok_and(|findings| findings.is_bounded() || !is_strict)
         };
@@ -84,6 +84,18 @@ pub struct Demand<'d> {
 }
 
 /// Checks every function of a file, with its claim, against a robot or one of its scenes.
+///
+/// ```
+/// use dalembert_checker::certify::{Demand, certify};
+///
+/// // This text returns other torques than those of the robot, and its claim says otherwise.
+/// let read = |name: &str| std::fs::read_to_string(format!("tests/data/attacks/{name}")).unwrap();
+/// let (text, claim, robot) = (read("A.rs.txt"), read("A.claim.json"), read("r2.toml"));
+/// let demand = Demand { scene: Some("pick"), ..Demand::default() };
+/// let report = certify(&text, &claim, &robot, &demand)?;
+/// assert!(!report.passes(false));
+/// # Ok::<(), dalembert_checker::Fault>(())
+/// ```
 ///
 /// # Errors
 /// A robot file, a claim or a file that this checker does not know; what is wrong with a function
@@ -174,7 +186,7 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
         is_c,
         singles: singles.map(|item| item.module).collect(),
     };
-    let line = |item: &Item, name: String, result| Line {
+    let line = |item: &Item, name: String, result| FunctionReport {
         module: item.module.to_owned(),
         name,
         line: item.line,
@@ -231,7 +243,7 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
             lines.push(line(item, name.to_owned(), Err(why)));
         }
     }
-    let are_of_links = |entry: &&(usize, Vec<Body>)| argument("bodies") == Some(entry.0);
+    let are_of_links = |entry: &&(usize, Vec<BodyRange>)| argument("bodies") == Some(entry.0);
     let of_links = whole.bodies.iter().filter(are_of_links);
     let ranges = of_links.flat_map(|entry| entry.1.iter().copied());
     Ok(Report {
@@ -268,7 +280,7 @@ struct Whole<'w> {
     load: Result<Option<Program<Exact>>, Fault>,
     setting: &'w Setting<'w>,
     ranges: Ranges,
-    bodies: Vec<(usize, Vec<Body>)>,
+    bodies: Vec<(usize, Vec<BodyRange>)>,
     /// The robot's numbers in the place of arguments of `load`.
     defaults: Vec<Default>,
     worst: f64,
@@ -389,7 +401,7 @@ impl<'w> Whole<'w> {
         let results = match self.tolerated(claimed).map_err(refused)? {
             None => Vec::new(),
             Some((claim, tolerance)) => {
-                let subject = tolerance::Subject {
+                let subject = tolerance::VariantSubject {
                     setting: self.setting,
                     function: &function,
                     exact,
@@ -507,7 +519,7 @@ impl<'w> Whole<'w> {
         })
     }
 
-    fn read(&self, head: &Head, item: &Item) -> Result<read::Function, Fault> {
+    fn read(&self, head: &Head, item: &Item) -> Result<read::ReadFunction, Fault> {
         let text = &item.text;
         let read = match self.is_c {
             true => Text::c(text).and_then(|words| {
@@ -519,13 +531,14 @@ impl<'w> Whole<'w> {
         let (line, why) = match read {
             Ok((read, true)) => return Ok(read),
             Ok(_) => (1, "text after the end of the function".into()),
-            Err(TextError { line, reason }) => (line, format!("not of the grammar: {reason}")),
+            Err(Fault::Text(line, reason)) => (line, format!("not of the grammar: {reason}")),
+            Err(fault) => return Err(fault),
         };
         Err(Fault::Text(item.line + line - 1, why))
     }
 
     /// Checks that sines are of joints that turn, and roots of the widths of friction.
-    fn sines(&self, read: &read::Function, is_single: bool) -> Result<(), String> {
+    fn sines(&self, read: &read::ReadFunction, is_single: bool) -> Result<(), String> {
         let mut joints = read.sines.iter().map(|sine| sine.joint);
         if let Some(joint) = joints.find(|joint| !self.setting.turns_by(*joint)) {
             return Err(format!("the sine of joint {}, which slides", joint + 1));

@@ -12,11 +12,11 @@ use crate::identity::setting::Setting;
 use crate::identity::table::{self, Field, length};
 use crate::interval::UNIT;
 use crate::load::literals;
-use crate::payload::Body;
+use crate::payload::BodyRange;
 use crate::program::{ARGUMENTS, GRAVITY, LOAD, Operand, Program, argument};
 use crate::read::{self, Head, Source};
 use crate::rounding::{Bounds, Ranges, Rounding};
-use crate::sample::{LANES, Lanes, Near, Sampler, State};
+use crate::sample::{FloatState, LANES, Lanes, Near, Sampler};
 use crate::states::States;
 use crate::tolerance::ResultBound;
 use crate::work::Work;
@@ -99,11 +99,11 @@ pub(crate) struct Subject<'s> {
     pub function: &'s table::Function,
     pub program: &'s Program<Exact>,
     pub load: Option<&'s Program<Exact>>,
-    pub read: &'s read::Function,
+    pub read: &'s read::ReadFunction,
     pub head: &'s Head<'s>,
     pub ranges: &'s Ranges,
     /// The bodies that arguments of its load are.
-    pub bodies: &'s [(usize, Vec<Body>)],
+    pub bodies: &'s [(usize, Vec<BodyRange>)],
     /// The texts that states are drawn from.
     pub texts: &'s [&'s str],
     /// The largest cost that the user accepts, if it is larger than what is shown otherwise.
@@ -179,10 +179,10 @@ impl Subject<'_> {
             is_single: head.is_single,
             count: 0,
         };
-        let mut worst: Vec<(f64, State)> = Vec::new();
+        let mut worst: Vec<(f64, FloatState)> = Vec::new();
         let count = if is_measured { STATES } else { LOOKED_AT };
         for _ in 0..count / LANES {
-            let drawn: [State; LANES] = from_fn(|_| states.next());
+            let drawn: [FloatState; LANES] = from_fn(|_| states.next());
             let heights = samples.look(drawn.each_ref(), &divides)?;
             worst.extend(heights.into_iter().zip(drawn));
         }
@@ -317,7 +317,11 @@ struct SampledSizes<'s> {
 impl SampledSizes<'_> {
     /// Looks at states; returns the largest error of what divides at each, relative to its result
     /// there.
-    fn look(&mut self, states: [&State; LANES], divides: &[bool]) -> Result<[f64; LANES], Fault> {
+    fn look(
+        &mut self,
+        states: [&FloatState; LANES],
+        divides: &[bool],
+    ) -> Result<[f64; LANES], Fault> {
         self.work
             .spend(LANES, self.sampler.work() + self.load.work())?;
         let loads = self.load.run(states, &[]);
@@ -361,8 +365,8 @@ impl SampledSizes<'_> {
     }
 }
 
-pub(crate) fn polynomials(read: &read::Function) -> impl Iterator<Item = usize> {
-    let is_polynomial = |sine: &&read::Sines| matches!(sine.source, Source::Polynomial(_));
+pub(crate) fn polynomials(read: &read::ReadFunction) -> impl Iterator<Item = usize> {
+    let is_polynomial = |sine: &&read::SinePair| matches!(sine.source, Source::Polynomial(_));
     read.sines
         .iter()
         .filter(is_polynomial)
@@ -375,7 +379,10 @@ fn worse(before: f64, error: f64) -> f64 {
     if is_worse { error } else { before }
 }
 
-pub(crate) fn ranges(setting: &Setting, bodies: &[(usize, Vec<Body>)]) -> Result<Ranges, String> {
+pub(crate) fn ranges(
+    setting: &Setting,
+    bodies: &[(usize, Vec<BodyRange>)],
+) -> Result<Ranges, String> {
     let (sizes, gravity) = (setting.sizes(), setting.gravity().unwrap_or(EARTH));
     let of = |&(name, axis): &(&str, char)| {
         let rate = if name == "tau" { WRENCH } else { RATE };

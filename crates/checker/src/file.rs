@@ -79,8 +79,7 @@ pub(crate) fn item<'t>(
 /// # Errors
 /// The first line that the generator would not print.
 pub fn functions(source: &str) -> Result<Vec<Item<'_>>, Fault> {
-    let mut lines =
-        read::lines(source, false).map_err(|error| Fault::Text(error.line, error.reason))?;
+    let mut lines = read::lines(source, false)?;
     lines.retain(|line| !is_attribute(line.1));
     let (mut lines, mut items) = (lines.as_slice(), Vec::new());
     let (mut module, mut has_items, mut modules) = (None, false, HashSet::new());

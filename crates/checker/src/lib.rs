@@ -36,7 +36,6 @@ mod defaults;
 mod derivatives;
 #[cfg(feature = "certify")]
 pub mod domain;
-#[cfg(feature = "claim")]
 mod fault;
 #[cfg(feature = "certify")]
 pub mod file;
@@ -73,5 +72,4 @@ pub mod work;
 #[cfg(feature = "certify")]
 mod written;
 
-#[cfg(feature = "claim")]
 pub use fault::Fault;

@@ -4,7 +4,7 @@ use crate::fault::Fault;
 use crate::identity::exact::Exact;
 use crate::identity::setting::Setting;
 use crate::interval::Interval;
-use crate::payload::Body;
+use crate::payload::BodyRange;
 use crate::program::{ARGUMENTS, LOAD, Operand, Program, Step, argument};
 use crate::read;
 use crate::rounding::{Ranges, Rounding, Value};
@@ -26,7 +26,7 @@ impl Setting<'_> {
         };
         for (place, bodies) in self.bodies_given().map_err(of_robot)? {
             let outward = bodies.into_iter().map(|body| body.outward(is_single));
-            ranges[place] = outward.flat_map(Body::ranges).collect();
+            ranges[place] = outward.flat_map(BodyRange::ranges).collect();
         }
         let text = literals(load);
         let values = Rounding::new(&text, is_single, &ranges)
@@ -54,7 +54,7 @@ pub(crate) fn load_of_point(
 }
 
 /// Returns a program with the nearest double in place of each constant.
-pub(crate) fn literals(program: &Program<Exact>) -> read::Function {
+pub(crate) fn literals(program: &Program<Exact>) -> read::ReadFunction {
     let operand = |operand: &Operand<Exact>| match operand {
         // An angle beyond the series' range is not a number.
         Operand::Constant(constant) => {
@@ -67,11 +67,11 @@ pub(crate) fn literals(program: &Program<Exact>) -> read::Function {
     };
     let step = |(operation, both): &Step<Exact>| (*operation, both.each_ref().map(operand));
     let output = |(negative, result): &(bool, Operand<Exact>)| (*negative, operand(result));
-    read::Function {
+    read::ReadFunction {
         program: Program {
             steps: program.steps.iter().map(step).collect(),
             outputs: program.outputs.iter().map(output).collect(),
         },
-        ..read::Function::default()
+        ..read::ReadFunction::default()
     }
 }

@@ -14,29 +14,29 @@ const POINTS: usize = 5;
 
 /// The bodies that a payload may be: all of the mass is within a radius of the origin of its frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Body {
+pub struct BodyRange {
     /// The range of the mass, kg.
     pub mass: [f64; 2],
     /// The radius, m.
     pub radius: f64,
 }
 
-impl Default for Body {
-    fn default() -> Body {
+impl Default for BodyRange {
+    fn default() -> BodyRange {
         let (mass, radius) = ([0.0, 5.0], 0.3);
-        Body { mass, radius }
+        BodyRange { mass, radius }
     }
 }
 
-impl Body {
+impl BodyRange {
     /// Returns bodies beyond what decimals lose in doubles, and numbers in f32.
-    pub(crate) fn outward(self, is_single: bool) -> Body {
+    pub(crate) fn outward(self, is_single: bool) -> BodyRange {
         let up = |x: f64| match is_single {
             true if x != 0.0 => f64::from((x as f32).next_up()),
             _ => up(x),
         };
         let [low, high] = self.mass;
-        Body {
+        BodyRange {
             mass: [(2.0 * low - up(low)).max(0.0), up(high)],
             radius: up(self.radius),
         }
@@ -45,7 +45,7 @@ impl Body {
     /// Returns the ranges of the ten numbers: mass, centre of mass, and inertia about that as xx,
     /// yy, zz, xy, yz, xz.
     pub(crate) fn ranges(self) -> Vec<[f64; 2]> {
-        let Body { mass, radius } = self;
+        let BodyRange { mass, radius } = self;
         let most = up(up(mass[1] * radius) * radius);
         let symmetric = |most: f64| [-most, most];
         [
@@ -61,7 +61,7 @@ impl Body {
     /// Draws one as points of mass, from numbers of zero to one: mass, centre of mass, and inertia about
     /// that as xx, yy, zz, xy, yz, xz.
     pub fn draw(self, share: &mut impl FnMut() -> f64) -> Vec<f64> {
-        let Body { mass, radius } = self;
+        let BodyRange { mass, radius } = self;
         let mass = mass[0] + (mass[1] - mass[0]) * share();
         let mut points = [([0.0; 3], 0.0); POINTS];
         let mut sum = 0.0;
@@ -86,9 +86,9 @@ impl Body {
     }
 }
 
-impl fmt::Display for Body {
+impl fmt::Display for BodyRange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Body {
+        let BodyRange {
             mass: [low, high],
             radius,
         } = self;

@@ -49,7 +49,7 @@ pub enum Variable {
 /// must stay zero (but for sin, whose square is replaced). Of q̈, of errors and of loads a monomial has
 /// one at most, by its place; the last word has these behind its joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Key([u64; WORDS]);
+pub struct Powers([u64; WORDS]);
 
 const WORDS: usize = 4;
 const WIDTH: usize = 9;
@@ -75,8 +75,8 @@ const fn of_joints(bits: u64) -> [u64; WORDS] {
 }
 
 /// Returns the monomial that is a variable of a joint, or of an entry of the load.
-pub fn key(variable: Variable, index: usize) -> Key {
-    let mut key = Key::default();
+pub fn key(variable: Variable, index: usize) -> Powers {
+    let mut key = Powers::default();
     let place = index as u64 + 1;
     key.0[WORDS - 1] = match variable {
         Variable::Acceleration => place << ONES[0].0,
@@ -93,7 +93,7 @@ pub fn key(variable: Variable, index: usize) -> Key {
 }
 
 /// Returns the exponent of a variable in a monomial.
-pub fn exponent(key: Key, variable: Variable, index: usize) -> u32 {
+pub fn exponent(key: Powers, variable: Variable, index: usize) -> u32 {
     let one = |which: usize| key.0[WORDS - 1] >> ONES[which].0 & ONES[which].1;
     let place = index as u64 + 1;
     match variable {
@@ -108,9 +108,9 @@ pub fn exponent(key: Key, variable: Variable, index: usize) -> u32 {
     }
 }
 
-impl Key {
+impl Powers {
     /// Returns the product; none if both have a q̈, an error or a load.
-    fn times(self, other: Key) -> Option<Key> {
+    fn times(self, other: Powers) -> Option<Powers> {
         let [a, b] = [self, other].map(|key| key.0[WORDS - 1]);
         let are_both = |(start, bits): &(usize, u64)| {
             let mask = bits << start;
@@ -119,7 +119,7 @@ impl Key {
         if a >> ONES[0].0 != 0 && b >> ONES[0].0 != 0 && ONES.iter().any(are_both) {
             return None;
         }
-        Some(Key(std::array::from_fn(|k| self.0[k] + other.0[k])))
+        Some(Powers(std::array::from_fn(|k| self.0[k] + other.0[k])))
     }
 
     fn and(self, mask: [u64; WORDS]) -> [u64; WORDS] {
@@ -127,17 +127,17 @@ impl Key {
     }
 
     /// Returns all of it but sines and cosines.
-    pub(crate) fn without_angles(self) -> Key {
-        Key(std::array::from_fn(|k| self.0[k] & !ANGLES[k]))
+    pub(crate) fn without_angles(self) -> Powers {
+        Powers(std::array::from_fn(|k| self.0[k] & !ANGLES[k]))
     }
 
     /// Returns a key that is no monomial's.
-    pub(crate) fn marked(mut self) -> Key {
+    pub(crate) fn marked(mut self) -> Powers {
         self.0[WORDS - 1] |= MARK;
         self
     }
 
-    pub(crate) fn unmarked(mut self) -> Key {
+    pub(crate) fn unmarked(mut self) -> Powers {
         self.0[WORDS - 1] &= !MARK;
         self
     }
@@ -147,7 +147,7 @@ impl Key {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Polynomial {
     /// In the order of their keys, each key once.
-    pub terms: Vec<(Key, f64)>,
+    pub terms: Vec<(Powers, f64)>,
     /// The largest magnitude of all that is left out.
     pub rest: f64,
 }
@@ -158,7 +158,7 @@ impl Polynomial {
         Polynomial::term(key(variable, joint), factor, 0.0)
     }
 
-    fn term(key: Key, factor: f64, rest: f64) -> Polynomial {
+    fn term(key: Powers, factor: f64, rest: f64) -> Polynomial {
         let terms = Some((key, factor))
             .filter(|_| factor != 0.0)
             .into_iter()
@@ -173,7 +173,7 @@ impl Polynomial {
 
     /// Returns a number that is at most so far from a double.
     pub fn constant(value: f64, radius: f64) -> Polynomial {
-        Polynomial::term(Key::default(), value, radius)
+        Polynomial::term(Powers::default(), value, radius)
     }
 
     /// Returns the opposite.
@@ -237,7 +237,7 @@ impl Polynomial {
 }
 
 /// Pushes a term, every sin² in it replaced by 1 − cos².
-fn reduce(key: Key, coefficient: f64, terms: &mut Vec<(Key, f64)>) -> Result<(), Fault> {
+fn reduce(key: Powers, coefficient: f64, terms: &mut Vec<(Powers, f64)>) -> Result<(), Fault> {
     if key.and(GUARD) != [0; WORDS] {
         return Err(Fault::Large);
     }
@@ -256,10 +256,10 @@ fn reduce(key: Key, coefficient: f64, terms: &mut Vec<(Key, f64)>) -> Result<(),
 }
 
 /// Sums up terms of the same key; what all but cancelled goes into the rest.
-fn merged(mut terms: Vec<(Key, f64)>, mut rest: f64) -> Polynomial {
+fn merged(mut terms: Vec<(Powers, f64)>, mut rest: f64) -> Polynomial {
     // Stable: sums are taken in the order of the products on every machine.
     terms.sort_by_key(|(key, _)| *key);
-    let mut sums: Vec<(Key, f64)> = Vec::with_capacity(terms.len());
+    let mut sums: Vec<(Powers, f64)> = Vec::with_capacity(terms.len());
     let mut largest = 0.0f64;
     for (key, coefficient) in terms {
         match sums.last_mut() {

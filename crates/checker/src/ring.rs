@@ -11,7 +11,7 @@ use crate::identity::arm::Arm;
 use crate::identity::exact::Point;
 use crate::identity::setting::Setting;
 use crate::interval::sin_cos;
-use crate::polynomial::{Key, MAX_JOINTS, MAX_LOADS, Polynomial, Variable, exponent};
+use crate::polynomial::{MAX_JOINTS, MAX_LOADS, Polynomial, Powers, Variable, exponent};
 use crate::program::{ARGUMENTS, GRAVITY, Operand, argument};
 use crate::rounding::Ranges;
 use crate::work::Work;
@@ -174,7 +174,7 @@ impl Ring {
     /// Returns gravity of full length at the variables' angles, m/s²; nothing on a fixed base.
     pub fn gravity(&self, angles: &[f64]) -> Vec<f64> {
         let value = |entry: &Polynomial| {
-            let term = |(key, value): &(Key, f64)| {
+            let term = |(key, value): &(Powers, f64)| {
                 let factors = angles.iter().enumerate().map(|(joint, angle)| {
                     let (sin, cos) = sin_cos(*angle);
                     let [s, c] =
@@ -216,7 +216,7 @@ impl Ring {
     }
 
     /// The middle of the range over the box, and half its length.
-    pub fn factor(&self, key: Key) -> (f64, f64) {
+    pub fn factor(&self, key: Powers) -> (f64, f64) {
         let (mut low, mut high) = (1.0f64, 1.0f64);
         for ((variable, _), ranges) in LINEAR.iter().zip(&self.units) {
             for (index, &[a, b]) in ranges.iter().enumerate() {
@@ -243,7 +243,7 @@ impl Ring {
     }
 
     pub fn size(&self, polynomial: &Polynomial) -> f64 {
-        let size = |&(key, c): &(Key, f64)| {
+        let size = |&(key, c): &(Powers, f64)| {
             let (middle, radius) = self.factor(key);
             c.abs() * (middle.abs() + radius)
         };

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use crate::interval::Interval;
 use crate::polynomial::SLACK;
 use crate::program::{GRAVITY, LOAD, Operand, Program, argument};
-use crate::read::{Function, Source};
+use crate::read::{ReadFunction, Source};
 use crate::sines::{self, Scalar};
 
 pub type Ranges = Vec<Vec<[f64; 2]>>;
@@ -42,14 +42,14 @@ impl Value {
 }
 
 pub struct Rounding<'f> {
-    function: &'f Function,
+    function: &'f ReadFunction,
     pub(crate) scalar: Scalar,
     polynomials: HashMap<(usize, bool), f64>,
     pub(crate) load: Vec<Value>,
 }
 
 impl<'f> Rounding<'f> {
-    pub fn new(function: &'f Function, is_single: bool, ranges: &Ranges) -> Rounding<'f> {
+    pub fn new(function: &'f ReadFunction, is_single: bool, ranges: &Ranges) -> Rounding<'f> {
         let scalar = Scalar::new(is_single);
         let mut polynomials = HashMap::new();
         // Angles of one range mostly have the same polynomials.

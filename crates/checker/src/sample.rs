@@ -9,7 +9,7 @@ use std::array::from_fn;
 
 use crate::interval::{SINE_ERROR, UNIT, sin_cos};
 use crate::program::{Operand, argument};
-use crate::read::Function;
+use crate::read::ReadFunction;
 use crate::rounding::Rounding;
 use crate::sines::Scalar;
 
@@ -52,7 +52,7 @@ impl Lanes {
 }
 
 /// The entries of each argument.
-pub type State = Vec<Vec<f64>>;
+pub type FloatState = Vec<Vec<f64>>;
 
 pub struct Sampler<'f> {
     leaves: Vec<Operand<f64>>,
@@ -67,7 +67,7 @@ pub struct Sampler<'f> {
 }
 
 impl<'f> Sampler<'f> {
-    pub fn new(function: &'f Function, rounding: &Rounding, joints: usize) -> Sampler<'f> {
+    pub fn new(function: &'f ReadFunction, rounding: &Rounding, joints: usize) -> Sampler<'f> {
         let program = &function.program;
         let mut leaves: Vec<Operand<f64>> = Vec::new();
         let mut known = std::collections::HashMap::new();
@@ -122,7 +122,7 @@ impl<'f> Sampler<'f> {
     }
 
     /// Runs the function at states, given the loads there.
-    pub fn run(&self, states: [&State; LANES], load: &[Lanes]) -> Vec<Lanes> {
+    pub fn run(&self, states: [&FloatState; LANES], load: &[Lanes]) -> Vec<Lanes> {
         let leaf = |operand| Lanes::new(from_fn(|k| self.leaf(operand, states[k], load, k)));
         let mut values = Vec::with_capacity(self.leaves.len() + self.code.len());
         values.extend(self.leaves.iter().map(leaf));
@@ -172,7 +172,13 @@ impl<'f> Sampler<'f> {
         steps.map(|step| step.value.iter().fold(0.0, |most, x| x.abs().max(most)))
     }
 
-    fn leaf(&self, operand: &Operand<f64>, state: &State, load: &[Lanes], lane: usize) -> Near {
+    fn leaf(
+        &self,
+        operand: &Operand<f64>,
+        state: &FloatState,
+        load: &[Lanes],
+        lane: usize,
+    ) -> Near {
         let unit = self.scalar.unit;
         let entry = |place: usize, index: usize| state.get(place)?.get(index).copied();
         let near = |value, off, error| Near { value, off, error };

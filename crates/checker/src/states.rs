@@ -2,10 +2,10 @@
 
 use crate::fault::Fault;
 use crate::identity::number::Draws;
-use crate::payload::Body;
+use crate::payload::BodyRange;
 use crate::program::{ARGUMENTS, GRAVITY, argument};
 use crate::rounding::Ranges;
-use crate::sample::{LANES, State};
+use crate::sample::{FloatState, LANES};
 
 /// One state in so many has nothing but zeros, ends and middles of ranges, and quarter turns.
 const SPECIAL: usize = 5;
@@ -17,7 +17,7 @@ pub(crate) struct States<'s> {
     /// The places of the arguments that are read.
     pub places: &'s [usize],
     /// The bodies that each argument is of: a payload, and those of links.
-    pub bodies: &'s [(usize, Vec<Body>)],
+    pub bodies: &'s [(usize, Vec<BodyRange>)],
     /// The squares of the speeds over which friction of joints is smoothed: near to these it bends.
     pub widths: &'s [(usize, f64)],
     pub draws: Draws,
@@ -29,7 +29,7 @@ pub(crate) struct States<'s> {
 impl States<'_> {
     /// Draws the next state: at zero, in the middle, at the lower and the upper ends of all ranges,
     /// then special ones among random ones.
-    pub(crate) fn next(&mut self) -> State {
+    pub(crate) fn next(&mut self) -> FloatState {
         let mut state = vec![Vec::new(); ARGUMENTS.len()];
         let count = self.count;
         self.count += 1;
@@ -76,7 +76,7 @@ impl States<'_> {
         candidates[index.min(candidates.len() - 1)]
     }
 
-    fn rounded(&self, mut state: State) -> State {
+    fn rounded(&self, mut state: FloatState) -> FloatState {
         if let Some(place) = argument(GRAVITY) {
             // The ends of its ranges are those of a ball.
             let ends = self.ranges.get(place).into_iter().flatten();
@@ -99,9 +99,9 @@ impl States<'_> {
     /// many tries. A body stays as it is.
     pub(crate) fn climb(
         &self,
-        (mut highest, mut state): (f64, State),
+        (mut highest, mut state): (f64, FloatState),
         mut tries: usize,
-        mut heights: impl FnMut([&State; LANES]) -> Result<[f64; LANES], Fault>,
+        mut heights: impl FnMut([&FloatState; LANES]) -> Result<[f64; LANES], Fault>,
     ) -> Result<(), Fault> {
         let is_body = |place: &usize| self.bodies.iter().any(|(argument, _)| argument == place);
         for ways in STRIDES {

@@ -16,7 +16,7 @@ use crate::identity::table::{Field, Function};
 use crate::interval::{FARTHEST, Interval, up};
 use crate::load::load_of_point;
 use crate::maximum::{self, length};
-use crate::payload::Body;
+use crate::payload::BodyRange;
 use crate::polynomial::SLACK;
 use crate::program::{ARGUMENTS, GRAVITY, LOAD, Operand, Program, argument};
 use crate::read;
@@ -89,12 +89,12 @@ impl ResultBound {
     }
 }
 
-pub(crate) struct Subject<'s> {
+pub(crate) struct VariantSubject<'s> {
     pub(crate) setting: &'s Setting<'s>,
     pub(crate) function: &'s Function,
     pub(crate) exact: &'s Program<Exact>,
     pub(crate) emitted: &'s Program<Exact>,
-    pub(crate) read: &'s read::Function,
+    pub(crate) read: &'s read::ReadFunction,
     /// The function that makes a load, where this one takes it.
     pub(crate) load: Option<&'s Program<Exact>>,
     pub(crate) is_single: bool,
@@ -105,9 +105,9 @@ pub(crate) struct Subject<'s> {
 }
 
 /// A result: its field and its joints, of a torque its own, of an entry of D two.
-type Entry<'s> = (&'s Field, Vec<usize>);
+type ResultEntry<'s> = (&'s Field, Vec<usize>);
 
-impl Subject<'_> {
+impl VariantSubject<'_> {
     pub(crate) fn bounded(&self) -> Result<Vec<ResultBound>, Fault> {
         let count = self.emitted.outputs.len();
         let are_alike = self.exact.outputs.len() == count;
@@ -205,7 +205,7 @@ impl Subject<'_> {
         }
     }
 
-    fn results(&self) -> Vec<Entry<'_>> {
+    fn results(&self) -> Vec<ResultEntry<'_>> {
         let mut entries = Vec::new();
         for field in &self.function.fields {
             let lengths = field.lengths(self.setting, 0);
@@ -233,7 +233,7 @@ impl Subject<'_> {
         tolerances.fold(f64::INFINITY, f64::min)
     }
 
-    fn scales(&self, results: &[Entry], ranges: &Ranges) -> Result<Vec<f64>, Fault> {
+    fn scales(&self, results: &[ResultEntry], ranges: &Ranges) -> Result<Vec<f64>, Fault> {
         match self.claim.relative_to.as_str() {
             "actuator" => self.actuator(results),
             "range" => self.reached(ranges),
@@ -246,14 +246,14 @@ impl Subject<'_> {
 
     /// Returns the limits of the actuators; of an entry of D the inertia that takes all of a limit at
     /// the largest acceleration, of h_ikm the coefficient at the largest velocities.
-    fn actuator(&self, results: &[Entry]) -> Result<Vec<f64>, Fault> {
+    fn actuator(&self, results: &[ResultEntry]) -> Result<Vec<f64>, Fault> {
         let limit = |joint: usize, name: &str| {
             let bound = self.setting.limit(joint, name).filter(|limit| *limit > 0.0);
             bound.unwrap_or(f64::NAN)
         };
         let torque = |joint: usize| limit(joint, "torque");
         let inertia = |i: usize, k: usize| torque(i) / limit(k, "acceleration");
-        let measure = |(field, joints): &Entry| match *joints.as_slice() {
+        let measure = |(field, joints): &ResultEntry| match *joints.as_slice() {
             _ if !field.is_measured() => None,
             [i] => Some(torque(i)),
             [i, k] => Some(inertia(i, k).min(inertia(k, i))),
@@ -270,7 +270,7 @@ impl Subject<'_> {
     fn reached(&self, ranges: &Ranges) -> Result<Vec<f64>, Fault> {
         let states = &self.claim.reached;
         let of_robot = |why| Fault::Robot("limits".into(), why);
-        let Body { mass, radius } = self.setting.body().map_err(of_robot)?.unwrap_or_default();
+        let BodyRange { mass, radius } = self.setting.body().map_err(of_robot)?.unwrap_or_default();
         let places = &self.function.arguments;
         let wrong = "`reached`: expected a state of the box for each result";
         unless(states.len() == self.exact.outputs.len(), wrong)?;

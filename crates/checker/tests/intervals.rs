@@ -4,7 +4,7 @@ use dalembert_checker::domain::Domain;
 use dalembert_checker::identity::exact::Exact;
 use dalembert_checker::identity::number::Draws;
 use dalembert_checker::interval::{Interval, SINE_ERROR, sin_cos};
-use dalembert_checker::polynomial::{Key, Polynomial, Variable, exponent};
+use dalembert_checker::polynomial::{Polynomial, Powers, Variable, exponent};
 use dalembert_checker::program::{Operand, Program, argument};
 use dalembert_checker::work::Work;
 use num_rational::BigRational;
@@ -74,7 +74,7 @@ fn products_of_polynomials_are_within_their_rest() {
         let product = one.times(&other, &Work::default()).unwrap();
         let (c, v) = (exact(six[4] % 1.0), exact(six[5] % 1.0));
         let at = |p: &Polynomial| {
-            let term = |&(key, coefficient): &(Key, f64)| {
+            let term = |&(key, coefficient): &(Powers, f64)| {
                 let power = |variable, joint| exponent(key, variable, joint) as usize;
                 let c = num_traits::pow(c.clone(), power(Variable::Cos, 0));
                 let v = num_traits::pow(v.clone(), power(Variable::Velocity, 1));

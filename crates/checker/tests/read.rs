@@ -1,5 +1,6 @@
 //! The reader of text: what a name stands for is what a compiler takes it for.
 
+use dalembert_checker::Fault;
 use dalembert_checker::read::{Argument, Head, Symbols, Text};
 
 const HEAD: &str = "static inline void arm_gravity(const double q[ARM_RESTRICT 2], \
@@ -26,7 +27,10 @@ fn read(lines: &str) -> Result<(), String> {
     };
     let text = Text::c(&text).unwrap();
     let read = text.function(&head, Some(&symbols), false);
-    read.map(|_| ()).map_err(|error| error.reason)
+    read.map(|_| ()).map_err(|fault| match fault {
+        Fault::Text(_, reason) => reason,
+        other => other.to_string(),
+    })
 }
 
 fn refused(good: &str, changes: &[(&str, &str, &str)]) {

@@ -28,7 +28,7 @@ convention | name | duplicate key
 fn robot_files_that_are_none() {
     let source = file("crates/checker/tests/data/attacks/r2_conf.toml");
     let claim = r#"{ "claim": 2, "constants": [], "functions": [] }"#;
-    let text = file("crates/checker/tests/data/attacks/C.rs");
+    let text = file("crates/checker/tests/data/attacks/C.rs.txt");
     for (robot, words) in changed(&source, ROBOTS) {
         let fault = certify(&text, claim, &robot, &in_scene("pick"));
         let why = fault.unwrap_err().to_string();

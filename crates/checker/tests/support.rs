@@ -12,7 +12,7 @@ pub fn file(path: &str) -> String {
 /// Returns a function of an arm of two joints, its claim and its robot, in whose scene `pick` it is
 /// shown: an attack without the multiples of 2⁶¹ − 1 that were planted.
 pub fn honest() -> [String; 3] {
-    let names = ["A.rs", "B.claim.json", "r2.toml"];
+    let names = ["A.rs.txt", "B.claim.json", "r2.toml"];
     let [text, claim, robot] =
         names.map(|name| file(&format!("crates/checker/tests/data/attacks/{name}")));
     let planted = ["230.5843009213694", "2305843009213693951/10000000000000000"];

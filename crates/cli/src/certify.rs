@@ -3,7 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
-use dalembert_checker::certify::{Cost, Demand, Findings, Line, RATE, ResultBound, certify};
+use dalembert_checker::certify::{
+    Cost, Demand, Findings, FunctionReport, RATE, ResultBound, certify,
+};
 use dalembert_checker::file::MOST_BYTES;
 use dalembert_codegen::workspace::{bound_of, input_hash};
 use dalembert_import::ChainArgs;
@@ -109,7 +111,7 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     let certificate = certify(source, &claim, &robot.robot_file, &demand)
         .map_err(|fault| Failure::Input(format!("error: {fault}")))?;
     let mut report = Report::default();
-    let results = |line: &Line| {
+    let results = |line: &FunctionReport| {
         line.result
             .as_ref()
             .map_or(0, |findings| findings.results.len())
@@ -202,7 +204,7 @@ pub(crate) fn claim_of(file: &Path) -> PathBuf {
     }
 }
 
-fn words(line: &Line) -> String {
+fn words(line: &FunctionReport) -> String {
     match &line.result {
         Err(fault) => format!("not shown: {fault}"),
         Ok(shown) if !shown.results.is_empty() => "shown to be within the tolerance".into(),

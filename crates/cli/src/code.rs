@@ -134,7 +134,7 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
         .functions
         .iter()
         .any(|function| function.admitted.is_some());
-    if let Some(setup) = request.setup(robot).ok().filter(|_| !has_tolerance) {
+    if let Some(setup) = request.prepare(robot).ok().filter(|_| !has_tolerance) {
         let states = affordable_states(robot.joints.len());
         let drawn = setup.states(states, SEED);
         let bench = Bench::new(setup);

@@ -13,7 +13,7 @@ use crate::report::{Report, Table, cells};
 /// # Errors
 /// The robot has no formulas.
 pub(crate) fn report(robot: &Robot) -> Result<Report, Failure> {
-    let couplings = Couplings::new(robot).map_err(Failure::input)?;
+    let couplings = Couplings::new(robot)?;
     let mut report = Report::of(robot, None);
     report.line(format!(
         "{} of {} coefficients vanish: D_ik with i ≤ k, h_ikm = h_imk with k ≤ m, c_i",

@@ -23,7 +23,7 @@ use crate::progress;
 use crate::report::{COUNTS, Cell, Report, Table, cells, counts};
 use crate::robot_report;
 use crate::source::Source;
-use crate::steps::{self, Code, Row};
+use crate::steps::{self, StepCode, StepRow};
 use crate::table3::comparisons;
 
 /// Arguments of `explain`.
@@ -52,7 +52,7 @@ pub struct Explanation {
     /// The function.
     pub function: Function,
     /// The steps, in their order; the last is what is generated.
-    pub rows: Vec<Row>,
+    pub rows: Vec<StepRow>,
 }
 
 /// Explains the functions of a request, in their order; of the rest, effort,
@@ -63,7 +63,7 @@ pub struct Explanation {
 /// # Errors
 /// Those of [`generate`](dalembert_codegen::generate).
 pub fn explain(robot: &Robot, request: &Request) -> Result<Vec<Explanation>, GenerateError> {
-    let setup = request.setup(robot)?;
+    let setup = request.prepare(robot)?;
     let job = Job {
         robot,
         setup: &setup,
@@ -106,7 +106,7 @@ impl Explanation {
         let exact: Arm<Exact> = setup.arm(Exact::clone);
         let arm = exact.map(f64::nearest);
         let sizes = setup.sizes(function);
-        let row = |row: &Row| {
+        let row = |row: &StepRow| {
             let scalar = row.scalar();
             let code = Measured {
                 function,
@@ -114,14 +114,14 @@ impl Explanation {
                 sizes,
                 vanishing: vec![false; function.outputs(sizes)],
                 run: match &row.code {
-                    Code::Formula(formulation) => {
+                    StepCode::Formula(formulation) => {
                         Box::new(|state| formula(setup, &arm, *formulation, function, state))
                     }
-                    Code::Program(program) => {
+                    StepCode::Program(program) => {
                         let text = program.in_doubles();
                         Box::new(move |state| text.run_at(state))
                     }
-                    Code::Emitted(text, _) => Box::new(|state| text.run_at(state)),
+                    StepCode::Emitted(text, _) => Box::new(|state| text.run_at(state)),
                 },
             };
             let worst = match scalar {
@@ -262,7 +262,7 @@ fn steps_of(explanation: &Explanation) -> Table {
         .zip(explanation.rounding(STATES))
         .enumerate()
     {
-        let is_emitted = matches!(row.code, Code::Emitted(..));
+        let is_emitted = matches!(row.code, StepCode::Emitted(..));
         let mut title = row.title().to_owned();
         if is_emitted {
             title += &format!(", in {}", row.scalar());

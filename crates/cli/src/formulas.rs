@@ -143,7 +143,7 @@ pub(crate) fn run(
         quantities: quantities.to_vec(),
         style: args.style,
     };
-    let formulas = Formulas::new(robot, scene, &request).map_err(Failure::input)?;
+    let formulas = Formulas::new(robot, scene, &request)?;
     let digits = if args.all_digits {
         Digits::All
     } else {

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::slice;
 
 use dalembert_import::{
     ChainArgs, Change, Import, Options, SharedJoints, Snap, Text, arms, import_text, is_model,
@@ -87,7 +86,7 @@ pub(crate) fn run(args: &ImportArgs, context: &Context) -> Outcome {
         )));
     }
     let options = args.options();
-    let wrong = |errors: Diagnostics| Failure::Input(source.render(&errors.0));
+    let wrong = |errors: Diagnostics| Failure::Input(errors.render());
     let (made, shared) = match args.all {
         true => arms(&source, &options).map_err(wrong)?,
         false => {
@@ -119,7 +118,7 @@ fn say(args: &ImportArgs, context: &Context, made: &[Import], source: &Text) {
     let mut said = BTreeSet::new();
     for note in made.iter().flat_map(|made| &made.notes) {
         context.heard(note.severity == Severity::Warning);
-        let note = source.render(slice::from_ref(note));
+        let note = note.render();
         if said.insert(note.clone()) && !context.json {
             context.say(&note);
         }
@@ -216,8 +215,8 @@ fn values(made: &Import, path: &Path, source: &Text) -> Report {
         json!({
             "severity": note.severity.to_string(),
             "warning": note.warning.map(RobotWarning::name),
-            "line": note.line,
-            "column": note.column,
+            "line": note.line(),
+            "column": note.excerpt().map(|excerpt| excerpt.column),
             "message": note.message,
             "help": note.help,
         })

@@ -6,9 +6,9 @@
 //! may still find less for one tolerance alone.
 
 use dalembert_codegen::workspace::{
-    Budget, SearchEffort, TextError, ToleranceError, Variant, VariantSet, attempt, each,
+    Budget, Fault, SearchEffort, Variant, VariantSet, attempt, each,
 };
-use dalembert_codegen::{Counts, Effort, Program, ScalarType};
+use dalembert_codegen::{Counts, Effort, GenerateError, Program, ScalarType};
 
 /// One variant.
 pub struct Point {
@@ -112,7 +112,7 @@ impl<'a> Ladder<'a> {
         samples: usize,
         effort: Effort,
         budget: &'a Budget<'a>,
-    ) -> Result<Ladder<'a>, ToleranceError> {
+    ) -> Result<Ladder<'a>, GenerateError> {
         // Bounds are as tight as what is allowed asks for: a first one tells what that may be.
         let shown = |scalar: &ScalarType| {
             let rough = budget.unedited(&[*scalar], &budget.all_allowed(1.0))?;
@@ -124,7 +124,7 @@ impl<'a> Ladder<'a> {
             let fine = budget.unedited(&[*scalar], &budget.all_allowed(2.0 * most));
             Ok(fine.unwrap_or(rough).variants)
         };
-        let variants: Vec<Result<Vec<Variant>, ToleranceError>> =
+        let variants: Vec<Result<Vec<Variant>, GenerateError>> =
             ScalarType::ALL.iter().map(shown).collect();
         if let Some(Err(why)) = variants.iter().rfind(|result| result.is_err())
             && variants.iter().all(Result::is_err)
@@ -144,7 +144,7 @@ impl<'a> Ladder<'a> {
     ///
     /// # Errors
     /// A variant cannot be run.
-    pub fn climb(&self, tolerances: &[f64], begin: &dyn Fn(&str)) -> Result<Vec<Point>, TextError> {
+    pub fn climb(&self, tolerances: &[f64], begin: &dyn Fn(&str)) -> Result<Vec<Point>, Fault> {
         let mut points: Vec<Point> = Vec::new();
         for tolerance in tolerances.iter().copied().chain([0.0]) {
             points.extend(self.rung(tolerance, points.last(), begin)?);
@@ -161,7 +161,7 @@ impl<'a> Ladder<'a> {
         tolerance: f64,
         before: Option<&Point>,
         begin: &dyn Fn(&str),
-    ) -> Result<Vec<Point>, TextError> {
+    ) -> Result<Vec<Point>, Fault> {
         begin(&format!("tolerance {tolerance:e}"));
         let variants = match tolerance == 0.0 {
             true => self.exact.clone(),
@@ -217,7 +217,7 @@ impl<'a> Ladder<'a> {
         variants
     }
 
-    fn point(&self, tolerance: f64, variant: &Variant) -> Result<Point, TextError> {
+    fn point(&self, tolerance: f64, variant: &Variant) -> Result<Point, Fault> {
         let climbs = if self.samples == 0 { 0 } else { CLIMBS };
         let attempt = attempt(self.budget.setup, variant, self.samples, climbs, 1)?;
         let largest = |errors: Vec<f64>| errors.into_iter().fold(0.0, f64::max);

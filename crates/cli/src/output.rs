@@ -5,8 +5,8 @@ use std::cell::Cell;
 use std::fmt::Display;
 use std::path::PathBuf;
 
-use dalembert_codegen::GenerateError;
 use dalembert_codegen::workspace::{Disproof, plan_file};
+use dalembert_codegen::{Diagnostic, Diagnostics, GenerateError};
 
 use crate::args::as_flags;
 use crate::files::{self, Target};
@@ -29,6 +29,18 @@ impl Failure {
     /// Returns the failure of an input that cannot be used.
     pub fn input(why: impl Display) -> Failure {
         Failure::Input(format!("error: {why}"))
+    }
+}
+
+impl From<Diagnostic> for Failure {
+    fn from(error: Diagnostic) -> Self {
+        Failure::from(Diagnostics(vec![error]))
+    }
+}
+
+impl From<Diagnostics> for Failure {
+    fn from(errors: Diagnostics) -> Self {
+        Failure::Input(as_flags(errors.render().trim_end()))
     }
 }
 

@@ -34,7 +34,7 @@ pub(crate) fn page(
     let coefficients = [Quantity::Inertia, Quantity::Christoffel, Quantity::Gravity];
     page += &section(robot, "With numbers", Style::Numbers, &coefficients)?;
     page += &section(robot, "With constants", Style::Constants, &coefficients)?;
-    let couplings = Couplings::new(robot).map_err(Failure::input)?;
+    let couplings = Couplings::new(robot)?;
     page += &format!(
         "\n## Why coefficients vanish\n\n{} of {} vanish. Link i\\* is link i with what the base parameters of later \
          links add to it.\n\n",

@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use dalembert_import::ChainArgs;
+use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::equations::matrix::Columns;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Angle, Rounded};
-use dalembert_model::reference::{Reference, WrongLength};
+use dalembert_model::reference::Reference;
 use dalembert_model::robot::{JointKind, Position, Robot};
 use dalembert_stamp::{Comment, sealed};
 use nalgebra::DVector;
@@ -64,7 +65,7 @@ pub(crate) fn run(args: &ShowArgs, context: &Context) -> Outcome {
 }
 
 /// Returns the poses of links and hand as JSON: each is [R | p], row by row, in base axes.
-fn poses(robot: &Robot, at: &[f64]) -> Result<Report, WrongLength> {
+fn poses(robot: &Robot, at: &[f64]) -> Result<Report, Diagnostic> {
     let runtime = Reference::<f64>::from_robot(robot);
     let q = DVector::from_column_slice(at);
     let rows = |pose: &Columns<f64>| -> Value { pose.rows().chunks(4).map(Value::from).collect() };

@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::{generate_anew, plan_file};
 use dalembert_codegen::{
-    Asked, Function, GeneratedCode, Problem, Request, RobotFileError, ScalarType,
+    Asked, Diagnostics, Function, GeneratedCode, Request, ScalarType, unreadable,
 };
 use dalembert_import::{ChainArgs, OpenError, Options, first_bytes, open};
+use dalembert_model::diagnostic::{Diagnostic, Place};
 use dalembert_model::number::Rational;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
@@ -112,20 +113,23 @@ pub fn defaults(path: &Path) -> Options {
 pub fn unopened(path: &Path, error: OpenError) -> Failure {
     match error {
         OpenError::System(error) => system(path, &error),
-        OpenError::Wrong(why) => Failure::Input(why),
+        OpenError::Wrong(errors) => Failure::Input(errors.render()),
     }
 }
 
-fn problems_of(problems: &[Problem]) -> String {
-    let one = |problem: &Problem| {
-        let (flag, complaint) = (problem.option.replace('_', "-"), &problem.complaint);
-        let help = match complaint.help.as_str() {
-            "" => String::new(),
-            help => format!("\n  = help: {help}"),
+fn problems_of(problems: &Diagnostics) -> String {
+    let one = |problem: &Diagnostic| {
+        let message = match &problem.place {
+            Place::Option(option, _) => {
+                format!("--{}: {}", option.replace('_', "-"), problem.message)
+            }
+            _ => problem.message.clone(),
         };
-        as_flags(&format!("error: --{flag}: {}{help}", complaint.message))
+        let flagged =
+            Diagnostic::error(message).with_help(problem.help.as_deref().unwrap_or_default());
+        as_flags(flagged.render().trim_end())
     };
-    problems.iter().map(one).collect::<Vec<_>>().join("\n\n")
+    problems.0.iter().map(one).collect::<Vec<_>>().join("\n\n")
 }
 
 /// Returns the text of a whole file of at most so many bytes.
@@ -143,10 +147,11 @@ pub fn text(path: &Path, most: u64) -> Result<String, Failure> {
 
 fn system(path: &Path, error: &std::io::Error) -> Failure {
     let shown = path.display().to_string();
-    let said = RobotFileError::of_system(path, &shown, error).to_string();
+    let said = unreadable(path, &shown, error).render();
+    let said = said.trim_end();
     let whole = std::path::absolute(path).ok();
     Failure::Input(match whole.filter(|_| path.is_relative()) {
         Some(whole) => format!("{said}\n  = note: its full path is `{}`", whole.display()),
-        None => said,
+        None => said.to_owned(),
     })
 }

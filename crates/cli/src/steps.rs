@@ -8,8 +8,8 @@ use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
 use dalembert_codegen::workspace::{
-    self, Columns, Dag, Folding, Job, SearchResult, Signature, Variant, VariantSet, cost, replay,
-    search, search_graphs, skeleton, trace, trace_chain, tune, tune::ChainChoice,
+    self, Dag, Folding, Job, RegressorColumns, SearchResult, Signature, Variant, VariantSet, cost,
+    replay, search, search_graphs, skeleton, trace, trace_chain, tune, tune::ChainChoice,
 };
 use dalembert_codegen::{Counts, Function, GenerateError, Program, Request, ScalarType, Start};
 
@@ -34,7 +34,7 @@ const STEPS: [(&str, &str); 13] = [
 
 /// The code that a row runs.
 #[derive(Clone, Debug)]
-pub enum Code {
+pub enum StepCode {
     /// A formulation over floats, as written.
     Formula(Formulation),
     /// A program.
@@ -45,16 +45,16 @@ pub enum Code {
 
 /// One step.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct StepRow {
     /// The name for programs.
     pub step: &'static str,
     /// Its operation counts.
     pub counts: Counts,
     /// The code.
-    pub code: Code,
+    pub code: StepCode,
 }
 
-impl Row {
+impl StepRow {
     /// Returns the name of the step for people.
     pub fn title(&self) -> &'static str {
         let mut steps = STEPS.into_iter();
@@ -65,8 +65,8 @@ impl Row {
     /// Returns the scalar that the code runs in.
     pub fn scalar(&self) -> ScalarType {
         match self.code {
-            Code::Emitted(_, scalar) => scalar,
-            Code::Formula(_) | Code::Program(_) => ScalarType::F64,
+            StepCode::Emitted(_, scalar) => scalar,
+            StepCode::Formula(_) | StepCode::Program(_) => ScalarType::F64,
         }
     }
 }
@@ -81,8 +81,8 @@ const MAX_WRITTEN: usize = 8;
 pub(super) fn exact(
     job: &Job<'_>,
     function: Function,
-) -> Result<(Vec<Row>, Program), GenerateError> {
-    if function.columns() != Columns::None {
+) -> Result<(Vec<StepRow>, Program), GenerateError> {
+    if function.columns() != RegressorColumns::None {
         return Err(unexplained(function));
     }
     // Over all forms, nothing replayed.
@@ -111,15 +111,15 @@ pub(super) fn exact(
 struct Steps<'t> {
     job: &'t Job<'t>,
     function: Function,
-    rows: Vec<Row>,
+    rows: Vec<StepRow>,
 }
 
 impl Steps<'_> {
     fn program(&mut self, step: &'static str, program: Program) {
-        self.rows.push(Row {
+        self.rows.push(StepRow {
             step,
             counts: program.counts(),
-            code: Code::Program(Box::new(program)),
+            code: StepCode::Program(Box::new(program)),
         });
     }
 
@@ -135,13 +135,13 @@ impl Steps<'_> {
         let joints = setup.robot().joints.iter().enumerate();
         let turning = joints
             .filter(|(i, joint)| setup.lock(*i).is_none() && joint.kind == JointKind::Revolute);
-        self.rows.push(Row {
+        self.rows.push(StepRow {
             step: "lagrange_euler_written",
             counts: Counts {
                 sincos: turning.count(),
                 ..trace.traced
             },
-            code: Code::Formula(Formulation::LagrangeEuler),
+            code: StepCode::Formula(Formulation::LagrangeEuler),
         });
         self.graph("lagrange_euler_folded", &trace.graph);
         let graphs = std::slice::from_ref(&trace.graph);
@@ -214,16 +214,16 @@ fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
     regrouping
 }
 
-pub(super) fn tolerated(admitted: &VariantSet) -> Result<Vec<Row>, GenerateError> {
+pub(super) fn tolerated(admitted: &VariantSet) -> Result<Vec<StepRow>, GenerateError> {
     let row = |variant: &Variant| {
         let (function, scalar) = (variant.emitted.function, variant.scalar);
         let signature = Signature::of(&variant.emitted, scalar);
         let text = workspace::Code::parse(&variant.text, &signature)
             .map_err(|error| GenerateError::Defect(function, Some(scalar), error.to_string()))?;
-        Ok(Row {
+        Ok(StepRow {
             step: "tolerance",
             counts: text.counts(),
-            code: Code::Emitted(Box::new(text), scalar),
+            code: StepCode::Emitted(Box::new(text), scalar),
         })
     };
     admitted.variants.iter().map(row).collect()

@@ -71,7 +71,9 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
             Ok::<[Target; 2], Failure>([csv?, svg?])
         })
         .transpose()?;
-    let setup = request.setup(&source.robot).map_err(GenerateError::from)?;
+    let setup = request
+        .prepare(&source.robot)
+        .map_err(GenerateError::from)?;
     let functions = source.generate(context, &mut request)?.functions;
     let mut exact = functions
         .into_iter()

@@ -63,7 +63,7 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
         ]);
     }
     done.report.table("proofs", "", proofs);
-    let setup = request.setup(robot).map_err(GenerateError::from)?;
+    let setup = request.prepare(robot).map_err(GenerateError::from)?;
     let states = setup.states(args.states, SEED);
     let claimed = claims(&setup, &generated, &mut done)?;
     let bench = Bench::new(setup);
@@ -119,7 +119,9 @@ fn given_states(
 ) -> Result<Vec<GivenState>, Failure> {
     let shown = file.display();
     let fail = |why: String| Failure::Input(format!("error: {shown}: {why}"));
-    let setup = request.setup(&source.robot).map_err(GenerateError::from)?;
+    let setup = request
+        .prepare(&source.robot)
+        .map_err(GenerateError::from)?;
     let states = given::read(&text(file, MAX_STATES_BYTES)?, setup.robot()).map_err(fail)?;
     let known: BTreeSet<Quantity> = states
         .iter()

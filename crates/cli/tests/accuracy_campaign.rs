@@ -10,7 +10,7 @@ use std::ops::Range;
 use crate::robots::daily_and_campaign;
 use crate::robots::draw::robots;
 use dalembert_cli::measure::{Bench, Code, VECTOR};
-use dalembert_codegen::workspace::{Quantity, SEED, Setup, seeded};
+use dalembert_codegen::workspace::{Quantity, SEED, Setup, testing::seeded};
 use dalembert_codegen::{Function, GenerateError, Request, ScalarType, generate};
 
 const STATES: usize = 30;

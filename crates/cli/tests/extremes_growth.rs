@@ -2,7 +2,7 @@
 
 use dalembert_cli::extremes::cases::Change;
 use dalembert_cli::measure::{Bench, Code, VECTOR};
-use dalembert_codegen::workspace::{RunnableCode, Setup, parse, seeded};
+use dalembert_codegen::workspace::{RunnableCode, Setup, parse, testing::seeded};
 use dalembert_codegen::{Function, GenerateError, Request, ScalarType, generate};
 use dalembert_model::robot::Robot;
 

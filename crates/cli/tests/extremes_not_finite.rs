@@ -1,7 +1,7 @@
 //! NaN and ±inf reach the outputs that depend on them: exactly those in
 //! emitted code, at least those in the generic runtime.
 
-use dalembert_codegen::workspace::{Input, JointState, Node, Runtime, seeded};
+use dalembert_codegen::workspace::{Input, JointState, Node, Runtime, testing::seeded};
 use dalembert_codegen::{Function, Program, Request, ScalarType, generate};
 
 use crate::robots::robot;

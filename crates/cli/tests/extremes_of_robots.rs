@@ -3,7 +3,7 @@
 use dalembert_cli::extremes::cases::Change;
 use dalembert_cli::extremes::{Row, Verdict, divided, inside, nearest_to_singular, torques};
 use dalembert_cli::measure::{Bench, Code, VECTOR};
-use dalembert_codegen::workspace::{Literal, Node, RuntimeParameter, Setup, seeded};
+use dalembert_codegen::workspace::{Literal, Node, RuntimeParameter, Setup, testing::seeded};
 use dalembert_codegen::{Function, Request, generate};
 use dalembert_model::number::{Rational, Rounded};
 use dalembert_model::read;

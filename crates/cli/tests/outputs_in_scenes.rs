@@ -1,6 +1,6 @@
 //! Outputs that are generated only if they are named, in a scene.
 
-use dalembert_codegen::workspace::{Runtime, seeded};
+use dalembert_codegen::workspace::{Runtime, testing::seeded};
 use dalembert_codegen::{Function, Request, generate};
 use dalembert_model::scene::Scene;
 

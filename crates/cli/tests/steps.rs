@@ -2,7 +2,7 @@
 //! before, and the last row is the generated program.
 
 use dalembert_cli::explain::{Explanation, explain};
-use dalembert_cli::steps::Code;
+use dalembert_cli::steps::StepCode;
 use dalembert_codegen::workspace::{Setup, prove};
 use dalembert_codegen::{Function, Request, ScalarType, generate};
 use dalembert_model::number::Rational;
@@ -27,7 +27,7 @@ fn every_row_is_proved() {
         let robot = support::robot(name);
         for function in [Function::InverseDynamics, Function::Inertia] {
             for row in of(name, function).rows {
-                if let Code::Program(program) = row.code {
+                if let StepCode::Program(program) = row.code {
                     let step = row.step;
                     assert_eq!(row.counts, program.counts());
                     prove(&Setup::whole(&robot), &program)
@@ -51,7 +51,7 @@ fn a_scene_is_explained() {
     let (last, exact) = explained.rows.split_last().unwrap();
     assert_eq!(last.step, "tolerance");
     for row in exact {
-        if let Code::Program(program) = &row.code {
+        if let StepCode::Program(program) = &row.code {
             let step = row.step;
             prove(&setup, program).unwrap_or_else(|e| panic!("{step}: {e}"));
         }
@@ -92,7 +92,7 @@ fn the_last_row_is_what_is_generated() {
                 .find(|f| f.function == explanation.function)
                 .unwrap();
             let last = explanation.rows.last().unwrap();
-            let Code::Emitted(text, of) = &last.code else {
+            let StepCode::Emitted(text, of) = &last.code else {
                 panic!("{:?}", last.step)
             };
             assert_eq!(*of, scalar, "{}", function.function);

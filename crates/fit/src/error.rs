@@ -1,39 +1,60 @@
 //! The errors of inputs.
 
-use std::fmt;
-
 /// The errors of this crate.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
     /// The robot has no base parameters that could be written down; the generator's reason.
+    #[error("{0}")]
     NoBaseParameters(String),
     /// A slice is not as long as it has to be.
+    #[error("`{argument}` has {found} values instead of {expected}")]
     Length {
         argument: &'static str,
         expected: usize,
         found: usize,
     },
     /// A value is NaN, infinite or beyond 1e100.
+    #[error(
+        "`{argument}[{index}]` is {found}: a finite number below 1e100 was expected; leave such \
+         states out"
+    )]
     Value {
         argument: &'static str,
         index: usize,
         found: f64,
     },
     /// Two accumulators, or one and a model, are over different columns.
+    #[error(
+        "the accumulators are over different columns: use one robot file and the same options for \
+         all of them"
+    )]
     OtherModel,
     /// Bytes are not an accumulator of this version.
+    #[error("these bytes are not an accumulator: {0}")]
     Bytes(&'static str),
     /// There are fewer states than parameters of a torque, which its place among all tells.
+    #[error(
+        "torque {} has {needed} parameters at least, and there are {states} states: {} or more are \
+         needed",
+        joint + 1,
+        needed + 1
+    )]
     TooFew {
         joint: usize,
         states: u64,
         needed: u64,
     },
     /// A log can be validated only against others.
+    #[error("cross-validation needs two logs or more: split the log in time")]
     OneFile,
     /// An option is out of range: what it has to be.
+    #[error("{0}")]
     Option(&'static str),
     /// Positions are too far apart for the motion.
+    #[error(
+        "{rate:.0} states a second carry motion up to {most:.2} Hz, and the motion has {frequency} \
+         Hz: give the frequency of the fastest motion in the log"
+    )]
     TooFast {
         /// Positions a second.
         rate: f64,
@@ -43,66 +64,12 @@ pub enum Error {
         frequency: f64,
     },
     /// The search for consistent bodies did not converge.
+    #[error(
+        "no real bodies were found near the free parameters: look for mistakes in the logs where \
+         the residuals are not small, else bring the robot file's masses near those of the arm"
+    )]
     NotConverged,
 }
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Error::NoBaseParameters(why) => f.write_str(why),
-            Error::Length {
-                argument,
-                expected,
-                found,
-            } => write!(f, "`{argument}` has {found} values instead of {expected}"),
-            Error::Value {
-                argument,
-                index,
-                found,
-            } => write!(
-                f,
-                "`{argument}[{index}]` is {found}: a finite number below 1e100 was expected; leave \
-                 such states out"
-            ),
-            Error::OtherModel => f.write_str(
-                "the accumulators are over different columns: use one robot file and the same \
-                 options for all of them",
-            ),
-            Error::Bytes(why) => write!(f, "these bytes are not an accumulator: {why}"),
-            Error::TooFew {
-                joint,
-                states,
-                needed,
-            } => write!(
-                f,
-                "torque {} has {needed} parameters at least, and there are {states} states: \
-                 {} or more are needed",
-                joint + 1,
-                needed + 1
-            ),
-            Error::OneFile => {
-                f.write_str("cross-validation needs two logs or more: split the log in time")
-            }
-            Error::Option(expected) => f.write_str(expected),
-            Error::TooFast {
-                rate,
-                most,
-                frequency,
-            } => write!(
-                f,
-                "{rate:.0} states a second carry motion up to {most:.2} Hz, and the motion has \
-                 {frequency} Hz: give the frequency of the fastest motion in the log"
-            ),
-            Error::NotConverged => f.write_str(
-                "no real bodies were found near the free parameters: look for mistakes in the logs \
-                 where the residuals are not small, else bring the robot file's masses near those \
-                 of the arm",
-            ),
-        }
-    }
-}
-
-impl std::error::Error for Error {}
 
 /// Refuses an option unless it is good, by what it has to be.
 pub(crate) fn ensure(is_good: bool, expected: &'static str) -> Result<(), Error> {

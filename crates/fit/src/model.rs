@@ -15,7 +15,7 @@ mod evaluate;
 
 use dalembert_codegen::workspace::{Parameter, Quantity, Setup};
 use dalembert_model::equations::Arm;
-use dalembert_model::equations::chain::{Body, Chain, Regrouping, Skeleton};
+use dalembert_model::equations::chain::{Chain, MomentBody, Regrouping, Skeleton};
 use dalembert_model::equations::regressor::LinkParameter;
 use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::robot::{Joint, Robot};
@@ -94,9 +94,9 @@ impl Model {
         let mut skeleton = Skeleton::with_columns(&arm, &[], &base.columns);
         // The columns are all that is computed: the links' own bodies are not regrouped.
         for segment in &mut skeleton.links {
-            segment.link.body = Body::zero();
+            segment.link.body = MomentBody::zero();
         }
-        skeleton.base = skeleton.base.map(|_| Body::zero());
+        skeleton.base = skeleton.base.map(|_| MomentBody::zero());
         let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
         let combination = |terms: &Vec<(Parameter, Exact)>| {
             terms.iter().map(|(of, x)| (*of, f64::nearest(x))).collect()

@@ -14,7 +14,7 @@ use crate::progress::Going;
 /// Residuals of an arm's model, and its parameters, from a fleet's logs
 #[derive(Debug, Parser)]
 #[command(name = "dalembert-fleet", version)]
-pub struct Arguments {
+pub struct CommandLine {
     #[command(subcommand)]
     command: Command,
 }
@@ -48,7 +48,7 @@ pub struct Report {
 ///
 /// # Errors
 /// What went wrong; then no output has changed.
-pub async fn run(arguments: Arguments, going: &Going) -> Result<Report, Error> {
+pub async fn run(arguments: CommandLine, going: &Going) -> Result<Report, Error> {
     let text = match arguments.command {
         Command::Identify(args) => return identify::run(&args, going).await,
         Command::Residual(args) => residual::run(&args, going).await?,

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use clap::Parser;
-use dalembert_fleet::commands::{Arguments, run};
+use dalembert_fleet::commands::{CommandLine, run};
 use dalembert_fleet::progress::{Going, INTERRUPTED};
 use tokio::runtime::Builder;
 
@@ -14,7 +14,7 @@ use tokio::runtime::Builder;
 const ENDED: u8 = 130;
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = CommandLine::parse();
     let runtime = Builder::new_multi_thread().enable_all().build();
     let runtime = match runtime {
         Ok(runtime) => runtime,

@@ -1,14 +1,15 @@
 //! A robot whose motion, and on request whose lengths, masses and inertias, are symbols.
 
+use dalembert_codegen::Diagnostic;
 use dalembert_codegen::workspace::Setup;
-use dalembert_model::equations::chain::{Body, Chain, Displacement, Regrouping, Skeleton};
+use dalembert_model::equations::chain::{Chain, Displacement, MomentBody, Regrouping, Skeleton};
 use dalembert_model::equations::{Arm, JointPosition};
 use dalembert_model::number::{Angle, Rational, Wide};
 use dalembert_model::robot::{Joint, JointKind, Robot};
 use dalembert_model::scalar::{Scalar, SinCosPair};
 
 use crate::entries::Coefficients;
-use crate::error::FormulaError;
+use crate::error;
 use crate::naming::SymbolTable;
 use crate::number::{Constants, Number};
 use crate::ring::{MAX_JOINTS, MAX_POWER, Polynomial, Symbols};
@@ -81,7 +82,7 @@ impl SymbolicArm {
     ///
     /// # Errors
     /// Its base floats, or it has more joints than monomials hold.
-    pub fn new(setup: &Setup, symbolic: Symbolic) -> Result<SymbolicArm, FormulaError> {
+    pub fn new(setup: &Setup, symbolic: Symbolic) -> Result<SymbolicArm, Diagnostic> {
         let robot = setup.robot();
         check(robot)?;
         let mut constants = Constants::new();
@@ -120,7 +121,7 @@ impl SymbolicArm {
             position[follower.row] = leader.map(|leader| leader.followed_by(follower));
         }
         if !constants.fits {
-            return Err(FormulaError::Unfit);
+            return Err(error::unfit());
         }
         let mut symbolic_arm = SymbolicArm {
             arm,
@@ -154,10 +155,10 @@ impl SymbolicArm {
         setup: &Setup,
         posed: &PosedChain<Polynomial>,
         chain: &Chain<Polynomial>,
-    ) -> Result<Coefficients<Polynomial>, FormulaError> {
+    ) -> Result<Coefficients<Polynomial>, Diagnostic> {
         let following = &self.arm.following;
         Coefficients::new(setup, following, posed, chain, Polynomial::is_lost)
-            .ok_or(FormulaError::Large)
+            .ok_or_else(error::large)
     }
 
     /// Returns the value of a polynomial without motion, whose parameters are the file's.
@@ -227,7 +228,7 @@ pub fn posed<S: Scalar>(
 fn unmoved<S: Scalar>(skeleton: &Skeleton<S>) -> Chain<S> {
     let mut empty = skeleton.clone();
     for segment in &mut empty.links {
-        segment.link.body = Body::zero();
+        segment.link.body = MomentBody::zero();
     }
     let mut chain = Chain::new(&empty, &Regrouping::base(skeleton));
     for (link, segment) in chain.links.iter_mut().zip(&skeleton.links) {
@@ -240,13 +241,13 @@ fn unmoved<S: Scalar>(skeleton: &Skeleton<S>) -> Chain<S> {
     chain
 }
 
-fn check(robot: &Robot) -> Result<(), FormulaError> {
+fn check(robot: &Robot) -> Result<(), Diagnostic> {
     if robot.floating.is_some() {
-        return Err(FormulaError::Floating);
+        return Err(error::floating());
     }
     let joints = robot.joints.len();
     if joints > MAX_JOINTS {
-        return Err(FormulaError::ManyJoints(joints));
+        return Err(error::many_joints(joints));
     }
     for joint in 0..joints {
         let followers = robot
@@ -257,7 +258,7 @@ fn check(robot: &Robot) -> Result<(), FormulaError> {
             .map(|follower| follower.turns().unsigned_abs())
             .sum();
         if 2 * (1 + turns as usize) > MAX_POWER {
-            return Err(FormulaError::FarFollower(joint));
+            return Err(error::far_follower(joint));
         }
     }
     Ok(())

@@ -6,7 +6,7 @@
 //! MX, MY, XX (which is XX − YY), ZZ, XY, XZ, YZ; M, MX, MY, MZ. They are taken about a point of the
 //! joint's axis, in axes that turn with the link, z along the joint's axis.
 
-use dalembert_model::equations::chain::{Body, Chain};
+use dalembert_model::equations::chain::{Chain, MomentBody};
 use dalembert_model::robot::{Inertia, JointKind};
 use dalembert_model::scalar::Scalar;
 
@@ -34,9 +34,9 @@ pub struct BaseBodies {
 }
 
 /// Returns the body that has these of [`MOMENTS`], YY zero.
-pub fn body_of<S: Scalar>(kind: JointKind, moments: [S; MOMENTS.len()]) -> Body<S> {
+pub fn body_of<S: Scalar>(kind: JointKind, moments: [S; MOMENTS.len()]) -> MomentBody<S> {
     let [m, x, y, z, xx, zz, xy, xz, yz] = moments;
-    Body {
+    MomentBody {
         mass: m,
         first: [x, y, z],
         second: match kind {
@@ -54,7 +54,7 @@ pub fn body_of<S: Scalar>(kind: JointKind, moments: [S; MOMENTS.len()]) -> Body<
 }
 
 /// Returns the moments of a body in the order of [`MOMENTS`].
-pub fn moments_of<S: Scalar>(body: &Body<S>) -> [S; MOMENTS.len()] {
+pub fn moments_of<S: Scalar>(body: &MomentBody<S>) -> [S; MOMENTS.len()] {
     let tensor = body.tensor();
     let [x, y, z] = body.first.clone();
     [
@@ -144,10 +144,10 @@ impl BaseBodies {
 }
 
 /// Moves inward all that can: returns the bodies that links keep.
-fn kept_bodies(chain: &Chain<Polynomial>) -> Vec<Body<Polynomial>> {
+fn kept_bodies(chain: &Chain<Polynomial>) -> Vec<MomentBody<Polynomial>> {
     let n = chain.links.len();
-    let mut arriving: Vec<Body<Polynomial>> = vec![Body::zero(); n];
-    let mut kept: Vec<Body<Polynomial>> = vec![Body::zero(); n];
+    let mut arriving: Vec<MomentBody<Polynomial>> = vec![MomentBody::zero(); n];
+    let mut kept: Vec<MomentBody<Polynomial>> = vec![MomentBody::zero(); n];
     for i in (0..n).rev() {
         let link = &chain.links[i];
         let mut body = link.body.with(&arriving[i]);

@@ -6,6 +6,7 @@ mod sections;
 
 use std::rc::Rc;
 
+use dalembert_codegen::Diagnostic;
 use dalembert_codegen::workspace::Setup;
 use dalembert_model::equations::dalembert::Part;
 use dalembert_model::scalar::Scalar;
@@ -14,7 +15,7 @@ use crate::arm::{PosedChain, Symbolic, SymbolicArm};
 use crate::bodies::BaseBodies;
 use crate::canonical::{Runs, Splits, Terms};
 use crate::entries::{Coefficients, hand, jacobian, potential_energy};
-use crate::error::FormulaError;
+use crate::error;
 use crate::expression::{Factor, Sum, by_symbols, with_numbers};
 use crate::formulas::{Formulas, Request, Style};
 use crate::line::Section;
@@ -61,21 +62,21 @@ pub struct Builder<'a> {
 }
 
 /// Coefficients, the table of their symbols, and the moments that rows are multiplied by.
-type InSymbols = Result<(Coefficients<Polynomial>, usize, Option<Rc<Moments>>), FormulaError>;
+type InSymbols = Result<(Coefficients<Polynomial>, usize, Option<Rc<Moments>>), Diagnostic>;
 
 /// The place of the table of the robot file's own symbols.
 const OF_FILE: usize = 0;
 
 impl<'a> Builder<'a> {
     /// Computes the polynomials that are asked for.
-    pub fn new(setup: &'a Setup, request: &'a Request) -> Result<Self, FormulaError> {
+    pub fn new(setup: &'a Setup, request: &'a Request) -> Result<Self, Diagnostic> {
         let symbolic = match request.style {
             Style::Numbers => Symbolic::Nothing,
             _ => Symbolic::Everything,
         };
         let arm = SymbolicArm::new(setup, symbolic)?;
         if setup.rows().is_empty() {
-            return Err(FormulaError::Nothing);
+            return Err(error::nothing());
         }
         let moving = arm.variables.iter().map(|variable| variable.joint);
         let has_motion = [Quantity::Torque, Quantity::KineticEnergy];
@@ -85,7 +86,7 @@ impl<'a> Builder<'a> {
             .any(|quantity| has_motion.contains(quantity))
             && !moving.eq(setup.rows().iter().copied())
         {
-            return Err(FormulaError::Rows);
+            return Err(error::rows());
         }
         let chain = arm.chain(&arm.arm);
         let of_file = arm
@@ -152,7 +153,7 @@ impl<'a> Builder<'a> {
     fn in_file(
         &self,
         chain: &PosedChain<Polynomial>,
-    ) -> Result<Coefficients<Polynomial>, FormulaError> {
+    ) -> Result<Coefficients<Polynomial>, Diagnostic> {
         self.arm.coefficients(self.setup, chain, &chain.chain)
     }
 
@@ -185,7 +186,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Lists the polynomials of all quantities that are asked for.
-    fn collect(&mut self, table: usize, moments: Option<Rc<Moments>>) -> Result<(), FormulaError> {
+    fn collect(&mut self, table: usize, moments: Option<Rc<Moments>>) -> Result<(), Diagnostic> {
         let n = self.setup.rows().len();
         for &quantity in &self.request.quantities {
             match quantity {
@@ -229,7 +230,7 @@ impl<'a> Builder<'a> {
         }
         let mut polynomials = self.sources.iter().flat_map(|source| &source.polynomials);
         match polynomials.any(Polynomial::is_lost) {
-            true => Err(FormulaError::Large),
+            true => Err(error::large()),
             false => Ok(()),
         }
     }
@@ -253,7 +254,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Adds a part of generalized D'Alembert: the coefficients of an arm that has it alone.
-    fn part(&mut self, quantity: Quantity) -> Result<(), FormulaError> {
+    fn part(&mut self, quantity: Quantity) -> Result<(), Diagnostic> {
         let (part, mark) = match quantity {
             Quantity::InertiaRotation | Quantity::ChristoffelRotation => (Part::Rotation, "r"),
             _ => (Part::Translation, "t"),
@@ -272,7 +273,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Writes them.
-    pub fn build(mut self) -> Result<Formulas, FormulaError> {
+    pub fn build(mut self) -> Result<Formulas, Diagnostic> {
         let sources = std::mem::take(&mut self.sources);
         let chain = self.arm.chain(&self.arm.arm);
         let mut rows = Rows::new(&chain, self.driven(&chain));

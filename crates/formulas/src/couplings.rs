@@ -21,6 +21,7 @@ mod world;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
+use dalembert_codegen::Diagnostic;
 use dalembert_codegen::workspace::Setup;
 use dalembert_model::equations::dalembert::Part;
 use dalembert_model::robot::{JointKind, Robot};
@@ -30,7 +31,6 @@ use crate::arm::{PosedChain, Symbolic, SymbolicArm};
 use crate::bodies::{BaseBodies, BaseMoments};
 use crate::canonical::Splits;
 use crate::entries::Coefficients;
-use crate::error::FormulaError;
 use crate::expression::{Sum, with_numbers};
 use crate::legend::Frames;
 use crate::lists::coefficients_of;
@@ -134,8 +134,8 @@ impl Couplings {
     /// Finds the coefficients of a robot that vanish, each with its reason.
     ///
     /// # Errors
-    /// The robot has no formulas ([`FormulaError`]).
-    pub fn new(robot: &Robot) -> Result<Couplings, FormulaError> {
+    /// The robot has no formulas.
+    pub fn new(robot: &Robot) -> Result<Couplings, Diagnostic> {
         let setup = Setup::whole(robot);
         Finder::new(&setup)?.couplings()
     }
@@ -228,7 +228,7 @@ pub(crate) struct Finder<'a> {
 const SEEDS: [u64; 2] = [0x776f_726c, 0x6473_2121];
 
 impl<'a> Finder<'a> {
-    pub(crate) fn new(setup: &'a Setup) -> Result<Finder<'a>, FormulaError> {
+    pub(crate) fn new(setup: &'a Setup) -> Result<Finder<'a>, Diagnostic> {
         let arm = SymbolicArm::new(setup, Symbolic::Nothing)?;
         let chain = arm.chain(&arm.arm);
         let bodies = BaseBodies::whole(&arm, &chain);
@@ -261,7 +261,7 @@ impl<'a> Finder<'a> {
         })
     }
 
-    fn couplings(mut self) -> Result<Couplings, FormulaError> {
+    fn couplings(mut self) -> Result<Couplings, Diagnostic> {
         let in_numbers = self.in_numbers.clone();
         let in_parameters = self.in_parameters.clone();
         let rotation = self.arm.chain(&Part::Rotation.of(&self.arm.arm));

@@ -12,7 +12,7 @@ use dalembert_model::robot::JointKind;
 use crate::arm::{Offset, Variable};
 use crate::expression::{Factor, Sum, Term};
 use crate::formulas::Formulas;
-use crate::legend::Entry;
+use crate::legend::SymbolEntry;
 use crate::line::Section;
 use crate::write::{Digits, Format, Latex, Text};
 
@@ -227,7 +227,7 @@ fn zeros(section: &Section, format: &impl Format) -> Option<String> {
     (!names.is_empty()).then(|| names.join(", "))
 }
 
-fn value<F: Format>(entry: &Entry, format: &F) -> String {
+fn value<F: Format>(entry: &SymbolEntry, format: &F) -> String {
     let sign = if entry.value.is_negative() {
         F::MINUS
     } else {

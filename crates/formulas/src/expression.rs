@@ -123,18 +123,18 @@ pub fn with_numbers(terms: &Terms, runs: &Runs) -> Sum {
 }
 
 /// Terms with the same symbols.
-type Group<'a> = Vec<(&'a Shape, Number)>;
+type LikeTerms<'a> = Vec<(&'a Shape, Number)>;
 
 /// Writes an entry by the products of symbols in it: each times a sum, a common number outside.
 pub fn by_symbols(terms: &Terms, runs: &Runs, name: impl Fn(Symbols) -> Vec<Factor>) -> Sum {
-    let mut groups: BTreeMap<(Option<usize>, Symbols), Group<'_>> = BTreeMap::new();
+    let mut groups: BTreeMap<(Option<usize>, Symbols), LikeTerms<'_>> = BTreeMap::new();
     for (shape, form) in terms {
         for (symbols, x) in form {
             let group = groups.entry((symbols.parameter_index(), *symbols));
             group.or_default().push((shape, *x));
         }
     }
-    let terms = |(symbols, group): (Symbols, Group<'_>)| {
+    let terms = |(symbols, group): (Symbols, LikeTerms<'_>)| {
         let common = name(symbols);
         match common.is_empty() {
             true => group

@@ -1,12 +1,12 @@
 //! Requests for formulas, and the formulas of a robot.
 
+use dalembert_codegen::Diagnostic;
 use dalembert_codegen::workspace::{Setup, Word};
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
 use crate::arm::Variable;
 use crate::builder::Builder;
-use crate::error::FormulaError;
 use crate::legend::Legend;
 use crate::line::Section;
 use crate::quantity::Quantity;
@@ -70,14 +70,13 @@ impl Formulas {
     /// Writes the formulas of a robot, whole or in a scene.
     ///
     /// # Errors
-    /// The robot has none ([`FormulaError`]).
+    /// The robot has none.
     pub fn new(
         robot: &Robot,
         scene: Option<&Scene>,
         request: &Request,
-    ) -> Result<Formulas, FormulaError> {
-        let setup =
-            Setup::in_scene(robot, scene).map_err(|why| FormulaError::Scene(why.to_string()))?;
+    ) -> Result<Formulas, Diagnostic> {
+        let setup = Setup::in_scene(robot, scene)?;
         let request = Request {
             quantities: with_needed(&request.quantities),
             style: request.style,

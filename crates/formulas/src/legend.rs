@@ -8,7 +8,7 @@ use crate::symbol::{Definition, Symbol};
 
 /// A symbol's meaning.
 #[derive(Clone, Debug)]
-pub struct Entry {
+pub struct SymbolEntry {
     /// The symbol.
     pub symbol: Symbol,
     /// The sum of other symbols that it stands for; empty for an entry of the robot file.
@@ -23,7 +23,7 @@ pub struct Group {
     /// The joint, or the robot.
     pub label: String,
     /// Its entries.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<SymbolEntry>,
 }
 
 /// The frames in which numbers of links are taken.
@@ -64,9 +64,9 @@ impl Frames {
 #[derive(Clone, Debug, Default)]
 pub struct Legend {
     /// Constants that coefficients share.
-    pub constants: Vec<Entry>,
+    pub constants: Vec<SymbolEntry>,
     /// Base parameters.
-    pub parameters: Vec<Entry>,
+    pub parameters: Vec<SymbolEntry>,
     /// Entries of the robot file, those of a joint together.
     pub groups: Vec<Group>,
     /// The frames of the links.
@@ -78,7 +78,7 @@ pub struct Legend {
 impl Legend {
     /// Adds an entry of the robot file to its group.
     pub(crate) fn entry(&mut self, label: String, definition: &Definition<Number>) {
-        let entry = Entry {
+        let entry = SymbolEntry {
             symbol: definition.symbol.clone(),
             sum: Sum::new(),
             value: definition.value,

@@ -26,7 +26,7 @@
 //! let text = Formulas::new(&robot, None, &request)?.write(Layout::Text, Digits::Six);
 //! assert!(text.contains("D_11 = a1²·m1 + 2·a1·x̄1·m1 + x̄1²·m1 + I1zz\n"));
 //! assert!(text.contains("c_1 = g·a1·m1·C1 + g·x̄1·m1·C1\n"));
-//! # Ok::<(), dalembert_formulas::FormulaError>(())
+//! # Ok::<(), dalembert_codegen::Diagnostic>(())
 //! ```
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::missing_errors_doc)]
@@ -56,10 +56,9 @@ mod write;
 
 pub use arm::{Offset, Variable};
 pub use document::{Layout, escaped, written};
-pub use error::FormulaError;
 pub use expression::{Factor, Sum, Term, Trig, products};
 pub use formulas::{Formulas, Request, Style};
-pub use legend::{Entry, Frames, Group, Legend};
+pub use legend::{Frames, Group, Legend, SymbolEntry};
 pub use line::{Line, List, Section};
 pub use number::{Number, rounded as significant};
 pub use quantity::Quantity;

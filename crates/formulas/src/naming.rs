@@ -1,9 +1,10 @@
 //! Symbols in the place of the robot file's numbers.
 
+use dalembert_codegen::Diagnostic;
 use dalembert_model::equations::Arm;
 use dalembert_model::scalar::Scalar;
 
-use crate::error::FormulaError;
+use crate::error;
 use crate::number::Number;
 use crate::ring::{MAX_LENGTHS, Polynomial, Symbols};
 use crate::symbol::{Definition, Symbol};
@@ -24,7 +25,7 @@ impl SymbolTable {
     ///
     /// # Errors
     /// There are too many lengths.
-    pub fn new(arm: &mut Arm<Polynomial>) -> Result<SymbolTable, FormulaError> {
+    pub fn new(arm: &mut Arm<Polynomial>) -> Result<SymbolTable, Diagnostic> {
         let mut naming = SymbolTable::default();
         naming.gravity(&mut arm.gravity);
         for (letter, pose) in [("b", &mut arm.base), ("t", &mut arm.tool)] {
@@ -44,7 +45,7 @@ impl SymbolTable {
             }
         }
         if naming.lengths.len() > MAX_LENGTHS {
-            return Err(FormulaError::ManyLengths(naming.lengths.len()));
+            return Err(error::many_lengths(naming.lengths.len()));
         }
         let coordinates = arm.links.iter().flat_map(|link| &link.com);
         let centres = coordinates.filter(|entry| !entry.is_zero()).count();

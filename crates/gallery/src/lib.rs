@@ -108,7 +108,7 @@ impl Arm {
         };
         let opened = open(&folder().join(&self.file), &options).map_err(|why| match why {
             OpenError::System(error) => format!("{}: {error}", self.file),
-            OpenError::Wrong(text) => text,
+            OpenError::Wrong(errors) => errors.render(),
         })?;
         let picture = drawing::svg(&opened.reading.robot, &self.at)
             .map_err(|why| format!("{}: {why}", self.name))?;

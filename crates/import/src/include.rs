@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use dalembert_model::diagnostic::Diagnostics;
+
 use crate::problems::Problems;
 use crate::text::{MAX_BYTES, MAX_MIB, Text};
 use crate::xml::{Element, parse};
@@ -14,12 +16,12 @@ impl Text {
     /// none.
     ///
     /// # Errors
-    /// An include that is wrong, as [`Text::render`] prints it.
+    /// An include that is wrong.
     pub fn with_includes(
         mut self,
         path: &Path,
         read: impl Fn(&Path) -> Result<String, String>,
-    ) -> Result<Text, String> {
+    ) -> Result<Text, Diagnostics> {
         if !self.as_str().contains("<include") || !self.as_str().contains("<mujoco") {
             return Ok(self);
         }
@@ -36,8 +38,8 @@ impl Text {
                 }
                 let includes = root.all_inside("include").into_iter().rev();
                 open.extend(includes.map(|include| (file, include.clone())));
-            } else if let Err(errors) = problems.finish() {
-                return Err(self.render(&errors.0));
+            } else {
+                problems.finish()?;
             }
             let Some((file, include)) = open.pop() else {
                 return Ok(self);
@@ -57,7 +59,7 @@ impl Text {
         include: &Element,
         paths: &mut BTreeSet<PathBuf>,
         read: impl Fn(&Path) -> Result<String, String>,
-    ) -> Result<(PathBuf, String), String> {
+    ) -> Result<(PathBuf, String), Diagnostics> {
         let mut problems = Problems::of(self);
         let (at, name) = (&include.at, include.value("file").unwrap_or_default());
         let beside = Path::new(self.file(file).0).parent().unwrap_or(folder);
@@ -79,9 +81,7 @@ impl Text {
                 return Ok((path, text));
             }
         }
-        Err(problems
-            .finish()
-            .map_or_else(|errors| self.render(&errors.0), |_| String::new()))
+        Err(problems.finish().map_or_else(|errors| errors, Diagnostics))
     }
 
     /// Parses the model with the included elements in the places of the `<include>` elements.

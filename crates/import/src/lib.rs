@@ -44,8 +44,9 @@ mod xml;
 
 use std::fmt::Display;
 
+use dalembert_model::diagnostic::{Diagnostic, Diagnostics};
 use dalembert_model::number::Rational;
-use dalembert_model::read::{self as robot_file, Diagnostic, Diagnostics};
+use dalembert_model::read as robot_file;
 use dalembert_model::robot::Robot;
 
 pub use args::ChainArgs;
@@ -130,7 +131,7 @@ pub fn import(source: &str, options: &Options) -> Result<Import, Diagnostics> {
 /// Makes a robot file of a part of a model that may be in several files.
 ///
 /// # Errors
-/// Those of [`import`]; [`Text::render`] says in which file they are.
+/// Those of [`import`].
 pub fn import_text(text: &Text, options: &Options) -> Result<Import, Diagnostics> {
     let mut problems = Problems::of(text);
     let model = read_model(text, options, &mut problems);
@@ -237,7 +238,9 @@ fn imported(
         Ok(reading) => reading.robot,
         Err(errors) => {
             for error in &errors.0 {
-                let line = text.lines().nth(error.line.saturating_sub(1));
+                let line = text
+                    .lines()
+                    .nth(error.line().unwrap_or(1).saturating_sub(1));
                 let (line, help) = (line.unwrap_or_default(), error.help.as_deref());
                 let words: [&dyn Display; 3] = [&error.message, &line, &help.unwrap_or_default()];
                 problems.say("refused", &(0..0), &words);

@@ -4,7 +4,8 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
-use dalembert_model::read::{self, Diagnostic, Reading};
+use dalembert_model::diagnostic::{Diagnostic, Diagnostics};
+use dalembert_model::read::{self, Reading};
 
 use crate::text::{MAX_BYTES, MAX_MIB};
 use crate::{Import, Options, Text, import_text};
@@ -27,20 +28,18 @@ pub struct OpenRobot {
 pub enum OpenError {
     /// The system's error.
     System(io::Error),
-    /// Everything that is wrong with the text, as it is shown.
-    Wrong(String),
+    /// Everything that is wrong with the text.
+    Wrong(Diagnostics),
 }
 
 impl OpenRobot {
     /// Returns the warnings and notes about the file, as they are shown.
     pub fn notes(&self) -> Vec<String> {
-        let source = &self.source;
-        let Some(imported) = &self.imported else {
-            let render = |note: &Diagnostic| note.render(source.name(), source.as_str());
-            return self.reading.notes.iter().map(render).collect();
+        let notes = match &self.imported {
+            Some(imported) => &imported.notes,
+            None => &self.reading.notes,
         };
-        let notes = imported.notes.iter().map(std::slice::from_ref);
-        notes.map(|note| source.render(note)).collect()
+        notes.iter().map(Diagnostic::render).collect()
     }
 }
 
@@ -59,17 +58,23 @@ pub fn open(path: &Path, options: &Options) -> Result<OpenRobot, OpenError> {
 pub fn open_text(path: &Path) -> Result<Text, OpenError> {
     let shown = path.display().to_string();
     let bytes = first_bytes(path, MAX_BYTES as u64 + 1).map_err(OpenError::System)?;
-    let wrong = |why: &str| OpenError::Wrong(format!("error: `{shown}` {why}"));
+    let wrong = |why: &str, help: &str| {
+        let error = Diagnostic::error(format!("`{shown}` {why}")).with_help(help);
+        OpenError::Wrong(error.into())
+    };
     if bytes.starts_with(b"\xff\xfe<") || bytes.starts_with(b"\xfe\xff\0<") {
-        return Err(wrong(&in_encoding("UTF-16", &shown)));
+        let (why, help) = in_encoding("UTF-16", &shown);
+        return Err(wrong(&why, &help));
     }
     if is_model(&bytes) {
         if bytes.len() > MAX_BYTES {
             let why = format!("is longer than {MAX_MIB} MiB, the most that is read");
-            return Err(wrong(&why));
+            return Err(wrong(&why, ""));
         }
-        let text =
-            String::from_utf8(bytes).map_err(|_| wrong(&in_encoding("ISO-8859-1", &shown)))?;
+        let text = String::from_utf8(bytes).map_err(|_| {
+            let (why, help) = in_encoding("ISO-8859-1", &shown);
+            wrong(&why, &help)
+        })?;
         let file = Text::of_file(&shown, &text);
         return file.with_includes(path, included).map_err(OpenError::Wrong);
     }
@@ -80,29 +85,31 @@ pub fn open_text(path: &Path) -> Result<Text, OpenError> {
     }
     // The reader of robot files says where it is not UTF-8, or too long.
     let errors = read::parse_bytes(&bytes).err();
-    let errors = errors.map(|errors| errors.render(&shown, &String::from_utf8_lossy(&bytes)));
-    Err(OpenError::Wrong(errors.unwrap_or_default()))
+    Err(match errors {
+        Some(errors) => OpenError::Wrong(errors.in_file(&shown)),
+        None => wrong("is not a robot file", ""),
+    })
 }
 
 /// Reads a robot from the text of a robot file or of a model.
 ///
 /// # Errors
-/// Everything that is wrong with the text, as it is shown.
-pub fn read_robot(source: Text, options: &Options) -> Result<OpenRobot, String> {
+/// Everything that is wrong with the text.
+pub fn read_robot(source: Text, options: &Options) -> Result<OpenRobot, Diagnostics> {
     let imported = match is_model(source.as_str().as_bytes()) {
         false => {
             options.refuse_chain(source.name())?;
             None
         }
-        true => Some(import_text(&source, options).map_err(|errors| source.render(&errors.0))?),
+        true => Some(import_text(&source, options)?),
     };
     let robot_file = imported
         .as_ref()
         .map_or(source.as_str(), |imported| &imported.text)
         .to_owned();
-    let reading = read::parse(&robot_file);
     // What was imported was read once already.
-    let reading = reading.map_err(|errors| errors.render(source.name(), &robot_file))?;
+    let mut reading = read::parse(&robot_file).map_err(|errors| errors.in_file(source.name()))?;
+    reading.notes = Diagnostics(reading.notes).in_file(source.name()).0;
     Ok(OpenRobot {
         source,
         robot_file,
@@ -111,14 +118,14 @@ pub fn read_robot(source: Text, options: &Options) -> Result<OpenRobot, String> 
     })
 }
 
-fn in_encoding(encoding: &str, name: &str) -> String {
-    format!(
-        "is not UTF-8, and probably {encoding}\n  = help: convert it: `iconv -f {encoding} -t UTF-8 {name} > utf8.xml`"
-    )
+fn in_encoding(encoding: &str, name: &str) -> (String, String) {
+    let why = format!("is not UTF-8, and probably {encoding}");
+    let help = format!("convert it: `iconv -f {encoding} -t UTF-8 {name} > utf8.xml`");
+    (why, help)
 }
 
 impl Options {
-    fn refuse_chain(&self, name: &str) -> Result<(), String> {
+    fn refuse_chain(&self, name: &str) -> Result<(), Diagnostic> {
         let options = [
             ("base", self.base.is_some()),
             ("tip", !self.tips.is_empty()),
@@ -130,10 +137,12 @@ impl Options {
         ];
         match options.into_iter().find(|(_, is_set)| *is_set) {
             None => Ok(()),
-            Some((option, _)) => Err(format!(
-                "error: --{option}: `{name}` is a robot file, and not a URDF or an MJCF\n  = help: leave it out: \
-                 a robot file is one robot"
-            )),
+            Some((option, _)) => {
+                let message =
+                    format!("--{option}: `{name}` is a robot file, and not a URDF or an MJCF");
+                let help = "leave it out: a robot file is one robot";
+                Err(Diagnostic::error(message).with_help(help))
+            }
         }
     }
 }
@@ -162,5 +171,8 @@ fn included(path: &Path) -> Result<String, String> {
     }
     let bytes = first_bytes(path, MAX_BYTES as u64 + 1).map_err(|error| error.to_string())?;
     let name = path.display().to_string();
-    String::from_utf8(bytes).map_err(|_| format!("it {}", in_encoding("ISO-8859-1", &name)))
+    String::from_utf8(bytes).map_err(|_| {
+        let (why, help) = in_encoding("ISO-8859-1", &name);
+        format!("it {why}\n  = help: {help}")
+    })
 }

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::sync::LazyLock;
 
-use dalembert_model::read::{Diagnostic, Diagnostics, Severity, closest};
+use dalembert_model::diagnostic::{Diagnostic, Diagnostics, Place, Severity};
+use dalembert_model::read::closest;
 
 use crate::text::{Span, Text};
 
@@ -234,16 +235,9 @@ impl<'t> Problems<'t> {
             .problems
             .iter()
             .map(|problem| {
-                let (line, column) = self.text.line_and_column(problem.at.start);
-                Diagnostic {
-                    severity: problem.message.severity,
-                    warning: None,
-                    message: problem.text(),
-                    span: problem.at.clone(),
-                    line,
-                    column,
-                    help: (!problem.help.is_empty()).then(|| problem.help.clone()),
-                }
+                Diagnostic::new(problem.message.severity, problem.text())
+                    .with_help(&problem.help)
+                    .at(Place::Text(Box::new(self.text.excerpt(&problem.at))))
             })
             .collect();
         if let (1.., Some(last)) = (self.more, diagnostics.last_mut()) {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use dalembert_model::read::Diagnostic;
+use dalembert_model::diagnostic::Excerpt;
 
 /// The largest model that is read, in bytes: meshes are not in it.
 pub const MAX_BYTES: usize = 1 << 24;
@@ -17,15 +17,14 @@ const MARK: &str = "\n<?included ";
 
 /// The text of a model, with the files that it includes.
 ///
-/// Places are bytes of the whole text; [`Text::line`] and [`Text::render`] give the file and the
-/// line.
+/// Places are bytes of the whole text; [`Text::line`] gives the file and the line.
 ///
 /// ```
 /// use dalembert_import::{Options, Text, import_text};
 ///
 /// let text = Text::of("arm.urdf", "<robot><link name='base'/></robot>".to_owned());
 /// let errors = import_text(&text, &Options::default()).unwrap_err();
-/// assert!(text.render(&errors.0).contains("--> arm.urdf:1:"));
+/// assert!(errors.to_string().contains("--> arm.urdf:1:"));
 /// ```
 #[derive(Clone, Debug)]
 pub struct Text {
@@ -66,22 +65,20 @@ impl Text {
 
     /// Returns the name of the file of a place, and its line there, from one.
     pub fn line(&self, byte: usize) -> (&str, usize) {
-        (&self.file_of(byte).0, self.line_and_column(byte).0)
+        (&self.file_of(byte).0, self.line_of(byte))
     }
 
-    /// Renders messages, each with its file, line and column.
-    pub fn render(&self, diagnostics: &[Diagnostic]) -> String {
-        let rendered = diagnostics.iter().map(|diagnostic| {
-            let (name, range) = self.file_of(diagnostic.span.start);
-            let [start, end] = [diagnostic.span.start, diagnostic.span.end];
-            let span = start - range.start..end.max(start) - range.start;
-            let in_file = Diagnostic {
-                span,
-                ..diagnostic.clone()
-            };
-            in_file.render(name, &self.text[range.clone()])
-        });
-        rendered.collect::<Vec<_>>().join("\n")
+    /// Returns bytes of the text with their file and line.
+    pub(crate) fn excerpt(&self, span: &Span) -> Excerpt {
+        let (name, range) = self.file_of(span.start);
+        let [start, end] = [span.start, span.end].map(|byte| byte.saturating_sub(range.start));
+        let source = &self.text[range.clone()];
+        let before = source.get(..start).unwrap_or_default();
+        let line = before.matches('\n').count() + 1;
+        let begin = before.rfind('\n').map_or(0, |at| at + 1);
+        let mut excerpt = Excerpt::new(source, start..end.max(start), line, begin);
+        excerpt.file.clone_from(name);
+        excerpt
     }
 
     /// Returns a place as comments of robot files call it.
@@ -105,15 +102,10 @@ impl Text {
         &self.files[after.saturating_sub(1)]
     }
 
-    /// Returns line and column of a byte in its file, both from one.
-    pub(crate) fn line_and_column(&self, byte: usize) -> (usize, usize) {
+    fn line_of(&self, byte: usize) -> usize {
         let (_, range) = self.file_of(byte);
         let before = self.text.get(range.start..byte).unwrap_or_default();
-        let start = before.rfind('\n').map_or(0, |at| at + 1);
-        (
-            before.matches('\n').count() + 1,
-            before[start..].chars().count() + 1,
-        )
+        before.matches('\n').count() + 1
     }
 
     pub(crate) fn count(&self) -> usize {

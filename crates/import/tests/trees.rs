@@ -223,7 +223,8 @@ fn what_cannot_be_a_tree_is_said() {
     let says = |text: &str, options: &Options, words: &str| {
         let errors = import(text, options)
             .unwrap_err()
-            .render("robot.urdf", text);
+            .in_file("robot.urdf")
+            .render();
         assert!(errors.contains(words), "{errors}");
     };
     let both = Options {

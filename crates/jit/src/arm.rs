@@ -6,7 +6,7 @@ use dalembert_codegen::workspace::{
     self, Argument, Code, Parameter, Quantity, Setup, Sizes, parse,
 };
 use dalembert_codegen::{
-    Counts, Function as Output, Language, Plan, Request, RobotFileError, ScalarType, generate,
+    Counts, Function as Output, Language, Plan, Request, ScalarType, generate, unreadable,
 };
 use dalembert_import::{OpenError, Text, is_model, open_text};
 use dalembert_model::number::{Exact, Rounded};
@@ -16,7 +16,7 @@ use dalembert_stamp::{Comment, Stamp};
 
 use crate::cache::{self, CachedFunction, Entry, Folder};
 use crate::compile::Signature;
-use crate::error::LoadError;
+use crate::error::Error;
 use crate::make::{claimed, made, read_robot};
 use crate::native::Native;
 use crate::request::Load;
@@ -81,20 +81,19 @@ impl Arm {
     /// Loads the arm of a robot file, a URDF or an MJCF with what it includes.
     ///
     /// # Errors
-    /// [`LoadError`]: what is wrong with the file or the request, or what could not be proved.
-    pub fn load(path: impl AsRef<Path>, load: &Load) -> Result<Arm, LoadError> {
+    /// [`Error`]: what is wrong with the file or the request, or what could not be proved.
+    pub fn load(path: impl AsRef<Path>, load: &Load) -> Result<Arm, Error> {
         let path = path.as_ref();
         let source = open_text(path).map_err(|error| match error {
             OpenError::System(error) => {
                 let shown = path.display().to_string();
-                LoadError::Robot(RobotFileError::of_system(path, &shown, &error).to_string())
+                Error::from(unreadable(path, &shown, &error))
             }
-            OpenError::Wrong(why) => LoadError::Robot(why),
+            OpenError::Wrong(errors) => errors.into(),
         })?;
         let plan = match is_model(source.as_str().as_bytes()) {
             true => None,
-            false => workspace::plan_file::beside(path)
-                .map_err(|error| LoadError::Robot(format!("error: {error}")))?,
+            false => workspace::plan_file::beside(path)?,
         };
         Arm::of(&source, plan, load)
     }
@@ -104,20 +103,15 @@ impl Arm {
     ///
     /// # Errors
     /// As [`Arm::load`].
-    pub fn parse(
-        source: &str,
-        name: &str,
-        plan: Option<&str>,
-        load: &Load,
-    ) -> Result<Arm, LoadError> {
+    pub fn parse(source: &str, name: &str, plan: Option<&str>, load: &Load) -> Result<Arm, Error> {
         let plan = plan
             .map(Plan::parse)
             .transpose()
-            .map_err(|error| LoadError::Robot(format!("error: {name}: {error}")))?;
+            .map_err(|error| error.within(name))?;
         Arm::of(&Text::of(name, source.to_owned()), plan, load)
     }
 
-    fn of(source: &Text, plan: Option<Plan>, load: &Load) -> Result<Arm, LoadError> {
+    fn of(source: &Text, plan: Option<Plan>, load: &Load) -> Result<Arm, Error> {
         let (folder, note) = match Folder::of(&load.cache) {
             Ok(folder) => (folder, None),
             Err(note) => (None, Some(note)),
@@ -146,7 +140,7 @@ impl Arm {
         source: &str,
         load: &Load,
         is_from_cache: bool,
-    ) -> Result<Arm, LoadError> {
+    ) -> Result<Arm, Error> {
         let reading = read_robot(&entry.robot, "the arm's robot file")?;
         let scene = load.request(&reading)?.scene;
         let base = match scene {
@@ -204,8 +198,8 @@ impl Arm {
     /// each scalar what the file's name ends in, `_f32` of the second or nothing, and its text.
     ///
     /// # Errors
-    /// [`LoadError`]: what is kept is damaged.
-    pub fn files(&self) -> Result<Vec<(&'static str, String)>, LoadError> {
+    /// [`Error`]: what is kept is damaged.
+    pub fn files(&self) -> Result<Vec<(&'static str, String)>, Error> {
         let reading = read_robot(&self.entry.robot, "the arm's robot file")?;
         let request = self.load.request(&reading)?;
         let mut scalars: Vec<ScalarType> = self.functions.iter().map(Function::scalar).collect();
@@ -233,14 +227,14 @@ impl Arm {
     /// further warnings than [`notes`](Arm::notes). Names begin with `name`, or with the robot's.
     ///
     /// # Errors
-    /// [`LoadError`]: among others, a name that no C compiler takes.
-    pub fn c(&self, name: Option<String>) -> Result<(String, String, Vec<String>), LoadError> {
+    /// [`Error`]: among others, a name that no C compiler takes.
+    pub fn c(&self, name: Option<String>) -> Result<(String, String, Vec<String>), Error> {
         let reading = read_robot(&self.entry.robot, "the arm's robot file")?;
         let mut request = self.load.request(&reading)?;
         request.language = Language::C;
         request.module = name;
         request.plan = Plan::parse(&self.entry.plan).ok();
-        let mut generated = generate(&reading.robot, &request).map_err(LoadError::Generate)?;
+        let mut generated = generate(&reading.robot, &request)?;
         let claim = claimed(&reading.robot, self.robot_file(), &request, &generated)?;
         let is_new = |warning: &String| !self.notes().contains(warning);
         generated.warnings.retain(is_new);
@@ -266,8 +260,8 @@ impl Arm {
     /// Returns the parameters of every link in its own frame, by name, as in `full_regressor`.
     ///
     /// # Errors
-    /// [`LoadError`]: what is kept is damaged.
-    pub fn parameters(&self) -> Result<Vec<(String, f64)>, LoadError> {
+    /// [`Error`]: what is kept is damaged.
+    pub fn parameters(&self) -> Result<Vec<(String, f64)>, Error> {
         let values = self.setup()?.arm(Exact::clone).parameters();
         let names = Parameter::of_bodies(&self.robot).map(|parameter| parameter.to_string());
         Ok(names.zip(values.iter().map(f64::nearest)).collect())
@@ -277,8 +271,8 @@ impl Arm {
     /// `bodies` ten numbers a link of [`body_links`](Arm::body_links).
     ///
     /// # Errors
-    /// [`LoadError`]: what is kept is damaged.
-    pub fn loading(&self) -> Result<Vec<(&'static str, Vec<f64>)>, LoadError> {
+    /// [`Error`]: what is kept is damaged.
+    pub fn loading(&self) -> Result<Vec<(&'static str, Vec<f64>)>, Error> {
         let setup = self.setup()?;
         let taken = RuntimeParameter::LOADING
             .into_iter()
@@ -292,7 +286,7 @@ impl Arm {
     ///
     /// # Errors
     /// As of [`Arm::loading`].
-    pub fn kept_zeros(&self) -> Result<Vec<bool>, LoadError> {
+    pub fn kept_zeros(&self) -> Result<Vec<bool>, Error> {
         Ok(self.setup()?.zeros().to_vec())
     }
 
@@ -300,19 +294,19 @@ impl Arm {
     ///
     /// # Errors
     /// As of [`Arm::loading`].
-    pub fn body_links(&self) -> Result<Vec<usize>, LoadError> {
+    pub fn body_links(&self) -> Result<Vec<usize>, Error> {
         Ok(self.setup()?.body_links())
     }
 
     /// Returns the base parameters by their combinations, a column of `regressor` each.
     ///
     /// # Errors
-    /// [`LoadError`]: among others, that there are none.
-    pub fn base_parameters(&self) -> Result<Vec<(String, f64)>, LoadError> {
+    /// [`Error`]: among others, that there are none.
+    pub fn base_parameters(&self) -> Result<Vec<(String, f64)>, Error> {
         let setup = self.setup()?;
         let base = setup
             .base(Quantity::BaseRegressor)
-            .map_err(|why| LoadError::Generate(why.clone().into()))?;
+            .map_err(|why| why.clone())?;
         let values = base.values(&setup.arm(Exact::clone));
         let names = base.names().into_iter();
         Ok(names.zip(values.iter().map(f64::nearest)).collect())
@@ -322,19 +316,18 @@ impl Arm {
     /// them; empty on a fixed base.
     ///
     /// # Errors
-    /// [`LoadError`]: the robot in its scene cannot be read again.
-    pub fn limbs(&self) -> Result<Vec<Vec<usize>>, LoadError> {
+    /// [`Error`]: the robot in its scene cannot be read again.
+    pub fn limbs(&self) -> Result<Vec<Vec<usize>>, Error> {
         Ok(self.setup()?.limbs())
     }
 
-    fn setup(&self) -> Result<Setup, LoadError> {
+    fn setup(&self) -> Result<Setup, Error> {
         let reading = read_robot(&self.entry.robot, "the arm's robot file")?;
         let request = self.load.request(&reading)?;
-        let setup = Setup::in_scene(&reading.robot, request.scene.as_ref())
-            .map_err(|why| LoadError::Generate(why.into()))?
+        let setup = Setup::in_scene(&reading.robot, request.scene.as_ref())?
             .taking(&request.parameters)
             .taking_bodies(&request.bodies, request.keeps_zeros);
-        setup.map_err(|why| LoadError::Generate(why.into()))
+        Ok(setup?)
     }
 
     /// Returns the notes about the robot and its functions.
@@ -353,8 +346,8 @@ impl Arm {
     }
 }
 
-fn compiled(entry: &Entry, proved: &CachedFunction) -> Result<Function, LoadError> {
-    let damaged = || LoadError::Request(format!("`{}` cannot be read back", proved.function));
+fn compiled(entry: &Entry, proved: &CachedFunction) -> Result<Function, Error> {
+    let damaged = || Error::input(format!("`{}` cannot be read back", proved.function));
     let output = match proved.function == Output::Load.name() {
         true => Output::Load,
         false => Output::parse(&proved.function).map_err(|_| damaged())?,
@@ -382,7 +375,7 @@ fn compiled(entry: &Entry, proved: &CachedFunction) -> Result<Function, LoadErro
         results: output.quantities().iter().map(|q| q.len(sizes)).collect(),
     };
     let native = Native::compile(program, signature)
-        .map_err(|error| LoadError::Compile(output.name(), error))?;
+        .map_err(|error| Error::Function(output.name(), Box::new(error)))?;
     Ok(Function {
         output,
         sizes,

@@ -3,7 +3,7 @@
 use dalembert_codegen::workspace::{Argument, Code, Machine, State};
 
 use crate::compile::Signature;
-use crate::error::{CallError, CompileError};
+use crate::error::Error;
 use crate::rows::Place;
 
 /// The number of states that are compared.
@@ -77,15 +77,15 @@ fn differing<T: Machine>(expected: &[T], found: &[T]) -> Option<usize> {
 pub(crate) fn check<T: Machine + Default>(
     program: &Code,
     signature: &Signature,
-    call: impl Fn(&[&[T]], &mut [T]) -> Result<(), CallError>,
-) -> Result<(), CompileError> {
+    call: impl Fn(&[&[T]], &mut [T]) -> Result<(), Error>,
+) -> Result<(), Error> {
     let mut results = vec![T::default(); program.dag.outputs.len()];
     for (state, arguments) in drawn::<T>(signature).iter().enumerate() {
         let slices: Vec<&[T]> = arguments.iter().map(Vec::as_slice).collect();
         // The lengths are the signature's: it can only be called.
-        call(&slices, &mut results).map_err(|_| CompileError::Program)?;
+        call(&slices, &mut results).map_err(|_| Error::Program)?;
         if let Some(result) = differing(&expected(program, signature, arguments), &results) {
-            return Err(CompileError::Differs { state, result });
+            return Err(Error::Differs { state, result });
         }
     }
     Ok(())
@@ -96,8 +96,8 @@ pub(crate) fn check_many<T: Machine + Default>(
     program: &Code,
     signature: &Signature,
     place: impl Fn(usize) -> Place,
-    call: impl Fn(&[(&[T], Place)], &mut [(&mut [T], Place)]) -> Result<(), CallError>,
-) -> Result<(), CallError> {
+    call: impl Fn(&[(&[T], Place)], &mut [(&mut [T], Place)]) -> Result<(), Error>,
+) -> Result<(), Error> {
     let states = drawn::<T>(signature);
     let data = signature.arguments.iter().enumerate();
     let data: Vec<Vec<T>> = data
@@ -136,7 +136,7 @@ pub(crate) fn check_many<T: Machine + Default>(
             .flat_map(entries)
             .collect();
         if let Some(result) = differing(&expected(program, signature, arguments), &found) {
-            return Err(CallError::Compile(CompileError::Differs { state, result }));
+            return Err(Error::Differs { state, result });
         }
     }
     Ok(())

@@ -10,7 +10,7 @@ use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
 use dalembert_codegen::workspace::{Argument, Code};
 
 use crate::emit::{Emitter, number, vector};
-use crate::error::CompileError;
+use crate::error::Error;
 use crate::program;
 
 /// The arguments and results of a program.
@@ -50,7 +50,7 @@ pub(crate) fn compile(
     signature: &Signature,
     states: States,
     library: *const u8,
-) -> Result<(JITModule, *const u8), CompileError> {
+) -> Result<(JITModule, *const u8), Error> {
     let mut flags = settings::builder();
     let verifies = cfg!(debug_assertions).to_string();
     for (name, value) in [
@@ -62,15 +62,15 @@ pub(crate) fn compile(
         ("probestack_strategy", "inline"),
         ("enable_verifier", verifies.as_str()),
     ] {
-        CompileError::checked(flags.set(name, value))?;
+        Error::cranelift(flags.set(name, value))?;
     }
-    let isa = CompileError::checked(cranelift_native::builder())?;
-    let isa = CompileError::checked(isa.finish(settings::Flags::new(flags)))?;
+    let isa = Error::cranelift(cranelift_native::builder())?;
+    let isa = Error::cranelift(isa.finish(settings::Flags::new(flags)))?;
     let mut builder = JITBuilder::with_isa(isa, default_libcall_names());
     builder.symbol(LIBRARY, library);
     let mut module = JITModule::new(builder);
     let function = define(&mut module, code, signature, states)?;
-    CompileError::checked(module.finalize_definitions())?;
+    Error::cranelift(module.finalize_definitions())?;
     let entry = module.get_finalized_function(function);
     Ok((module, entry))
 }
@@ -80,7 +80,7 @@ fn define(
     code: &Code,
     signature: &Signature,
     states: States,
-) -> Result<FuncId, CompileError> {
+) -> Result<FuncId, Error> {
     let (floats, parameters) = match states {
         // Addresses of the arguments, and of the results.
         States::One => (number(code.scalar), 2),
@@ -91,11 +91,11 @@ fn define(
     let mut library = module.make_signature();
     library.params = vec![AbiParam::new(types::I64); 3];
     let library = module.declare_function(LIBRARY, Linkage::Import, &library);
-    let library = CompileError::checked(library)?;
+    let library = Error::cranelift(library)?;
     let mut function_signature = module.make_signature();
     function_signature.params = vec![AbiParam::new(types::I64); parameters];
     let function = module.declare_function("function", Linkage::Local, &function_signature);
-    let function = CompileError::checked(function)?;
+    let function = Error::cranelift(function)?;
     let mut context: Context = module.make_context();
     context.func.signature = function_signature;
     let library = module.declare_func_in_func(library, &mut context.func);
@@ -114,7 +114,7 @@ fn define(
     builder.ins().return_(&[]);
     builder.seal_all_blocks();
     builder.finalize(module.target_config());
-    CompileError::checked(module.define_function(function, &mut context))?;
+    Error::cranelift(module.define_function(function, &mut context))?;
     Ok(function)
 }
 
@@ -123,9 +123,9 @@ fn one(
     code: &Code,
     signature: &Signature,
     parameters: &[Value],
-) -> Result<(), CompileError> {
+) -> Result<(), Error> {
     let &[arguments, results] = parameters else {
-        return Err(CompileError::Program);
+        return Err(Error::Program);
     };
     let width = number(code.scalar).bytes() as i32;
     let addresses: Vec<Value> = (0..signature.arguments.len())
@@ -154,9 +154,9 @@ fn many(
     signature: &Signature,
     parameters: &[Value],
     layout: States,
-) -> Result<(), CompileError> {
+) -> Result<(), Error> {
     let &[entries, strides, results, result_strides, states] = parameters else {
-        return Err(CompileError::Program);
+        return Err(Error::Program);
     };
     let lanes = vector(code.scalar).lane_count();
     let (head, body, end) = emitter.with(|b| {

@@ -1,16 +1,27 @@
-//! The errors of compiling and of calling.
+//! The errors of loading, compiling and calling.
 
-use std::fmt;
+use dalembert_codegen::{Diagnostic, Diagnostics, GenerateError, ScalarType};
 
-use dalembert_codegen::{GenerateError, ScalarType};
-
-/// The reasons for which a program is not compiled.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// The reasons for which an arm is not loaded, a program not compiled or a function not called.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum CompileError {
+pub enum Error {
+    /// The robot cannot be read, or the request asks for what there is not.
+    #[error("{0}")]
+    Input(Diagnostics),
+    /// Nothing was generated, or not proved.
+    #[error("{0}")]
+    Generate(#[from] GenerateError),
+    /// A function of an arm was not compiled.
+    #[error("`{0}`: {1}")]
+    Function(&'static str, Box<Error>),
     /// The program reads what it does not have.
+    #[error(
+        "the program reads an argument or a step that it does not have: a defect of this library"
+    )]
     Program,
     /// The program returns another number of results than its signature says.
+    #[error("the program returns {found} numbers, expected {expected}: a defect of this library")]
     Results {
         /// The signature's number of results.
         expected: usize,
@@ -18,55 +29,27 @@ pub enum CompileError {
         found: usize,
     },
     /// Cranelift refuses: an unknown processor, or no memory.
+    #[error("no machine code for this machine: {0}")]
     Cranelift(String),
     /// At a state, the code computes another number than the program.
+    #[error(
+        "machine code is refused: at state {state} of the check, result {result} has other bits \
+         than the proved program"
+    )]
     Differs {
         /// The number of the state among those of the check.
         state: usize,
         /// The number of the result.
         result: usize,
     },
-}
-
-impl CompileError {
-    pub(crate) fn checked<T>(result: Result<T, impl fmt::Display>) -> Result<T, CompileError> {
-        result.map_err(|error| CompileError::Cranelift(error.to_string()))
-    }
-}
-
-impl fmt::Display for CompileError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            CompileError::Program => f.write_str(
-                "the program reads an argument or a step that it does not have: a defect of \
-                 this library",
-            ),
-            CompileError::Results { expected, found } => write!(
-                f,
-                "the program returns {found} numbers, expected {expected}: a defect of this library"
-            ),
-            CompileError::Cranelift(why) => write!(f, "no machine code for this machine: {why}"),
-            CompileError::Differs { state, result } => write!(
-                f,
-                "machine code is refused: at state {state} of the check, result {result} has \
-                 other bits than the proved program"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for CompileError {}
-
-/// The reasons for which a function is not called.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum CallError {
-    /// It computes in the other scalar.
+    /// A function is called in the other scalar.
+    #[error("the function computes in {}", expected.name())]
     Scalar {
         /// The function's.
         expected: ScalarType,
     },
     /// Another number of arguments, or of results, than the function has.
+    #[error("expected {expected} arguments or results, found {found}")]
     Count {
         /// The function's.
         expected: usize,
@@ -74,6 +57,7 @@ pub enum CallError {
         found: usize,
     },
     /// An argument, or a result, has too few or too many numbers.
+    #[error("argument {place}: expected {expected} entries, found {found}")]
     Length {
         /// Its place in the signature; results come after the arguments.
         place: usize,
@@ -83,26 +67,34 @@ pub enum CallError {
         found: usize,
     },
     /// An entry of some state is outside of its slice.
+    #[error("argument {place}: an entry is outside of its slice")]
     Outside {
         /// Its place in the signature.
         place: usize,
     },
     /// Two states, or two entries, of a result are at the same place.
+    #[error("result {place}: two numbers would be written to one place")]
     Overlap {
         /// Its place in the signature.
         place: usize,
     },
-    /// There is no machine code for many states.
-    Compile(CompileError),
 }
 
-impl CallError {
-    pub(crate) fn unless(self, holds: bool) -> Result<(), CallError> {
+impl Error {
+    pub(crate) fn input(message: impl Into<String>) -> Error {
+        Diagnostic::error(message).into()
+    }
+
+    pub(crate) fn cranelift<T>(result: Result<T, impl std::fmt::Display>) -> Result<T, Error> {
+        result.map_err(|error| Error::Cranelift(error.to_string()))
+    }
+
+    pub(crate) fn unless(self, holds: bool) -> Result<(), Error> {
         if holds { Ok(()) } else { Err(self) }
     }
 
-    pub(crate) fn length(place: usize, expected: usize, found: usize) -> Result<(), CallError> {
-        let error = CallError::Length {
+    pub(crate) fn length(place: usize, expected: usize, found: usize) -> Result<(), Error> {
+        let error = Error::Length {
             place,
             expected,
             found,
@@ -111,61 +103,14 @@ impl CallError {
     }
 }
 
-impl fmt::Display for CallError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            CallError::Scalar { expected } => {
-                write!(f, "the function computes in {}", expected.name())
-            }
-            CallError::Count { expected, found } => {
-                write!(f, "expected {expected} arguments or results, found {found}")
-            }
-            CallError::Length {
-                place,
-                expected,
-                found,
-            } => write!(
-                f,
-                "argument {place}: expected {expected} entries, found {found}"
-            ),
-            CallError::Outside { place } => {
-                write!(f, "argument {place}: an entry is outside of its slice")
-            }
-            CallError::Overlap { place } => {
-                write!(
-                    f,
-                    "result {place}: two numbers would be written to one place"
-                )
-            }
-            CallError::Compile(error) => error.fmt(f),
-        }
+impl From<Diagnostic> for Error {
+    fn from(error: Diagnostic) -> Error {
+        Error::Input(error.into())
     }
 }
 
-impl std::error::Error for CallError {}
-
-/// The reasons for which no arm is loaded.
-#[derive(Debug)]
-#[non_exhaustive]
-pub enum LoadError {
-    /// The robot cannot be read: everything that is wrong with it, each at its place.
-    Robot(String),
-    /// The request asks for what there is not.
-    Request(String),
-    /// Nothing was generated, or not proved.
-    Generate(GenerateError),
-    /// A function was not compiled.
-    Compile(&'static str, CompileError),
-}
-
-impl fmt::Display for LoadError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            LoadError::Robot(text) | LoadError::Request(text) => f.write_str(text.trim_end()),
-            LoadError::Generate(error) => error.fmt(f),
-            LoadError::Compile(function, error) => write!(f, "`{function}`: {error}"),
-        }
+impl From<Diagnostics> for Error {
+    fn from(errors: Diagnostics) -> Error {
+        Error::Input(errors)
     }
 }
-
-impl std::error::Error for LoadError {}

@@ -53,7 +53,7 @@ mod sines;
 pub use arm::{Arm, Function};
 pub use check::STATES;
 pub use compile::Signature;
-pub use error::{CallError, CompileError, LoadError};
+pub use error::Error;
 pub use native::{MOST_ARGUMENTS, Native, Real};
 pub use request::{Cache, Load};
 pub use rows::Place;

@@ -9,11 +9,11 @@ use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 
 use crate::cache::{self, CachedFunction, Entry, Folder};
-use crate::error::LoadError;
+use crate::error::Error;
 use crate::request::Load;
 
-pub(crate) fn read_robot(source: &str, name: &str) -> Result<Reading, LoadError> {
-    read::parse(source).map_err(|errors| LoadError::Robot(errors.render(name, source)))
+pub(crate) fn read_robot(source: &str, name: &str) -> Result<Reading, Error> {
+    read::parse(source).map_err(|errors| errors.in_file(name).into())
 }
 
 pub(crate) fn made(
@@ -21,15 +21,14 @@ pub(crate) fn made(
     plan: Option<Plan>,
     load: &Load,
     folder: Option<&Folder>,
-) -> Result<Entry, LoadError> {
+) -> Result<Entry, Error> {
     let name = source.name();
     let mut options = load.urdf.clone();
     if options.file.is_empty() {
         let file = Path::new(name).file_name().unwrap_or(name.as_ref());
         options.file = file.to_string_lossy().into_owned();
     }
-    let opened =
-        dalembert_import::read_robot(source.clone(), &options).map_err(LoadError::Robot)?;
+    let opened = dalembert_import::read_robot(source.clone(), &options)?;
     let mut notes = opened.notes();
     if let Some(imported) = &opened.imported {
         for snap in imported.snaps.iter().filter(|snap| snap.changes) {
@@ -56,7 +55,7 @@ pub(crate) fn made(
             })
         }
     };
-    let generated = generated.map_err(LoadError::Generate)?;
+    let generated = generated?;
     let plan = keep(&reading.robot, &request, &generated, kept).plan;
     if let Some(folder) = folder.filter(|_| !generated.ended) {
         folder.keep_plan(&key, &plan);
@@ -90,8 +89,7 @@ pub(crate) fn claimed(
     source: &str,
     request: &Request,
     generated: &GeneratedCode,
-) -> Result<String, LoadError> {
-    let claim =
-        claim(robot, source, request, generated).map_err(|why| LoadError::Generate(why.into()))?;
+) -> Result<String, Error> {
+    let claim = claim(robot, source, request, generated)?;
     Ok(claim.write())
 }

@@ -21,7 +21,7 @@ use dalembert_sines::text::Angle;
 use crate::check::{STATES, check, check_many};
 use crate::compile::{Signature, States, compile};
 use crate::emit::{Call, vector};
-use crate::error::{CallError, CompileError};
+use crate::error::Error;
 use crate::rows::Place;
 
 struct InMemory {
@@ -37,7 +37,7 @@ unsafe impl Send for InMemory {}
 unsafe impl Sync for InMemory {}
 
 impl InMemory {
-    fn of(code: &Code, signature: &Signature, states: States) -> Result<InMemory, CompileError> {
+    fn of(code: &Code, signature: &Signature, states: States) -> Result<InMemory, Error> {
         let library = match code.scalar {
             ScalarType::F64 => library::<f64> as *const u8,
             ScalarType::F32 => library::<f32> as *const u8,
@@ -106,17 +106,17 @@ pub struct Native {
     adjacent: OnceLock<Many>,
 }
 
-type Many = Result<InMemory, CallError>;
+type Many = Result<InMemory, Error>;
 
 impl Native {
     /// Compiles a program.
     ///
     /// # Errors
-    /// [`CompileError`]: among others, the code computes other bits than the program.
-    pub fn compile(program: Code, signature: Signature) -> Result<Native, CompileError> {
+    /// [`Error`]: among others, the code computes other bits than the program.
+    pub fn compile(program: Code, signature: Signature) -> Result<Native, Error> {
         let (expected, found) = (signature.results.iter().sum(), program.dag.outputs.len());
         if expected != found {
-            return Err(CompileError::Results { expected, found });
+            return Err(Error::Results { expected, found });
         }
         let native = Native {
             one: InMemory::of(&program, &signature, States::One)?,
@@ -132,13 +132,13 @@ impl Native {
         Ok(native)
     }
 
-    pub(crate) fn check_one<T: Real>(&self) -> Result<(), CompileError> {
+    pub(crate) fn check_one<T: Real>(&self) -> Result<(), Error> {
         check(&self.program, &self.signature, |arguments, results| {
             self.call::<T>(arguments, results)
         })
     }
 
-    fn check_many<T: Real>(&self, states: States, code: &InMemory) -> Result<(), CallError> {
+    fn check_many<T: Real>(&self, states: States, code: &InMemory) -> Result<(), Error> {
         let place = |entries| match states {
             States::Adjacent => Place::columns(entries, STATES),
             _ => Place::rows(entries),
@@ -159,25 +159,25 @@ impl Native {
         &self.signature
     }
 
-    fn check_scalar<T: Real>(&self) -> Result<(), CallError> {
+    fn check_scalar<T: Real>(&self) -> Result<(), Error> {
         let expected = self.program.scalar;
-        CallError::Scalar { expected }.unless(T::SCALAR == expected)
+        Error::Scalar { expected }.unless(T::SCALAR == expected)
     }
 
     /// Computes the results of one state, one array after the other.
     ///
     /// # Errors
-    /// [`CallError`], if a slice has another length than the signature says.
-    pub fn call<T: Real>(&self, arguments: &[&[T]], results: &mut [T]) -> Result<(), CallError> {
+    /// [`Error`], if a slice has another length than the signature says.
+    pub fn call<T: Real>(&self, arguments: &[&[T]], results: &mut [T]) -> Result<(), Error> {
         self.check_scalar::<T>()?;
         let expected = &self.signature.arguments;
         count(expected.len(), arguments.len())?;
         let lengths = expected.iter().map(|&(_, len)| len).enumerate();
         for ((place, expected), argument) in lengths.zip(arguments) {
-            CallError::length(place, expected, argument.len())?;
+            Error::length(place, expected, argument.len())?;
         }
         let outputs = self.program.dag.outputs.len();
-        CallError::length(expected.len(), outputs, results.len())?;
+        Error::length(expected.len(), outputs, results.len())?;
         self.run_one(arguments, results);
         Ok(())
     }
@@ -200,14 +200,14 @@ impl Native {
     /// a slice with where the numbers lie in it.
     ///
     /// # Errors
-    /// [`CallError`], if an entry is outside of its slice or two results are at one place.
+    /// [`Error`], if an entry is outside of its slice or two results are at one place.
     pub fn call_rows<T: Real>(
         &self,
         arguments: &[(&[T], Place)],
         results: &mut [(&mut [T], Place)],
         states: usize,
         threads: usize,
-    ) -> Result<(), CallError> {
+    ) -> Result<(), Error> {
         let read = arguments.iter().map(|(_, place)| place);
         let mut places = read.chain(results.iter().map(|(_, place)| place));
         let layout = match places.all(|place| place.state == 1) {
@@ -224,7 +224,7 @@ impl Native {
         results: &mut [(&mut [T], Place)],
         states: usize,
         threads: usize,
-    ) -> Result<(), CallError> {
+    ) -> Result<(), Error> {
         self.check_scalar::<T>()?;
         let signature = &self.signature;
         count(signature.arguments.len(), arguments.len())?;
@@ -321,28 +321,27 @@ impl Native {
         }
     }
 
-    fn many(&self, states: States) -> Result<&InMemory, CallError> {
+    fn many(&self, states: States) -> Result<&InMemory, Error> {
         let many = match states {
             States::Adjacent => &self.adjacent,
             _ => &self.apart,
         };
         let many = many.get_or_init(|| {
-            let code =
-                InMemory::of(&self.program, &self.signature, states).map_err(CallError::Compile)?;
+            let code = InMemory::of(&self.program, &self.signature, states)?;
             match self.program.scalar {
                 ScalarType::F64 => self.check_many::<f64>(states, &code)?,
                 ScalarType::F32 => self.check_many::<f32>(states, &code)?,
             }
             Ok(code)
         });
-        many.as_ref().map_err(CallError::clone)
+        many.as_ref().map_err(Error::clone)
     }
 
     /// Compiles and compares the code for many states in columns, as the first call does otherwise.
     ///
     /// # Errors
-    /// [`CallError::Compile`].
-    pub fn prepare_columns(&self) -> Result<(), CallError> {
+    /// As of [`Native::compile`].
+    pub fn prepare_columns(&self) -> Result<(), Error> {
         self.many(States::Adjacent).map(|_| ())
     }
 }
@@ -359,8 +358,8 @@ const LEAST_STATES: usize = 2048;
 /// The most arguments that a function has.
 pub const MOST_ARGUMENTS: usize = dalembert_codegen::workspace::Argument::COUNT;
 
-fn count(expected: usize, found: usize) -> Result<(), CallError> {
-    CallError::Count { expected, found }.unless(expected == found)
+fn count(expected: usize, found: usize) -> Result<(), Error> {
+    Error::Count { expected, found }.unless(expected == found)
 }
 
 #[cfg(test)]

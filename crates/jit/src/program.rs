@@ -9,7 +9,7 @@ use dalembert_codegen::workspace::{
 };
 
 use crate::emit::{Call, Emitter};
-use crate::error::CompileError;
+use crate::error::Error;
 use crate::sines::together;
 
 struct Inputs<'a, 'f, R> {
@@ -19,23 +19,23 @@ struct Inputs<'a, 'f, R> {
 }
 
 impl<R: FnMut(Argument, usize) -> Option<Value>> Inputs<'_, '_, R> {
-    fn input(&mut self, input: Input) -> Result<Value, CompileError> {
+    fn input(&mut self, input: Input) -> Result<Value, Error> {
         if let Some(&value) = self.read_before.get(&input) {
             return Ok(value);
         }
         let Input::Entry(argument, index) = input else {
-            return Err(CompileError::Program);
+            return Err(Error::Program);
         };
-        let value = (self.read)(argument, index).ok_or(CompileError::Program)?;
+        let value = (self.read)(argument, index).ok_or(Error::Program)?;
         self.read_before.insert(input, value);
         Ok(value)
     }
 
-    fn angle(&mut self, joint: usize) -> Result<Value, CompileError> {
+    fn angle(&mut self, joint: usize) -> Result<Value, Error> {
         self.input(Input::Entry(Argument::Position, joint))
     }
 
-    fn sines(&mut self, code: &Code) -> Result<(), CompileError> {
+    fn sines(&mut self, code: &Code) -> Result<(), Error> {
         let emitter = self.emitter;
         let (inline, called): (Vec<&Pair>, Vec<&Pair>) =
             code.pairs.iter().partition(|pair| pair.kernel.is_some());
@@ -49,7 +49,7 @@ impl<R: FnMut(Argument, usize) -> Option<Value>> Inputs<'_, '_, R> {
         let angles = called
             .iter()
             .map(|pair| self.angle(pair.joint))
-            .collect::<Result<Vec<Value>, CompileError>>()?;
+            .collect::<Result<Vec<Value>, Error>>()?;
         let computed = match (code.library, code.scalar) {
             (Library::Together, ScalarType::F64) => together::<f64>(emitter, &angles),
             (Library::Together, ScalarType::F32) => together::<f32>(emitter, &angles),
@@ -79,7 +79,7 @@ pub(crate) fn emit(
     emitter: &Emitter<'_>,
     code: &Code,
     read: impl FnMut(Argument, usize) -> Option<Value>,
-) -> Result<Vec<Value>, CompileError> {
+) -> Result<Vec<Value>, Error> {
     let mut inputs = Inputs {
         emitter,
         read,
@@ -106,7 +106,7 @@ fn polynomials(
     emitter: &Emitter<'_>,
     kernel: &Kernel,
     angle: Value,
-) -> Result<(Value, Value), CompileError> {
+) -> Result<(Value, Value), Error> {
     let values = run(emitter, &kernel.dag, |_| Ok(angle))?;
     let [sin, cos] = kernel.need.each(values);
     Ok((sin.unwrap_or(angle), cos.unwrap_or(angle)))
@@ -115,8 +115,8 @@ fn polynomials(
 fn run<I>(
     emitter: &Emitter<'_>,
     dag: &Dag<Literal, I>,
-    mut input: impl FnMut(&I) -> Result<Value, CompileError>,
-) -> Result<Vec<Value>, CompileError> {
+    mut input: impl FnMut(&I) -> Result<Value, Error>,
+) -> Result<Vec<Value>, Error> {
     let signed = |value: Value, is_negative: bool| match is_negative {
         true => emitter.with(|b| b.ins().fneg(value)),
         false => value,

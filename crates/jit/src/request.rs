@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use dalembert_codegen::{Asked, LimbLayout, Problem, Request, ScalarType, SinCos, Watch};
+use dalembert_codegen::{Asked, LimbLayout, Request, ScalarType, SinCos, Watch};
 use dalembert_model::read::Reading;
 
-use crate::error::LoadError;
+use crate::error::Error;
 
 /// The place where plans and compiled requests are kept.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -36,7 +36,7 @@ pub struct Load {
 }
 
 impl Load {
-    pub(crate) fn request(&self, reading: &Reading) -> Result<Request, LoadError> {
+    pub(crate) fn request(&self, reading: &Reading) -> Result<Request, Error> {
         let scalars = [ScalarType::F64];
         let Reading {
             robot,
@@ -44,11 +44,7 @@ impl Load {
             scenes,
             ..
         } = reading;
-        let mut request =
-            Request::parse(&self.asked, &scalars, robot, outputs, scenes).map_err(|problems| {
-                let messages: Vec<String> = problems.iter().map(Problem::to_string).collect();
-                LoadError::Request(messages.join("\n"))
-            })?;
+        let mut request = Request::parse(&self.asked, &scalars, robot, outputs, scenes)?;
         let scene = request.scene.as_ref();
         let has_tolerance = scene.is_some_and(|scene| scene.tolerance.is_some());
         if request.sincos == SinCos::Auto && !has_tolerance {
@@ -56,7 +52,7 @@ impl Load {
         }
         if request.limbs == LimbLayout::Lanes {
             let why = "limbs: functions in memory have vectors of states: leave `limbs` out";
-            return Err(LoadError::Request(why.to_owned()));
+            return Err(Error::input(why));
         }
         request.limbs = LimbLayout::Apart;
         request.watch = self.watch.clone();

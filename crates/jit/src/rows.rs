@@ -1,6 +1,6 @@
 //! Entries of many states in a slice, wherever they lie.
 
-use crate::error::CallError;
+use crate::error::Error;
 
 /// The places of the entries of an argument or a result in a slice, state by state: entry `k` of
 /// state `i` is at `i * state + offsets[k]`. `state` is 0 for an argument that all states share.
@@ -40,8 +40,8 @@ impl Place {
         entries: usize,
         states: usize,
         length: usize,
-    ) -> Result<(), CallError> {
-        CallError::length(place, entries, self.offsets.len())?;
+    ) -> Result<(), Error> {
+        Error::length(place, entries, self.offsets.len())?;
         let (Some(last), Some(&farthest)) = (states.checked_sub(1), self.offsets.iter().max())
         else {
             return Ok(());
@@ -50,11 +50,11 @@ impl Place {
         let end = end.and_then(|end| end.checked_add(farthest));
         // Offsets of bytes are signed in the code.
         let is_inside = end.is_some_and(|end| end < length) && self.state < isize::MAX as usize / 8;
-        CallError::Outside { place }.unless(is_inside)
+        Error::Outside { place }.unless(is_inside)
     }
 
     /// Checks that no two numbers have one place: rows, columns, or a part of such.
-    pub(crate) fn check_apart(&self, place: usize, states: usize) -> Result<(), CallError> {
+    pub(crate) fn check_apart(&self, place: usize, states: usize) -> Result<(), Error> {
         let mut sorted = self.offsets.clone();
         sorted.sort_unstable();
         let gaps = sorted.windows(2).map(|pair| pair[1] - pair[0]);
@@ -66,6 +66,6 @@ impl Place {
         let length = states.saturating_sub(1).checked_mul(self.state);
         let is_column = self.state > 0 && length.is_some_and(|length| length < least);
         let is_apart = states == 0 || (least > 0 && (states == 1 || is_row || is_column));
-        CallError::Overlap { place }.unless(is_apart)
+        Error::Overlap { place }.unless(is_apart)
     }
 }

@@ -6,6 +6,7 @@
 //! - [`scene`]: what a robot is used for: locked joints, payload, box, tolerance
 //! - [`read`]: robot files and what is wrong with them (feature `std`)
 //! - [`scalar`]: the arithmetic that every formula is generic over
+//! - [`diagnostic`]: mistakes, warnings and notes, as users see them
 //! - [`equations`]: Lagrange–Euler, Newton–Euler, generalized D'Alembert
 //! - [`mod@reference`]: the generic runtime in f64 and f32, nalgebra at its surface (feature
 //!   `reference`)
@@ -19,6 +20,7 @@ extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
+pub mod diagnostic;
 pub mod equations;
 pub mod number;
 pub mod outputs;

@@ -5,11 +5,13 @@
 //! f64 or f32, with nalgebra vectors at its surface. Generated code is checked against it.
 
 use alloc::borrow::Cow;
+use alloc::format;
 use alloc::vec::Vec;
 use core::fmt;
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::diagnostic::Diagnostic;
 use crate::equations::kinematics::poses;
 use crate::equations::load::LoadArguments;
 use crate::equations::matrix::{Columns, zeros};
@@ -52,29 +54,6 @@ impl Float for f32 {
     }
 }
 
-/// A vector of joint values that is not as long as the arm has joints.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct WrongLength {
-    /// The argument's name, such as `"qd"`.
-    pub argument: &'static str,
-    /// The number of joints.
-    pub expected: usize,
-    /// The length given.
-    pub found: usize,
-}
-
-impl fmt::Display for WrongLength {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (argument, found, expected) = (self.argument, self.found, self.expected);
-        write!(
-            f,
-            "`{argument}` has {found} values, the arm has {expected} joints"
-        )
-    }
-}
-
-impl core::error::Error for WrongLength {}
-
 /// The vectors that the outputs of an arm depend on.
 #[derive(Clone, Debug)]
 pub struct JointVectors<T> {
@@ -107,7 +86,7 @@ impl<T: Float> JointVectors<T> {
 /// All vectors are of length n, from the base to the hand: q in rad or m, q̇ and q̈ in the same per
 /// second, torques in N·m, or N at a prismatic joint. Where the base floats, all but q have six
 /// entries of it first, linear over angular in its axes, and the arm's gravity is in these. A vector of another length is a
-/// [`WrongLength`] error; NaN and infinities spread to the outputs.
+/// [`Diagnostic`]; NaN and infinities spread to the outputs.
 ///
 /// ```
 /// use dalembert_model::equations::frames::Frames;
@@ -147,7 +126,7 @@ impl<T: Float> JointVectors<T> {
 /// let [q, qd, qdd] = [0.0, 2.0, 4.0].map(|x| DVector::from_element(1, x));
 /// let tau = pendulum.inverse_dynamics(&q, &qd, &qdd)?;
 /// assert_eq!(tau[0], 0.25 * 4.0 + 0.5 * 9.81 + 0.1 * 2.0);
-/// # Ok::<(), dalembert_model::reference::WrongLength>(())
+/// # Ok::<(), dalembert_model::diagnostic::Diagnostic>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Reference<T> {
@@ -198,7 +177,7 @@ impl<T: Float> Reference<T> {
     ///
     /// # Errors
     /// A vector that the quantity depends on has another length than the arm has joints.
-    pub fn entries(&self, quantity: Quantity, at: &JointVectors<T>) -> Result<Vec<T>, WrongLength> {
+    pub fn entries(&self, quantity: Quantity, at: &JointVectors<T>) -> Result<Vec<T>, Diagnostic> {
         let vector = |argument: Argument| &at.by_argument[argument.index()];
         let position = Argument::Position;
         let q = self.positions(self.values(position, vector(position))?);
@@ -216,7 +195,7 @@ impl<T: Float> Reference<T> {
                 }
                 _ => Ok(zeros(argument.length(self.sizes()))),
             })
-            .collect::<Result<Vec<Vec<T>>, WrongLength>>()?;
+            .collect::<Result<Vec<Vec<T>>, Diagnostic>>()?;
         let mut motion = Motion::new(q, |argument| {
             core::mem::take(&mut by_argument[argument.index()])
         });
@@ -253,7 +232,7 @@ impl<T: Float> Reference<T> {
         q: &DVector<T>,
         qd: &DVector<T>,
         qdd: &DVector<T>,
-    ) -> Result<DVector<T>, WrongLength> {
+    ) -> Result<DVector<T>, Diagnostic> {
         self.vector(Quantity::Torque, [q, qd, qdd])
     }
 
@@ -266,7 +245,7 @@ impl<T: Float> Reference<T> {
         q: &DVector<T>,
         qd: &DVector<T>,
         tau: &DVector<T>,
-    ) -> Result<DVector<T>, WrongLength> {
+    ) -> Result<DVector<T>, Diagnostic> {
         self.vector(Quantity::Acceleration, [q, qd, tau])
     }
 
@@ -274,7 +253,7 @@ impl<T: Float> Reference<T> {
     ///
     /// # Errors
     /// `q` has another length than the arm has joints.
-    pub fn inertia(&self, q: &DVector<T>) -> Result<DMatrix<T>, WrongLength> {
+    pub fn inertia(&self, q: &DVector<T>) -> Result<DMatrix<T>, Diagnostic> {
         let d = self.vector(Quantity::Inertia, [q])?;
         Ok(self.matrix(d.as_slice()))
     }
@@ -283,7 +262,7 @@ impl<T: Float> Reference<T> {
     ///
     /// # Errors
     /// A vector has another length than the arm has joints.
-    pub fn coriolis(&self, q: &DVector<T>, qd: &DVector<T>) -> Result<DVector<T>, WrongLength> {
+    pub fn coriolis(&self, q: &DVector<T>, qd: &DVector<T>) -> Result<DVector<T>, Diagnostic> {
         self.vector(Quantity::Coriolis, [q, qd])
     }
 
@@ -291,7 +270,7 @@ impl<T: Float> Reference<T> {
     ///
     /// # Errors
     /// `q` has another length than the arm has joints.
-    pub fn gravity(&self, q: &DVector<T>) -> Result<DVector<T>, WrongLength> {
+    pub fn gravity(&self, q: &DVector<T>) -> Result<DVector<T>, Diagnostic> {
         self.vector(Quantity::Gravity, [q])
     }
 
@@ -300,7 +279,7 @@ impl<T: Float> Reference<T> {
     ///
     /// # Errors
     /// `q` has another length than the arm has joints.
-    pub fn christoffel(&self, q: &DVector<T>) -> Result<Vec<DMatrix<T>>, WrongLength> {
+    pub fn christoffel(&self, q: &DVector<T>) -> Result<Vec<DMatrix<T>>, Diagnostic> {
         let h = self.vector(Quantity::Christoffel, [q])?;
         let n = self.coordinates();
         let matrices = h.as_slice().chunks(n * n);
@@ -311,7 +290,7 @@ impl<T: Float> Reference<T> {
     ///
     /// # Errors
     /// `q` has another length than the arm has joints.
-    pub fn potential_energy(&self, q: &DVector<T>) -> Result<T, WrongLength> {
+    pub fn potential_energy(&self, q: &DVector<T>) -> Result<T, Diagnostic> {
         let at = self.whole_at(q)?;
         Ok(Formulation::NewtonEulerLink.potential_energy(&self.whole, &at))
     }
@@ -320,7 +299,7 @@ impl<T: Float> Reference<T> {
     ///
     /// # Errors
     /// `q` has another length than the arm has joints.
-    pub fn hand(&self, q: &DVector<T>) -> Result<Columns<T>, WrongLength> {
+    pub fn hand(&self, q: &DVector<T>) -> Result<Columns<T>, Diagnostic> {
         let at = self.whole_at(q)?;
         Ok(Formulation::NewtonEulerLink.hand(&self.whole, &at))
     }
@@ -329,7 +308,7 @@ impl<T: Float> Reference<T> {
     ///
     /// # Errors
     /// `q` has another length than the arm has joints.
-    pub fn poses(&self, q: &DVector<T>) -> Result<Vec<Columns<T>>, WrongLength> {
+    pub fn poses(&self, q: &DVector<T>) -> Result<Vec<Columns<T>>, Diagnostic> {
         let mut poses = poses(&self.whole, &self.whole_at(q)?);
         Ok(poses.split_off(self.whole.base_joints()))
     }
@@ -338,7 +317,7 @@ impl<T: Float> Reference<T> {
         &self,
         quantity: Quantity,
         vectors: [&DVector<T>; N],
-    ) -> Result<DVector<T>, WrongLength> {
+    ) -> Result<DVector<T>, Diagnostic> {
         let arguments = quantity.arguments().iter().copied();
         let at = JointVectors::new(arguments.zip(vectors.map(Clone::clone)));
         self.entries(quantity, &at).map(DVector::from_vec)
@@ -357,7 +336,7 @@ impl<T: Float> Reference<T> {
         Sizes::floating(base, self.joints(), limbs)
     }
 
-    fn whole_at(&self, q: &DVector<T>) -> Result<Vec<DhVariables<T>>, WrongLength> {
+    fn whole_at(&self, q: &DVector<T>) -> Result<Vec<DhVariables<T>>, Diagnostic> {
         let q = self.values(Argument::Position, q)?;
         let motion = Motion::new(self.positions(q), |_| zeros(self.coordinates()))
             .of_rows(&self.whole.following);
@@ -393,14 +372,13 @@ impl<T: Float> Reference<T> {
         &self,
         argument: Argument,
         vector: &'a DVector<T>,
-    ) -> Result<&'a [T], WrongLength> {
+    ) -> Result<&'a [T], Diagnostic> {
         let [expected, found] = [argument.length(self.sizes()), vector.len()];
         if found != expected {
-            return Err(WrongLength {
-                argument: argument.name(),
-                expected,
-                found,
-            });
+            return Err(Diagnostic::error(format!(
+                "`{}` has {found} values, the arm has {expected} joints",
+                argument.name()
+            )));
         }
         Ok(vector.as_slice())
     }

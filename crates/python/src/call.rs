@@ -1,6 +1,6 @@
 //! A call with arrays: arguments checked and broadcast, results written in place or copied.
 
-use dalembert_jit::{CallError, Function as Compiled, MOST_ARGUMENTS, Real};
+use dalembert_jit::{Error, Function as Compiled, MOST_ARGUMENTS, Real};
 use numpy::{Element, PyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
@@ -26,7 +26,7 @@ impl Call<'_> {
         self.function.name()
     }
 
-    fn failed(&self, error: &CallError) -> PyErr {
+    fn failed(&self, error: &Error) -> PyErr {
         PyValueError::new_err(format!("{}: {error}", self.name()))
     }
 

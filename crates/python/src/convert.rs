@@ -1,7 +1,7 @@
 //! Objects of Python as arrays of the scalar that is computed in, and errors as exceptions; the
 //! arrays that results are written to; how Python writes shapes, how leading axes are broadcast.
 
-use dalembert_jit::{LoadError, Real, Scalar};
+use dalembert_jit::{Error, Real, Scalar};
 use numpy::{Element, PyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::intern;
@@ -48,9 +48,9 @@ pub(crate) fn array<'py, T: Real + Element>(
     Ok(cast.cast_into::<PyArrayDyn<T>>()?)
 }
 
-pub(crate) fn raised(error: &LoadError) -> PyErr {
+pub(crate) fn raised(error: &Error) -> PyErr {
     match error {
-        LoadError::Compile(..) => PyRuntimeError::new_err(error.to_string()),
+        Error::Function(..) => PyRuntimeError::new_err(error.to_string()),
         _ => PyValueError::new_err(error.to_string()),
     }
 }

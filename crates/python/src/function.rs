@@ -108,7 +108,6 @@ impl Function {
 
 #[pymethods]
 impl Function {
-    /// Returns the function's name.
     #[getter]
     fn __name__(&self) -> &'static str {
         self.compiled().next().map_or("", Compiled::name)

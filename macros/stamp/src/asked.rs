@@ -60,8 +60,6 @@ impl fmt::Display for NotAsked {
     }
 }
 
-impl std::error::Error for NotAsked {}
-
 fn is_near(name: &str, word: &str) -> bool {
     let (one, other) = (name.as_bytes(), word.as_bytes());
     let before = one.iter().zip(other).take_while(|(a, b)| a == b).count();

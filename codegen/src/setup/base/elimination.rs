@@ -8,7 +8,7 @@ use dalembert_model::scalar::field::{Field, Modulo, ProofField};
 use dalembert_model::scalar::sparse::Sparse;
 
 use crate::dag::Points;
-use crate::function::{Columns, Function, Quantity};
+use crate::function::{Function, Quantity, RegressorColumns};
 use crate::program::Input;
 use crate::scalar::Case;
 use crate::setup::Setup;
@@ -29,7 +29,7 @@ where
         Some(residue) => Sparse::constant(value, Modulo::<P>::any(residue)),
         None => Sparse::Lost,
     };
-    let is_over = |function: &Function| function.columns() == Columns::Base(quantity);
+    let is_over = |function: &Function| function.columns() == RegressorColumns::Base(quantity);
     let task = setup.task(Function::ALL.into_iter().find(is_over)?);
     let arm = setup.arm(constant);
     let columns: Vec<_> = columns.iter().map(|c| c.map(constant)).collect();

@@ -25,6 +25,7 @@ mod origins;
 
 use std::fmt;
 
+use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::equations::Arm;
 use dalembert_model::equations::chain::{Chain, Probed, Skeleton};
 use dalembert_model::equations::matrix::opposite;
@@ -35,7 +36,6 @@ use dalembert_model::scalar::Scalar;
 
 use super::Setup;
 use crate::function::Quantity;
-use crate::words::Complaint;
 use elimination::{ColumnBasis, reduced, values};
 use moments::{MAX_TERMS, Moment, kept, parts};
 
@@ -94,7 +94,7 @@ pub struct BaseParameters {
 
 const FULL: &str = "ask for `full_regressor`, over all parameters of all links";
 
-fn large(parameter: Parameter) -> Complaint {
+fn large(parameter: Parameter) -> Diagnostic {
     let body = match parameter {
         Parameter::Base(_) => "the base".to_owned(),
         Parameter::Link(row, _) | Parameter::Armature(row) | Parameter::Viscous(row) => {
@@ -108,13 +108,13 @@ fn large(parameter: Parameter) -> Complaint {
     no_base(message, "give angles that are multiples of pi/2 as such")
 }
 
-fn no_base(message: impl Into<String>, help: &str) -> Complaint {
+fn no_base(message: impl Into<String>, help: &str) -> Diagnostic {
     let gap = if help.is_empty() { "" } else { ", or " };
-    Complaint::new(message, format!("{help}{gap}{FULL}"))
+    Diagnostic::error(message).with_help(format!("{help}{gap}{FULL}"))
 }
 
 impl BaseParameters {
-    pub(super) fn find(setup: &Setup, quantity: Quantity) -> Result<BaseParameters, Complaint> {
+    pub(super) fn find(setup: &Setup, quantity: Quantity) -> Result<BaseParameters, Diagnostic> {
         let robot = setup.robot();
         if setup.has_coulomb() {
             let message = "torques with Coulomb friction are not linear in its parameters, and no column \
@@ -122,7 +122,7 @@ impl BaseParameters {
             let help = "leave `coulomb` out of the robot file and add the friction to the torques \
                         yourself";
             let help = format!("{help}, or {FULL}, which is of links alone");
-            return Err(Complaint::new(message, help));
+            return Err(Diagnostic::error(message).with_help(help));
         }
         let arm = Arm::from_robot(robot, &mut Exact::clone).fold_base();
         let skeleton = Skeleton::with_columns(&arm, &setup.merged(), &of_links(&arm));

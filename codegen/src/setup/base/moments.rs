@@ -2,7 +2,7 @@
 //! of a body where all moves inward that can.
 
 use dalembert_model::equations::chain::body::entry;
-use dalembert_model::equations::chain::{Body, Chain};
+use dalembert_model::equations::chain::{Chain, MomentBody};
 use dalembert_model::number::Exact;
 use dalembert_model::robot::{Inertia, JointKind};
 use dalembert_model::scalar::Scalar;
@@ -33,8 +33,8 @@ impl Moment {
         Moment::Second(1, 2),
     ];
 
-    pub(super) fn unit(self) -> Body<Exact> {
-        let mut body = Body::zero();
+    pub(super) fn unit(self) -> MomentBody<Exact> {
+        let mut body = MomentBody::zero();
         match self {
             Moment::Mass => body.mass = Exact::one(),
             Moment::First(axis) => body.first[axis] = Exact::one(),
@@ -48,7 +48,7 @@ impl Moment {
         body
     }
 
-    pub(super) fn read(self, body: &Body<Exact>) -> &Exact {
+    pub(super) fn read(self, body: &MomentBody<Exact>) -> &Exact {
         match self {
             Moment::Mass => &body.mass,
             Moment::First(axis) => &body.first[axis],
@@ -78,14 +78,14 @@ pub(super) fn kept(kind: JointKind) -> &'static [Moment] {
 }
 
 /// The part of a body that each link, and a base that floats, keeps.
-pub(super) struct Parts {
-    base: Body<Exact>,
-    links: Vec<Body<Exact>>,
+pub(super) struct BodyParts {
+    base: MomentBody<Exact>,
+    links: Vec<MomentBody<Exact>>,
 }
 
-impl Parts {
+impl BodyParts {
     /// Returns that of a link, or of the base.
-    pub(super) fn at(&self, link: Option<usize>) -> &Body<Exact> {
+    pub(super) fn at(&self, link: Option<usize>) -> &MomentBody<Exact> {
         link.map_or(&self.base, |link| &self.links[link])
     }
 }
@@ -93,9 +93,9 @@ impl Parts {
 pub(super) fn parts(
     chain: &Chain<Exact>,
     link: Option<usize>,
-    body: &Body<Exact>,
-) -> Option<Parts> {
-    let mut parts = vec![Body::zero(); chain.links.len()];
+    body: &MomentBody<Exact>,
+) -> Option<BodyParts> {
+    let mut parts = vec![MomentBody::zero(); chain.links.len()];
     let mut arriving = body.clone();
     for i in link.into_iter().flat_map(|link| chain.way(link)) {
         if terms(&arriving) > MAX_TERMS {
@@ -105,13 +105,13 @@ pub(super) fn parts(
         parts[i] = stays;
         arriving = moves;
     }
-    Some(Parts {
+    Some(BodyParts {
         base: arriving,
         links: parts,
     })
 }
 
-fn terms(body: &Body<Exact>) -> usize {
+fn terms(body: &MomentBody<Exact>) -> usize {
     let mut most = 0;
     body.map(|x| most = most.max(x.terms()));
     most

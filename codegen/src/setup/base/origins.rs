@@ -6,7 +6,7 @@
 //! of all columns are counted as they are written, for the points where frames are anyway.
 
 use dalembert_model::equations::chain::composite::CompositeOrder;
-use dalembert_model::equations::chain::{Body, Chain, Probe, Probed, Regrouping, Skeleton};
+use dalembert_model::equations::chain::{Chain, MomentBody, Probe, Probed, Regrouping, Skeleton};
 use dalembert_model::equations::matrix::{Vector, opposite, zero_vector};
 use dalembert_model::equations::{JointPosition, SinCosPair};
 use dalembert_model::number::Exact;
@@ -35,11 +35,11 @@ pub(super) fn chosen(skeleton: &Skeleton<Exact>) -> Regrouping<Exact> {
 
 pub(super) fn without_bodies(skeleton: &Skeleton<Exact>) -> Skeleton<Exact> {
     let mut empty = skeleton.clone();
-    empty.base = empty.base.map(|_| Body::zero());
+    empty.base = empty.base.map(|_| MomentBody::zero());
     empty
         .links
         .iter_mut()
-        .for_each(|segment| segment.link.body = Body::zero());
+        .for_each(|segment| segment.link.body = MomentBody::zero());
     empty
 }
 

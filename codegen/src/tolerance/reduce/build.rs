@@ -1,6 +1,6 @@
 //! The program of a model.
 
-use dalembert_model::equations::chain::Body;
+use dalembert_model::equations::chain::MomentBody;
 use dalembert_model::equations::matrix::scaled;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Exact, Rational};
@@ -11,17 +11,17 @@ use super::terms::{Terms, nothing, traced};
 use crate::dag::{Builder as GraphBuilder, Dag, Folding};
 use crate::program::Program;
 use crate::search::{Effort, cost, search};
-use crate::seeds::start::Problem;
+use crate::seeds::start::Tuning;
 use crate::seeds::{regrouped, skeleton, tuned};
 use crate::setup::{FittedLink, Setup};
 
-pub(super) struct Builder<'a> {
+pub(super) struct ReducedModel<'a> {
     pub setup: &'a Setup,
     pub exact: &'a Program,
     pub terms: &'a Terms,
 }
 
-impl Builder<'_> {
+impl ReducedModel<'_> {
     pub(super) fn price(&self, terms: &[usize]) -> u64 {
         let factors: Vec<f64> = (0..terms.len()).map(|k| 1.37 + 0.1709 * k as f64).collect();
         let fitted = self.fitted(terms, &factors);
@@ -33,7 +33,7 @@ impl Builder<'_> {
         let (function, effort) = (self.exact.function, Effort::Quick);
         let forms = function.forms();
         let task = fitted.task(function);
-        let tuned = tuned(&Problem::new(task, effort), &forms);
+        let tuned = tuned(&Tuning::new(task, effort), &forms);
         let seeds = regrouped(task, &forms, &tuned);
         let graphs: Vec<Dag> = seeds.into_iter().map(|seed| seed.graph).collect();
         let best = search(&graphs, &[], &|n| effort.limits(n), &|_| true, &|_, _| true)?;
@@ -64,7 +64,7 @@ impl Builder<'_> {
 }
 
 fn add(link: &mut FittedLink, unit: &FittedLink, factor: &Exact) {
-    let body = Body {
+    let body = MomentBody {
         mass: unit.body.mass.mul(factor),
         first: scaled(factor, &unit.body.first),
         second: unit.body.second.map(|x| x.mul(factor)),

@@ -14,7 +14,7 @@ const FINE: usize = 24;
 /// Errors of a row below this part of its block's largest weigh no more.
 const FLOOR: f64 = 0.02;
 
-pub(super) struct Fit<'t> {
+pub(super) struct TermFit<'t> {
     pub terms: &'t Terms,
     block: usize,
     products: Vec<Vec<f64>>,
@@ -32,8 +32,8 @@ pub(super) struct Solution {
     pub inverse: Vec<Vec<f64>>,
 }
 
-impl<'t> Fit<'t> {
-    pub(super) fn new(terms: &'t Terms) -> Fit<'t> {
+impl<'t> TermFit<'t> {
+    pub(super) fn new(terms: &'t Terms) -> TermFit<'t> {
         let (block, count) = (terms.samples.block(), terms.all.len());
         let columns: Vec<&[f64]> = terms
             .all
@@ -58,7 +58,7 @@ impl<'t> Fit<'t> {
             let sum: f64 = products.iter().map(|products| products[place]).sum();
             sum.sqrt()
         };
-        Fit {
+        TermFit {
             terms,
             block,
             sizes: (0..count).map(size).collect(),

@@ -24,8 +24,8 @@ use crate::parallel;
 use crate::program::Program;
 use crate::tolerance::samples::Samples;
 use crate::tolerance::search::Target;
-use build::Builder;
-use fit::Fit;
+use build::ReducedModel;
+use fit::TermFit;
 use terms::Terms;
 
 const SEED: u64 = 0x5eed;
@@ -45,13 +45,13 @@ pub(super) fn programs(target: Target<'_>) -> Vec<Program> {
     let Some(terms) = terms.filter(|terms| !terms.outputs.is_empty()) else {
         return Vec::new();
     };
-    let builder = Builder {
+    let builder = ReducedModel {
         setup: target.setup,
         exact: target.exact,
         terms: &terms,
     };
     let is_over = || target.watch.is_over();
-    let fit = Fit::new(&terms);
+    let fit = TermFit::new(&terms);
     let models = path::eliminate(&builder, &fit, &is_over);
     let of = |most: &f64| models.iter().rposition(|model| model.error <= *most);
     let mut places: Vec<usize> = USES.iter().filter_map(of).collect();

@@ -1,7 +1,7 @@
 //! Backward elimination: from all terms to the fewest that can be fitted.
 
-use super::build::Builder;
-use super::fit::{Fit, Solution};
+use super::build::ReducedModel;
+use super::fit::{Solution, TermFit};
 use crate::parallel;
 
 const MOST: f64 = 0.95;
@@ -15,8 +15,8 @@ const COUNTED: usize = 8;
 const TRIED: usize = 5;
 
 pub(super) fn eliminate(
-    builder: &Builder<'_>,
-    fit: &Fit<'_>,
+    builder: &ReducedModel<'_>,
+    fit: &TermFit<'_>,
     is_over: &dyn Fn() -> bool,
 ) -> Vec<Solution> {
     let singles = fit
@@ -56,7 +56,7 @@ pub(super) fn eliminate(
     models
 }
 
-fn candidates(fit: &Fit<'_>, solution: &Solution) -> Vec<(f64, Vec<usize>)> {
+fn candidates(fit: &TermFit<'_>, solution: &Solution) -> Vec<(f64, Vec<usize>)> {
     let now = &solution.terms;
     let mut candidates: Vec<(f64, Vec<usize>)> = Vec::new();
     for (place, &loss) in solution.saliency.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! The parameters that torques are linear in: a column for each of each link.
 
-use dalembert_model::equations::chain::{Body, Chain, Regrouping, Skeleton};
+use dalembert_model::equations::chain::{Chain, MomentBody, Regrouping, Skeleton};
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::robot::{Inertia, JointKind};
 use dalembert_model::scalar::Scalar;
@@ -115,7 +115,7 @@ pub(super) fn nothing(skeleton: &Skeleton<Exact>) -> Vec<FittedLink> {
 
 fn zero() -> FittedLink {
     FittedLink {
-        body: Body::zero(),
+        body: MomentBody::zero(),
         armature: Exact::zero(),
         viscous: Exact::zero(),
     }
@@ -126,12 +126,12 @@ fn zero() -> FittedLink {
 fn units(skeleton: &Skeleton<Exact>) -> Vec<(usize, FittedLink, Option<[usize; 2]>)> {
     let mut units: Vec<(usize, FittedLink, Option<[usize; 2]>)> = Vec::new();
     // By its entries xx, yy, zz, xy, yz and xz.
-    let second = |entries: [i64; 6]| Body {
+    let second = |entries: [i64; 6]| MomentBody {
         second: Inertia::of(entries.map(|x| Exact::from(Rational::from_integer(x.into())))),
-        ..Body::zero()
+        ..MomentBody::zero()
     };
     let first = |axis: usize| {
-        let mut body = Body::zero();
+        let mut body = MomentBody::zero();
         body.first[axis] = Exact::one();
         body
     };
@@ -154,7 +154,7 @@ fn units(skeleton: &Skeleton<Exact>) -> Vec<(usize, FittedLink, Option<[usize; 2
                 bodies.iter().map(|body| body.moved(&about)).collect()
             }
             JointKind::Prismatic => {
-                let mut mass = Body::zero();
+                let mut mass = MomentBody::zero();
                 mass.mass = Exact::one();
                 vec![mass, first(0), first(1), first(2)]
             }

@@ -10,7 +10,7 @@ use num_traits::{Signed, ToPrimitive};
 use super::arm::{Reading, entries};
 use super::exact::{Angle, fixed};
 use super::robot::{File, Payload, number_of};
-use super::screw::{Body, Pose, Scalar, cross, scaled};
+use super::screw::{Body, Pose, Ring, cross, scaled};
 
 const BITS: u32 = 256;
 /// The digits to which both agree, relative to the largest of what is compared.
@@ -47,7 +47,7 @@ impl Neg for FixedPoint {
     }
 }
 
-impl Scalar for FixedPoint {}
+impl Ring for FixedPoint {}
 
 struct Digits;
 

@@ -10,7 +10,7 @@ use num_traits::{ToPrimitive, Zero};
 use super::exact::Point;
 use super::number::Number;
 use super::robot::{File, FloatingBase, Placement, Row, angle_of, number_of};
-use super::screw::{Body, Pose, Scalar, Screw, Vector, cross, dot, opposite, scaled, sum};
+use super::screw::{Body, Pose, Ring, Screw, Vector, cross, dot, opposite, scaled, sum};
 use super::setting::Setting;
 use super::state::State;
 
@@ -79,7 +79,7 @@ pub struct Arm {
 }
 
 /// The joint that moves a row and how many times as far, and what is added.
-type Line = ((usize, Number), (i64, [Number; 2], Number));
+type FollowerLine = ((usize, Number), (i64, [Number; 2], Number));
 
 fn turned([sin, cos]: [Number; 2], [other, by]: [Number; 2]) -> [Number; 2] {
     [sin * by + cos * other, cos * by - sin * other]
@@ -94,7 +94,7 @@ fn times([sin, cos]: [Number; 2], count: i64) -> [Number; 2] {
 pub(super) type Carried<N> = (Body<N>, Pose<N>);
 
 pub(super) trait Reading {
-    type Number: Scalar;
+    type Number: Ring;
 
     /// Reads a number; one that is missing is zero.
     fn entry(&self, text: Option<&String>) -> Result<Self::Number, String>;
@@ -196,7 +196,7 @@ impl Point {
         Ok(body.moved(&centre))
     }
 
-    fn line(&self, setting: &Setting, row: usize) -> Result<Line, String> {
+    fn line(&self, setting: &Setting, row: usize) -> Result<FollowerLine, String> {
         let follower = &setting.follows[row];
         let whole = |times: &Rational| times.to_i64().unwrap_or_default();
         let (mut pair, mut length) = ([0.into(), 1.into()], Number::from(0));

@@ -66,7 +66,7 @@ impl Setting<'_> {
     ///
     /// # Errors
     /// A range that is empty, a number that is not one.
-    pub fn bodies_given(&self) -> Result<Vec<(usize, Vec<payload::Body>)>, String> {
+    pub fn bodies_given(&self) -> Result<Vec<(usize, Vec<payload::BodyRange>)>, String> {
         let mut arguments = Vec::new();
         for &place in &self.loading {
             match ARGUMENTS[place].0 {
@@ -83,7 +83,7 @@ impl Setting<'_> {
     ///
     /// # Errors
     /// A number of a link that is not one.
-    fn body_ranges(&self) -> Result<Vec<payload::Body>, String> {
+    fn body_ranges(&self) -> Result<Vec<payload::BodyRange>, String> {
         let of = |(link, numbers): (&usize, &[f64; 10])| {
             let joint = |row: usize| self.file.joint.get(row)?.limits.body.as_ref();
             let base = || self.file.floating.as_ref()?.limits.body.as_ref();
@@ -94,15 +94,14 @@ impl Setting<'_> {
     }
 }
 
-/// Returns the bodies around one of these numbers.
-fn around([mass, x, y, z, xx, yy, zz, ..]: [f64; 10]) -> payload::Body {
+fn around([mass, x, y, z, xx, yy, zz, ..]: [f64; 10]) -> payload::BodyRange {
     let about = match mass > 0.0 {
         true => 0.5 * (xx + yy + zz).abs() / mass,
         false => 0.0,
     };
     let reach = (x * x + y * y + z * z).sqrt() + about.sqrt();
     let or = |x: f64, light: f64| if x > 0.0 { x } else { light };
-    payload::Body {
+    payload::BodyRange {
         mass: [0.5 * mass, 2.0 * or(mass, LIGHT.0)],
         radius: 2.0 * or(reach, LIGHT.1),
     }
@@ -113,13 +112,13 @@ impl Bodies {
     ///
     /// # Errors
     /// It is empty, or not of numbers.
-    pub(super) fn read(&self, key: &str) -> Result<payload::Body, String> {
+    pub(super) fn read(&self, key: &str) -> Result<payload::BodyRange, String> {
         let read = |[low, high]: &[String; 2]| {
             let double = |text: &String| number(text)?.to_f64();
             let [low, high, radius] = [low, high, &self.radius].map(double);
             let (mass, radius) = ([low?, high?], radius?);
             let is_range = 0.0 <= mass[0] && mass[0] <= mass[1] && 0.0 <= radius;
-            (is_range && mass[1].max(radius) <= MOST).then_some(payload::Body { mass, radius })
+            (is_range && mass[1].max(radius) <= MOST).then_some(payload::BodyRange { mass, radius })
         };
         let why = || format!("`{key}`: expected `mass = [low, high]`, kg, and `radius`, m");
         read(&self.mass).ok_or_else(why)
@@ -173,7 +172,6 @@ impl File {
     }
 }
 
-/// Returns a body of ten numbers about its centre of mass, and where that is.
 fn body(numbers: &[Number]) -> Result<(Body, Pose), String> {
     let numbers: [Number; 10] = numbers.try_into().map_err(|_| "a body is ten numbers")?;
     let mut body = Body::new(numbers);

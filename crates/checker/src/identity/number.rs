@@ -18,7 +18,6 @@ pub struct Prime {
 
 const LOST: u128 = u128::MAX;
 
-/// Returns the high and the low half of a product.
 fn wide(a: u128, b: u128) -> [u128; 2] {
     let half = |x: u128| [x >> 64, x & u128::from(u64::MAX)];
     let ([a, b], [c, d]) = (half(a), half(b));

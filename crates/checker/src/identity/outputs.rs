@@ -54,7 +54,6 @@ impl<'a> At<'a> {
         }
     }
 
-    /// Returns the arm at a state that differs from its state by these arguments.
     fn moved<'b>(&'b self, state: &'b State, by: &[usize]) -> At<'b> {
         match by.contains(&0) {
             true => At::new(self.arm, state, self.view),
@@ -74,7 +73,6 @@ impl<'a> At<'a> {
         self.arm.base_coordinates()
     }
 
-    /// Returns the motion of a base that floats, or one that stands still.
     fn of_base(&self, rates: &[Number]) -> Screw {
         match self.base {
             Some(_) => screw(rates),
@@ -259,7 +257,6 @@ impl<'a> At<'a> {
         units(self.count()).into_iter().map(column).collect()
     }
 
-    /// Returns Cᵀq̇.
     fn slope(&self) -> Vec<Number> {
         times(&self.columns_of_coriolis(), self.given("qd"))
     }
@@ -322,7 +319,6 @@ impl<'a> At<'a> {
         rows.enumerate().map(with_base).collect()
     }
 
-    /// Returns the slopes of numbers by each entry of an argument, a column each.
     fn slopes(&self, by: usize, of: impl Fn(&At) -> Vec<Number>) -> Matrix {
         let column = |coordinate: usize| {
             let index = match by {

@@ -52,7 +52,7 @@ pub(super) struct Scene {
     pub(super) velocity: Option<Zero>,
     pub(super) acceleration: Option<Zero>,
     pub(super) payload: Option<Payload>,
-    pub(super) r#box: Bounds,
+    pub(super) r#box: SceneBounds,
     pub(super) tolerance: Option<Tolerance>,
     outputs: Option<IgnoredAny>,
     scalar: Option<IgnoredAny>,
@@ -89,7 +89,7 @@ pub(super) struct Payload {
 
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub(super) struct Bounds {
+pub(super) struct SceneBounds {
     pub(super) position: Option<Vec<[String; 2]>>,
     pub(super) velocity: Option<Vec<String>>,
     pub(super) acceleration: Option<Vec<String>>,

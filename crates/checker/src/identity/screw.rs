@@ -9,33 +9,33 @@ use std::ops::{Add, Mul, Neg};
 
 use super::number::Number;
 
-pub(super) trait Scalar:
+pub(super) trait Ring:
     Clone + From<i64> + Add<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
 }
 
-impl Scalar for Number {}
+impl Ring for Number {}
 
 pub(super) type Vector = [Number; 3];
 
-pub(super) fn sum<S: Scalar>(a: [S; 3], b: [S; 3]) -> [S; 3] {
+pub(super) fn sum<S: Ring>(a: [S; 3], b: [S; 3]) -> [S; 3] {
     from_fn(|i| a[i].clone() + b[i].clone())
 }
 
-pub(super) fn scaled<S: Scalar>(x: S, a: [S; 3]) -> [S; 3] {
+pub(super) fn scaled<S: Ring>(x: S, a: [S; 3]) -> [S; 3] {
     a.map(|a| x.clone() * a)
 }
 
-pub(super) fn opposite<S: Scalar>(a: [S; 3]) -> [S; 3] {
+pub(super) fn opposite<S: Ring>(a: [S; 3]) -> [S; 3] {
     a.map(|a| -a)
 }
 
-pub(super) fn dot<S: Scalar>(a: [S; 3], b: [S; 3]) -> S {
+pub(super) fn dot<S: Ring>(a: [S; 3], b: [S; 3]) -> S {
     let [x, y, z]: [S; 3] = from_fn(|i| a[i].clone() * b[i].clone());
     x + y + z
 }
 
-pub(super) fn cross<S: Scalar>(a: [S; 3], b: [S; 3]) -> [S; 3] {
+pub(super) fn cross<S: Ring>(a: [S; 3], b: [S; 3]) -> [S; 3] {
     let [i, k] = [[1, 2, 0], [2, 0, 1]];
     let product = |a: &[S; 3], b: &[S; 3], axis: usize| a[i[axis]].clone() * b[k[axis]].clone();
     from_fn(|axis| product(&a, &b, axis) + -product(&b, &a, axis))
@@ -76,7 +76,7 @@ pub(super) struct Pose<S = Number> {
     pub(super) origin: [S; 3],
 }
 
-impl<S: Scalar> Pose<S> {
+impl<S: Ring> Pose<S> {
     pub(super) fn shift(origin: [S; 3]) -> Pose<S> {
         let axes = from_fn(|k| from_fn(|i| i64::from(i == k).into()));
         Pose { axes, origin }
@@ -159,7 +159,7 @@ pub(super) struct Body<S = Number> {
     pub(super) tensor: [[S; 3]; 3],
 }
 
-impl<S: Scalar> Body<S> {
+impl<S: Ring> Body<S> {
     pub(super) fn new([mass, x, y, z, xx, yy, zz, xy, yz, xz]: [S; 10]) -> Body<S> {
         let first_row = [xx, xy.clone(), xz.clone()];
         Body {

@@ -9,7 +9,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use super::exact::{Angle, Exact, number};
 use super::robot::{File, OneOrEach, Row, Scene, number_of};
 use super::table::{Sizes, length};
-use crate::payload::Body;
+use crate::payload::BodyRange;
 use crate::places::Places;
 use crate::program::{ARGUMENTS, Operand};
 
@@ -164,7 +164,6 @@ impl Row {
         self.kind == "revolute"
     }
 
-    /// Returns a position in radians or metres, as a double.
     fn position(&self, text: &str) -> Option<f64> {
         match self.turns() {
             true => Angle::read(text)?.radians(),
@@ -344,7 +343,7 @@ impl Setting<'_> {
     ///
     /// # Errors
     /// A range that is empty, or not a range.
-    pub fn body(&self) -> Result<Option<Body>, String> {
+    pub fn body(&self) -> Result<Option<BodyRange>, String> {
         let scene_payload = self.scene.r#box.payload.as_ref();
         let payload = scene_payload.or(self.file.limits.payload.as_ref());
         payload.map(|range| range.read("payload")).transpose()

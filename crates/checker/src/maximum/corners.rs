@@ -4,7 +4,7 @@
 //! are where all are −1 or 1. The sign of a product is the parity of a set of velocities: a Walsh
 //! transform gives the sum at all corners.
 
-use super::terms::{Key, Terms, group, multiple, without_group, without_phases};
+use super::terms::{TermKey, Terms, group, multiple, without_group, without_phases};
 
 /// The most velocities whose corners are tried: beyond, each product counts by itself.
 pub(super) const MOST_VELOCITIES: usize = 12;
@@ -80,7 +80,7 @@ impl Table {
     /// Returns the table of a level's terms, if it is not too large. A run has its end, the square of the
     /// joint's multiple and its group.
     pub(super) fn new(
-        keys: &[Key],
+        keys: &[TermKey],
         level: &[(u32, f64, u32)],
         terms: &Terms,
         joint: usize,
@@ -90,9 +90,9 @@ impl Table {
             velocities,
             ..
         } = terms;
-        let class = |key: &Key| (without_phases(without_group(*key)), without_group(*key));
-        let is_other = |key: &Key| factors[group(*key)] == Factor::Other;
-        let mut columns: Vec<(Key, Key)> = keys
+        let class = |key: &TermKey| (without_phases(without_group(*key)), without_group(*key));
+        let is_other = |key: &TermKey| factors[group(*key)] == Factor::Other;
+        let mut columns: Vec<(TermKey, TermKey)> = keys
             .iter()
             .filter(|key| !is_other(key))
             .map(class)
@@ -103,7 +103,7 @@ impl Table {
         if *velocities == 0 || width == 0 || width * rows > MOST_PLACES {
             return None;
         }
-        let place = |key: &Key| {
+        let place = |key: &TermKey| {
             let row = match factors[group(*key)] {
                 Factor::One => 0,
                 Factor::Place(set) => set,

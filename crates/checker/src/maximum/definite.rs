@@ -9,7 +9,7 @@
 use super::climb::next;
 use super::corners::Factor;
 use super::search::{Aim, Search, Verdict};
-use super::terms::{Key, Terms, group};
+use super::terms::{TermKey, Terms, group};
 use crate::polynomial::Polynomial;
 use crate::ring::Ring;
 
@@ -44,7 +44,7 @@ pub fn is_definite(entries: &[Polynomial], errors: &[f64], ring: &Ring) -> bool 
                     Factor::One => {
                         matrix
                             .terms
-                            .push((key - group(key) as Key + at as Key, value));
+                            .push((key - group(key) as TermKey + at as TermKey, value));
                         sizes[at] += value.abs();
                     }
                     _ => off[at] += value.abs(),

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::corners::{Factor, Table, corners, length};
 use super::definite::exceeds;
-use super::terms::{Key, Terms, bits, group, multiple, without_phases};
+use super::terms::{TermKey, Terms, bits, group, multiple, without_phases};
 use crate::interval::sin_cos;
 use crate::ring::Ring;
 
@@ -80,11 +80,11 @@ pub(super) struct Search {
 
 impl Search {
     pub(super) fn new(expansion: &Terms, ring: &Ring) -> Search {
-        let place = |key: Key| (without_phases(key), key);
+        let place = |key: TermKey| (without_phases(key), key);
         let mut terms = expansion.terms.clone();
         terms.sort_by_key(|term| place(term.0));
         let mass: f64 = terms.iter().map(|term| term.1.abs()).sum();
-        let mut keys: Vec<Key> = terms.iter().map(|term| term.0).collect();
+        let mut keys: Vec<TermKey> = terms.iter().map(|term| term.0).collect();
         let mut longest = keys.len() + expansion.factors.len() + 64;
         let mut search = Search {
             columns: vec![terms.iter().map(|term| term.1).collect()],
@@ -100,7 +100,7 @@ impl Search {
             if degree == 0 {
                 continue;
             }
-            let is_constant = |key: Key| without_phases(key) >> 16 == 0;
+            let is_constant = |key: TermKey| without_phases(key) >> 16 == 0;
             let constants = keys
                 .iter()
                 .zip(0..)
@@ -108,7 +108,7 @@ impl Search {
                 .map(|(_, at)| at)
                 .collect();
             let mut end = 0;
-            let same = |a: &Key, b: &Key| without_phases(*a) == without_phases(*b);
+            let same = |a: &TermKey, b: &TermKey| without_phases(*a) == without_phases(*b);
             let runs: Vec<(u32, f64, u32)> = keys
                 .chunk_by(same)
                 .map(|run| {
@@ -121,11 +121,12 @@ impl Search {
                 keys.iter().map(|key| multiple(*key, joint)).collect();
             bases.sort_unstable();
             bases.dedup();
-            let moved = |(key, at): (&Key, u32)| {
+            let moved = |(key, at): (&TermKey, u32)| {
                 let base = bases.binary_search(&multiple(*key, joint));
                 (place(key & !bits(joint)), at, base.unwrap_or(0) as u32)
             };
-            let mut moves: Vec<((Key, Key), u32, u32)> = keys.iter().zip(0..).map(moved).collect();
+            let mut moves: Vec<((TermKey, TermKey), u32, u32)> =
+                keys.iter().zip(0..).map(moved).collect();
             moves.sort_unstable();
             let mut end = 0;
             let sums = moves.chunk_by(|a, b| a.0 == b.0).map(|run| {
@@ -411,7 +412,7 @@ impl Search {
 }
 
 /// Orders the angles by Σ |c| k²: those that bend most come first.
-fn order(terms: &[(Key, f64)], joints: usize) -> Vec<usize> {
+fn order(terms: &[(TermKey, f64)], joints: usize) -> Vec<usize> {
     let bend = |joint: usize| -> f64 {
         let entries = terms.iter();
         entries

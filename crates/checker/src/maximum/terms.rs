@@ -3,12 +3,12 @@
 use std::collections::HashMap;
 
 use super::corners::{Factor, MOST_VELOCITIES};
-use crate::polynomial::{Key as Powers, MAX_LOADS, Polynomial, Variable, exponent};
+use crate::polynomial::{MAX_LOADS, Polynomial, Powers, Variable, exponent};
 use crate::ring::Ring;
 
 /// The number of a group in the lowest bits, then for each angle its multiple and whether it is a
 /// sine.
-pub(super) type Key = u128;
+pub(super) type TermKey = u128;
 const GROUP: usize = 16;
 const WIDTH: usize = 5;
 /// One above the highest power of a cosine.
@@ -25,32 +25,33 @@ fn shift(joint: usize) -> usize {
 }
 
 /// Returns an angle's multiple, and whether it is a sine.
-pub(super) fn multiple(key: Key, joint: usize) -> (u32, bool) {
+pub(super) fn multiple(key: TermKey, joint: usize) -> (u32, bool) {
     let bits = (key >> shift(joint)) as u32;
     (bits & 15, bits >> 4 & 1 == 1)
 }
 
-pub(super) fn bits(joint: usize) -> Key {
+pub(super) fn bits(joint: usize) -> TermKey {
     31 << shift(joint)
 }
 
 /// Returns the key of a term without its phases: those that differ by them stand together.
-pub(super) fn without_phases(key: Key) -> Key {
-    let phases = (0..(Key::BITS as usize - GROUP) / WIDTH).fold(0, |mask, k| mask | 16 << shift(k));
+pub(super) fn without_phases(key: TermKey) -> TermKey {
+    let phases =
+        (0..(TermKey::BITS as usize - GROUP) / WIDTH).fold(0, |mask, k| mask | 16 << shift(k));
     key & !phases
 }
 
-pub(super) fn group(key: Key) -> usize {
+pub(super) fn group(key: TermKey) -> usize {
     (key & ((1 << GROUP) - 1)) as usize
 }
 
-pub(super) fn without_group(key: Key) -> Key {
+pub(super) fn without_group(key: TermKey) -> TermKey {
     key >> GROUP << GROUP
 }
 
 #[derive(Default)]
 pub(super) struct Terms {
-    pub(super) terms: Vec<(Key, f64)>,
+    pub(super) terms: Vec<(TermKey, f64)>,
     /// The factor of each group of terms.
     pub(super) factors: Vec<Factor>,
     /// The velocities whose signs matter.
@@ -85,7 +86,7 @@ impl Terms {
             .map(|c| [0, 1].map(|s| of_power(c, s)))
             .collect();
         let mut known: HashMap<Powers, (f64, f64)> = HashMap::new();
-        let mut summands: Vec<((Powers, Key), f64)> = Vec::new();
+        let mut summands: Vec<((Powers, TermKey), f64)> = Vec::new();
         let [mut parts, mut next] = [Vec::new(), Vec::new()];
         let mut mass = 0.0;
         for &(key, value) in &polynomial.terms {
@@ -99,7 +100,7 @@ impl Terms {
                     for &(key, value) in &parts {
                         let multiples = powers[c as usize][s as usize].iter();
                         next.extend(multiples.map(|&(k, part)| {
-                            let bits = Key::from(k | s << 4);
+                            let bits = TermKey::from(k | s << 4);
                             (key | bits << shift(joint), value * part)
                         }));
                     }
@@ -122,7 +123,7 @@ impl Terms {
         // Stable: sums are taken in the order of the terms on every machine.
         summands.sort_by_key(|summand| summand.0);
         let runs = summands.chunk_by(|a, b| a.0 == b.0);
-        let sums: Vec<((Powers, Key), f64)> = runs
+        let sums: Vec<((Powers, TermKey), f64)> = runs
             .map(|run| (run[0].0, run.iter().map(|summand| summand.1).sum::<f64>()))
             .collect();
         let mut groups: Vec<Powers> = sums.iter().map(|sum| sum.0.0).collect();
@@ -138,7 +139,7 @@ impl Terms {
         let mut terms = Vec::new();
         for ((group, key), value) in sums {
             match groups.binary_search(&group) {
-                Ok(id) if value.abs() > least => terms.push((key | id as Key, value)),
+                Ok(id) if value.abs() > least => terms.push((key | id as TermKey, value)),
                 _ => rest += value.abs(),
             }
         }
@@ -155,7 +156,8 @@ impl Terms {
     pub(super) fn length(&self) -> f64 {
         let mut terms = self.terms.clone();
         terms.sort_unstable_by_key(|term| without_phases(term.0));
-        let same = |a: &(Key, f64), b: &(Key, f64)| without_phases(a.0) == without_phases(b.0);
+        let same =
+            |a: &(TermKey, f64), b: &(TermKey, f64)| without_phases(a.0) == without_phases(b.0);
         let runs = terms.chunk_by(same);
         let lengths = runs.map(|run| run.iter().map(|term| term.1 * term.1).sum::<f64>().sqrt());
         (lengths.sum::<f64>() + self.rest) * (1.0 + 1e-9)

@@ -7,7 +7,7 @@ use crate::program::Operand;
 const MOST_LANES: usize = 64;
 
 /// A value of an array, once it is written, with whether it is negated: then results alone may read it.
-pub(super) type Entry = Option<(bool, Operand<f64>)>;
+pub(super) type ArrayValue = Option<(bool, Operand<f64>)>;
 
 impl<'r> Reader<'r> {
     /// Takes the indices of an array: a row, and a lane by its number or `l`.
@@ -43,7 +43,7 @@ impl<'r> Reader<'r> {
         self.array(name, rows)
     }
 
-    fn array(&mut self, name: &'r str, rows: Vec<Vec<Entry>>) -> Read<()> {
+    fn array(&mut self, name: &'r str, rows: Vec<Vec<ArrayValue>>) -> Read<()> {
         let number = name.strip_prefix(['k', 'u', 'w']);
         let is_name = number.and_then(whole).is_some() && self.lane.is_none();
         match is_name && self.arrays.insert(name, rows).is_none() {

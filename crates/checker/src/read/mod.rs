@@ -17,10 +17,9 @@ mod reader;
 mod rust;
 mod tokens;
 
-use std::fmt;
-
 use self::reader::Reader;
 use self::tokens::Token;
+use crate::Fault;
 use crate::program::Program;
 
 pub use self::c::Symbols;
@@ -30,30 +29,6 @@ pub(crate) use self::{
     reader::number,
     tokens::{has_only, lines},
 };
-
-/// A text that is not what it should be.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TextError {
-    /// The line of the text, from one.
-    pub line: usize,
-    /// The reason: mostly, the words that were expected there.
-    pub reason: String,
-}
-
-impl TextError {
-    fn new(line: usize, reason: impl Into<String>) -> TextError {
-        let reason = reason.into();
-        TextError { line, reason }
-    }
-}
-
-impl fmt::Display for TextError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "emitted line {}: {}", self.line, self.reason)
-    }
-}
-
-impl std::error::Error for TextError {}
 
 /// An argument of a function.
 #[derive(Clone, Copy, Debug)]
@@ -125,7 +100,7 @@ pub enum Source {
 
 /// The sine and cosine of a joint's angle.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sines {
+pub struct SinePair {
     /// The joint.
     pub joint: usize,
     /// `true` for the sine, and for the cosine, if it has a name.
@@ -136,9 +111,9 @@ pub struct Sines {
 
 /// A function as its text computes it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Function {
+pub struct ReadFunction {
     /// Sines and cosines, in the order of the text.
-    pub sines: Vec<Sines>,
+    pub sines: Vec<SinePair>,
     /// The joints of which 1/√(q̇² + w²) is read, each with w².
     pub speeds: Vec<(usize, f64)>,
     /// Operations and results.
@@ -158,7 +133,7 @@ impl<'t> Text<'t> {
     ///
     /// # Errors
     /// The first line with a character that is none of generated code.
-    pub fn rust(source: &'t str) -> Result<Text<'t>, TextError> {
+    pub fn rust(source: &'t str) -> Result<Text<'t>, Fault> {
         tokens::read(source, false).map(|tokens| Text { tokens })
     }
 
@@ -166,7 +141,7 @@ impl<'t> Text<'t> {
     ///
     /// # Errors
     /// As [`Text::rust`].
-    pub fn c(source: &'t str) -> Result<Text<'t>, TextError> {
+    pub fn c(source: &'t str) -> Result<Text<'t>, Fault> {
         tokens::read(source, true).map(|tokens| Text { tokens })
     }
 
@@ -181,7 +156,7 @@ impl<'t> Text<'t> {
         head: &Head<'_>,
         symbols: Option<&Symbols>,
         has_many: bool,
-    ) -> Result<(Function, bool), TextError> {
+    ) -> Result<(ReadFunction, bool), Fault> {
         let mut reader = Reader::new(&self.tokens, head, symbols);
         match symbols {
             None => reader.rust(has_many)?,

@@ -4,15 +4,16 @@ use std::collections::HashMap;
 use std::fmt::Debug;
 use std::str::FromStr;
 
-use super::lanes::Entry;
+use super::lanes::ArrayValue;
 use super::tokens::{self, Token};
-use super::{Argument, Function, Head, Sines, Source, Symbols, TextError};
+use super::{Argument, Head, ReadFunction, SinePair, Source, Symbols};
+use crate::Fault;
 use crate::program::{Operand, Program, Step};
 
 pub(super) const MOST_STEPS: usize = 1 << 17;
 const MOST_OF_ANGLE: usize = 1 << 8;
 
-pub(super) type Read<T> = Result<T, TextError>;
+pub(super) type Read<T> = Result<T, Fault>;
 
 pub(super) struct Reader<'r> {
     pub tokens: &'r [Token<'r>],
@@ -25,12 +26,12 @@ pub(super) struct Reader<'r> {
     pub is_vectors: bool,
     names: HashMap<&'r str, Operand<f64>>,
     pub order: Vec<&'r str>,
-    pub function: Function,
+    pub function: ReadFunction,
     /// A joint, and the operations of the polynomials of its angle so far.
     polynomial: (usize, Vec<Step<f64>>),
     is_angle: bool,
     /// The arrays of values a lane, with the entries that are written.
-    pub arrays: HashMap<&'r str, Vec<Vec<Entry>>>,
+    pub arrays: HashMap<&'r str, Vec<Vec<ArrayValue>>>,
     /// The lane that is read, in a loop over them.
     pub lane: Option<usize>,
 }
@@ -50,7 +51,7 @@ impl<'r> Reader<'r> {
             is_vectors: false,
             names: HashMap::new(),
             order: Vec::new(),
-            function: Function::default(),
+            function: ReadFunction::default(),
             polynomial: (0, Vec::new()),
             is_angle: false,
             arrays: HashMap::new(),
@@ -82,7 +83,7 @@ impl<'r> Reader<'r> {
     pub(super) fn refuse<T>(&self, why: &str) -> Read<T> {
         let token = self.tokens.get(self.at.saturating_sub(1));
         let (line, word) = token.map_or((1, ""), |token| (token.line, token.text));
-        Err(TextError::new(line, format!("{why}, at `{word}`")))
+        Err(Fault::text(line, format!("{why}, at `{word}`")))
     }
 
     pub(super) fn expect(&mut self, word: &str) -> Read<()> {
@@ -94,7 +95,7 @@ impl<'r> Reader<'r> {
         let token = self.tokens.get(place).or(self.tokens.last());
         let (line, found) = (token.map_or(1, |token| token.line), self.peek(0));
         let why = format!("`{word}` expected, not `{found}`");
-        Err(TextError::new(line, why))
+        Err(Fault::text(line, why))
     }
 
     pub(super) fn expect_all(&mut self, text: &str) -> Read<()> {
@@ -157,7 +158,7 @@ impl<'r> Reader<'r> {
             let first = places.max_by_key(|place| count(*place)).unwrap_or(0);
             let is_whole = |place: usize| count(place) == words.len();
             if (first + 1..self.tokens.len()).any(is_whole) {
-                return Err(TextError::new(1, format!("`{head}` is defined twice")));
+                return Err(Fault::text(1, format!("`{head}` is defined twice")));
             }
             if is_whole(first) || index == heads.len() {
                 (self.at, self.first) = (first, first);
@@ -443,7 +444,7 @@ impl<'r> Reader<'r> {
         let sines = &mut self.function.sines;
         let is_good = if sines.iter().all(|pair| pair.joint != joint) {
             let needs = [is_sine, !is_sine];
-            sines.push(Sines {
+            sines.push(SinePair {
                 joint,
                 needs,
                 source,

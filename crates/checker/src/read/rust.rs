@@ -10,7 +10,7 @@
 //! ```
 
 use super::reader::{Read, Reader, commas, joint_of};
-use super::{Argument, Function, Source};
+use super::{Argument, ReadFunction, Source};
 
 const TYPES: [(&str, &str); 4] = [
     ("g", "Gravity"),
@@ -250,7 +250,7 @@ impl<'r> Reader<'r> {
         self.statements(false)?;
         self.results(&array(&[results]))?;
         self.is_vectors = false;
-        let sorted = |mut function: Function| {
+        let sorted = |mut function: ReadFunction| {
             function.sines.sort_by_key(|sines| sines.joint);
             // Zeros are told apart by their signs.
             format!("{function:?}")

@@ -1,6 +1,6 @@
 //! Lines of a text in Rust or in C without comments; their words, numbers and signs.
 
-use super::TextError;
+use crate::Fault;
 
 /// A word, a number or a sign; of a directive in C the whole line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,7 +50,7 @@ fn is_name(words: &str) -> bool {
 }
 
 /// Refuses a line that is not of generated code: a compiler might read it otherwise.
-pub(crate) fn lines(source: &str, is_c: bool) -> Result<Vec<(usize, &str)>, TextError> {
+pub(crate) fn lines(source: &str, is_c: bool) -> Result<Vec<(usize, &str)>, Fault> {
     let (mut lines, mut is_comment) = (Vec::new(), false);
     for (number, line) in (1..).zip(source.split('\n')) {
         let words = line.trim_matches(' ');
@@ -79,7 +79,7 @@ pub(crate) fn lines(source: &str, is_c: bool) -> Result<Vec<(usize, &str)>, Text
         }
         if !is_good {
             let why = format!("nothing that is generated: `{line}`");
-            return Err(TextError::new(number, why));
+            return Err(Fault::text(number, why));
         }
     }
     Ok(lines)
@@ -92,14 +92,14 @@ fn is_plain(number: usize, line: &str) -> bool {
     is_stamp || words.starts_with("///") || words.starts_with("//!")
 }
 
-pub(super) fn read(source: &str, is_c: bool) -> Result<Vec<Token<'_>>, TextError> {
+pub(super) fn read(source: &str, is_c: bool) -> Result<Vec<Token<'_>>, Fault> {
     let mut tokens = Vec::new();
     for (line, mut rest) in lines(source, is_c)? {
         while !rest.is_empty() {
             let (text, behind) = rest.split_at(length(rest, is_c));
             tokens.push(Token { text, line });
             if tokens.len() > MOST_WORDS {
-                return Err(TextError::new(line, "more words than are read"));
+                return Err(Fault::text(line, "more words than are read"));
             }
             rest = behind.trim_start_matches(' ');
         }

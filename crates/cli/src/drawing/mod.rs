@@ -12,10 +12,11 @@ mod page;
 pub(crate) mod paper;
 mod table;
 
+use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::equations::matrix::{Columns, Vector};
 use dalembert_model::equations::{Arm, Link};
 use dalembert_model::number::Rounded;
-use dalembert_model::reference::{Reference, WrongLength};
+use dalembert_model::reference::Reference;
 use dalembert_model::robot::{Convention, JointKind, Robot};
 use nalgebra::DVector;
 
@@ -45,7 +46,7 @@ struct Scene<'r> {
 ///
 /// # Errors
 /// The position does not have one value per joint.
-pub fn svg(robot: &Robot, q: &[f64]) -> Result<String, WrongLength> {
+pub fn svg(robot: &Robot, q: &[f64]) -> Result<String, Diagnostic> {
     let runtime = Reference::<f64>::from_robot(robot);
     let at = DVector::from_column_slice(q);
     let frames = runtime.poses(&at)?;

@@ -161,14 +161,14 @@ pub fn torques(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Ro
         return Ok(Vec::new());
     }
     let request = &anywhere(request, vec![Function::InverseDynamics]);
-    let original = (request.setup(robot)?, generated(robot, request)?);
+    let original = (request.prepare(robot)?, generated(robot, request)?);
     let case = |(case, held, change, motion): &Case| {
         let Some(changed) = change.apply(robot) else {
             return Ok(Vec::new());
         };
         let other = match change {
             Change::None => None,
-            _ => Some((request.setup(&changed)?, generated(&changed, request)?)),
+            _ => Some((request.prepare(&changed)?, generated(&changed, request)?)),
         };
         let (setup, made) = other.as_ref().unwrap_or(&original);
         let draw = |motion: Motion, count| {
@@ -224,7 +224,7 @@ pub fn divided(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Ro
     }
     let request = &anywhere(request, dividing);
     let generated = generated(robot, request)?;
-    let bench = Bench::new(request.setup(robot)?);
+    let bench = Bench::new(request.prepare(robot)?);
     let (_, q) = nearest_to_singular(&bench);
     let mut drawn = bench.setup().states(2 * states, SEED);
     for state in drawn.iter_mut().skip(states) {

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use dalembert_codegen::workspace::claim;
-use dalembert_codegen::{Asked, Language, Problem, RobotFile, ask};
+use dalembert_codegen::{Asked, Diagnostic, Language, RobotFile, ask};
 use dalembert_import::{ChainArgs, Options, Text, read_robot};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::{Robot, suggested_name};
@@ -45,7 +45,7 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Outcome {
         None => {
             let text = Text::of("two links", texts::ROBOT.to_owned());
             let opened = read_robot(text, &args.chain.choose(Options::default()));
-            opened.map_err(Failure::Input)?.robot_file
+            opened?.robot_file
         }
         Some(from) => Source::open(context, from, &args.chain)?.robot_file,
     };
@@ -91,8 +91,8 @@ fn code(file: &RobotFile) -> Result<[String; 2], Failure> {
         .map_err(|error| Failure::Input(error.to_string()))?;
     let name = &file.robot.name;
     let made = ask(file, &asked, Language::Rust, name).map_err(|problems| {
-        let why = |problem: &Problem| format!("error: {}", problem.complaint.message);
-        let messages: Vec<String> = problems.iter().map(why).collect();
+        let why = |problem: &Diagnostic| format!("error: {}", problem.message);
+        let messages: Vec<String> = problems.0.iter().map(why).collect();
         Failure::Input(messages.join("\n\n"))
     })?;
     let (request, generated) = (&made.request, &made.generated);

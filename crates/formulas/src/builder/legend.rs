@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::{Builder, OF_FILE};
 use crate::expression::{Factor, Term};
-use crate::legend::{Entry, Frames, Legend};
+use crate::legend::{Frames, Legend, SymbolEntry};
 use crate::line::Section;
 use crate::names::{SharedConstants, form_of};
 use crate::symbol::Symbol;
@@ -21,7 +21,7 @@ impl Builder<'_> {
         for (place, form) in self.shared.forms.iter().enumerate() {
             let sum = names.form(form);
             see(&sum, &mut codes);
-            legend.constants.push(Entry {
+            legend.constants.push(SymbolEntry {
                 symbol: SharedConstants::symbol(place),
                 sum,
                 value: names.value(form),
@@ -38,7 +38,7 @@ impl Builder<'_> {
                 if codes.contains(&definition.symbol.code) && !is_of_file(&definition.symbol) {
                     let sum = of_file.form(&form_of(&definition.value));
                     see(&sum, &mut codes);
-                    legend.parameters.push(Entry {
+                    legend.parameters.push(SymbolEntry {
                         symbol: definition.symbol.clone(),
                         sum,
                         value: *value,

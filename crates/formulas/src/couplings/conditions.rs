@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use dalembert_model::equations::chain::Body;
+use dalembert_model::equations::chain::MomentBody;
 use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
@@ -78,7 +78,7 @@ pub(crate) fn bodies_that_meet(
     moments: &BaseMoments,
     kinds: &[JointKind],
     seed: u64,
-) -> Vec<Body<Field>> {
+) -> Vec<MomentBody<Field>> {
     let mut points = Points::new(seed);
     let mut values: Vec<Field> = (0..moments.len()).map(|_| points.field()).collect();
     for condition in conditions {

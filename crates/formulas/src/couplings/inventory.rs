@@ -1,12 +1,12 @@
 //! The coefficients of a robot's dynamics: which vanish, which repeat another.
 
+use dalembert_codegen::Diagnostic;
 use dalembert_codegen::workspace::Setup;
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
 
 use super::{Entry, entries};
 use crate::arm::{Symbolic, SymbolicArm};
-use crate::error::FormulaError;
 use crate::quantity::Quantity;
 use crate::ring::Polynomial;
 
@@ -34,8 +34,8 @@ impl Inventory {
     /// Lists the coefficients of a robot.
     ///
     /// # Errors
-    /// The robot has no formulas ([`FormulaError`]).
-    pub fn new(robot: &Robot) -> Result<Inventory, FormulaError> {
+    /// The robot has no formulas.
+    pub fn new(robot: &Robot) -> Result<Inventory, Diagnostic> {
         let setup = Setup::whole(robot);
         let arm = SymbolicArm::new(&setup, Symbolic::Nothing)?;
         let posed = arm.chain(&arm.arm);

@@ -4,7 +4,7 @@
 //! 1e-15 (Schwartz and Zippel): it is a polynomial of low degree in the numbers that were drawn.
 
 use dalembert_codegen::workspace::Setup;
-use dalembert_model::equations::chain::Body;
+use dalembert_model::equations::chain::MomentBody;
 use dalembert_model::equations::following::FollowerLine;
 use dalembert_model::equations::matrix::Columns;
 use dalembert_model::equations::{Arm, JointPosition, SinCosPair};
@@ -34,7 +34,7 @@ pub(crate) struct World<'a> {
     /// True if lengths and odd angles stay as they are: where conditions have numbers in them.
     pub(crate) keeps_numbers: bool,
     /// The moments of each link in the place of random bodies.
-    pub(crate) bodies: Option<&'a [Body<Field>]>,
+    pub(crate) bodies: Option<&'a [MomentBody<Field>]>,
     pub(crate) seed: u64,
 }
 

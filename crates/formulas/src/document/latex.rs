@@ -3,7 +3,7 @@
 use super::text::capital;
 use super::{BASE_PARAMETERS, CONSTANTS, signed, value, zeros};
 use crate::formulas::Formulas;
-use crate::legend::Entry;
+use crate::legend::SymbolEntry;
 use crate::write::{Format, Latex};
 
 const HEAD: &str = "\\documentclass{article}\n\\usepackage{amsmath}\n\\usepackage[margin=15mm]{geometry}\n\
@@ -97,7 +97,7 @@ impl Formulas {
     }
 }
 
-fn defined(entry: &Entry, format: &Latex) -> String {
+fn defined(entry: &SymbolEntry, format: &Latex) -> String {
     let (symbol, value) = (format.symbol(&entry.symbol), value(entry, format));
     match entry.sum.is_empty() {
         true => format!("${symbol} = {value}$"),

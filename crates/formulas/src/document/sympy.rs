@@ -6,7 +6,7 @@ use dalembert_model::robot::JointKind;
 use super::value;
 use crate::arm::Offset;
 use crate::formulas::Formulas;
-use crate::legend::Entry;
+use crate::legend::SymbolEntry;
 use crate::line::List;
 use crate::write::{Format, Python, python_number};
 
@@ -45,7 +45,7 @@ impl Formulas {
         }
         let legend = &self.legend;
         let of_file = legend.groups.iter().flat_map(|group| &group.entries);
-        let symbols: Vec<&Entry> = of_file
+        let symbols: Vec<&SymbolEntry> = of_file
             .chain(&legend.parameters)
             .chain(&legend.constants)
             .collect();

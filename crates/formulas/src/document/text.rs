@@ -2,7 +2,7 @@
 
 use super::{BASE_PARAMETERS, CONSTANTS, SMALL, signed, value, zeros};
 use crate::formulas::Formulas;
-use crate::legend::{Entry, Group};
+use crate::legend::{Group, SymbolEntry};
 use crate::write::{Digits, Format, Text};
 
 impl Formulas {
@@ -137,7 +137,7 @@ impl Formulas {
         notes
     }
 
-    fn sums(&self) -> Vec<(&'static str, &[Entry])> {
+    fn sums(&self) -> Vec<(&'static str, &[SymbolEntry])> {
         let legend = &self.legend;
         let groups = [
             (CONSTANTS, legend.constants.as_slice()),
@@ -180,7 +180,7 @@ pub fn escaped(name: &str) -> String {
 }
 
 /// Writes a symbol, its sum and its value.
-fn defined(entry: &Entry, format: &Text) -> String {
+fn defined(entry: &SymbolEntry, format: &Text) -> String {
     let (symbol, value) = (format.symbol(&entry.symbol), value(entry, format));
     match entry.sum.is_empty() {
         true => format!("{symbol} = {value}"),

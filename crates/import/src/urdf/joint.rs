@@ -63,12 +63,12 @@ pub(super) fn joint(element: &Element, reader: &mut Reader) -> Joint {
             [lower, upper].map(|end| end.unwrap_or_else(|| Number::constant("0", &limit.at)))
         });
     let position = reader.range(&name, range);
-    let loads = loads(element, &name, reader);
+    let drive = drive(element, &name, reader);
     for (key, load) in [
         ("effort", &effort),
         ("velocity", &velocity),
         ("acceleration", &acceleration),
-        ("damping", &loads.damping),
+        ("damping", &drive.damping),
     ] {
         let help = "a limit bounds the size, and damping takes energy out: zero or more";
         reader.not_negative(load.as_ref(), &format!("`{key}` of joint `{name}`"), help);
@@ -100,12 +100,12 @@ pub(super) fn joint(element: &Element, reader: &mut Reader) -> Joint {
         acceleration,
         mimic,
         name,
-        ..loads
+        ..drive
     }
 }
 
 /// Reads damping, friction and armature, which files have under several names.
-fn loads(element: &Element, name: &str, reader: &mut Reader) -> Joint {
+fn drive(element: &Element, name: &str, reader: &mut Reader) -> Joint {
     let of = format!("joint `{name}`");
     let older = only(element, "joint_properties", reader);
     let dynamics = match (only(element, "dynamics", reader), older) {

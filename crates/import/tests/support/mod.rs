@@ -101,7 +101,8 @@ pub fn imported(name: &str, options: &Options) -> Import {
 }
 
 pub fn taken(source: &str, options: &Options) -> Import {
-    import(source, options).unwrap_or_else(|errors| panic!("{}", errors.render("arm.urdf", source)))
+    import(source, options)
+        .unwrap_or_else(|errors| panic!("{}", errors.in_file("arm.urdf").render()))
 }
 
 pub fn golden(name: &str) -> Golden {

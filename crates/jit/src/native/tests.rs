@@ -13,11 +13,11 @@ fn refused<T: Real>(native: &mut Native, fault: &str, plant: impl FnOnce(&mut Co
     let one = native.check_one::<T>();
     let many = LAYOUTS.map(|states| native.check_many::<T>(states, native.many(states).unwrap()));
     native.program = program;
-    let differs = |error: &CompileError| matches!(error, CompileError::Differs { .. });
+    let differs = |error: &Error| matches!(error, Error::Differs { .. });
     assert!(one.as_ref().is_err_and(differs), "{fault}: {one:?}");
     for many in many {
         match many {
-            Err(CallError::Compile(error)) if differs(&error) => {}
+            Err(error) if differs(&error) => {}
             other => panic!("{fault}: {other:?}"),
         }
     }

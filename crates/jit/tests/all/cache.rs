@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use dalembert_jit::{Arm, Cache, Load, LoadError, Scalar};
+use dalembert_jit::{Arm, Cache, Error, Load, Scalar};
 
 use crate::support::{Folder, path};
 
@@ -11,7 +11,7 @@ fn arm(load: &Load) -> Arm {
     Arm::load(path("generated/robots/planar2r.toml"), load).unwrap()
 }
 
-fn refusal(arm: Result<Arm, LoadError>) -> String {
+fn refusal(arm: Result<Arm, Error>) -> String {
     arm.err().unwrap().to_string()
 }
 

@@ -1,6 +1,6 @@
 //! Calls that are refused, and memory.
 
-use dalembert_jit::{Arm, CallError, CompileError, Native, Place, Scalar, Signature};
+use dalembert_jit::{Arm, Error, Native, Place, Scalar, Signature};
 
 use crate::support::{asking, robot};
 
@@ -17,13 +17,13 @@ fn other_lengths_and_scalars_are_refused() {
     assert_ne!(c, [0.0; 2]);
     let wrong = native.call(&[&[0.1f32, 0.2]], &mut [0.0; 2]);
     let expected = Scalar::F64;
-    assert_eq!(wrong, Err(CallError::Scalar { expected }));
+    assert_eq!(wrong, Err(Error::Scalar { expected }));
     let wrong = native.call(&[&q, &q], &mut c);
     let (expected, found) = (1, 2);
-    assert_eq!(wrong, Err(CallError::Count { expected, found }));
+    assert_eq!(wrong, Err(Error::Count { expected, found }));
     for (q, length, place, found) in [(&q[..1], 2, 0, 1), (&q[..], 3, 1, 3)] {
         let wrong = native.call(&[q], &mut vec![0.0; length]);
-        let error = CallError::Length {
+        let error = Error::Length {
             place,
             expected: 2,
             found,
@@ -48,12 +48,12 @@ fn places_outside_and_on_each_other_are_refused() {
     assert_eq!(call(Place::rows(2), Place::columns(2, 10), 10), Ok(()));
     assert_eq!(call(place(0, [0, 1]), Place::rows(2), 10), Ok(()));
     assert_eq!(call(Place::rows(2), Place::rows(2), 0), Ok(()));
-    let outside = |place| Err(CallError::Outside { place });
+    let outside = |place| Err(Error::Outside { place });
     assert_eq!(call(Place::rows(2), Place::rows(2), 11), outside(0));
     assert_eq!(call(place(0, [0, 1]), Place::rows(2), 11), outside(1));
     let far = place(usize::MAX, [0, 1]);
     assert_eq!(call(far, Place::rows(2), 10), outside(0));
-    let overlap = Err(CallError::Overlap { place: 1 });
+    let overlap = Err(Error::Overlap { place: 1 });
     for (state, offsets) in [(0, [0, 1]), (1, [0, 1]), (2, [1, 1]), (1, [0, 9])] {
         let written = place(state, offsets);
         assert_eq!(call(Place::rows(2), written, 10), overlap);
@@ -70,13 +70,13 @@ fn a_signature_of_another_function_is_refused() {
         arguments: Vec::new(),
         results: vec![2],
     };
-    assert_eq!(compile(none), Some(CompileError::Program));
+    assert_eq!(compile(none), Some(Error::Program));
     let three = Signature {
         results: vec![3],
         ..native.signature().clone()
     };
     let (expected, found) = (3, 2);
-    let error = CompileError::Results { expected, found };
+    let error = Error::Results { expected, found };
     assert_eq!(compile(three), Some(error));
 }
 

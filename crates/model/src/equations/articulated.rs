@@ -16,7 +16,7 @@ use super::{Arm, At, Link};
 use crate::robot::Convention;
 use crate::scalar::Divide;
 
-struct Joint<S> {
+struct JointPass<S> {
     /// I S: what an acceleration along the joint takes.
     push: Wrench<S>,
     rest: S,
@@ -32,7 +32,7 @@ pub fn forward_dynamics<S: Divide>(
     [qd, tau]: [&[S]; 2],
     moves: &[bool],
 ) -> Vec<S> {
-    let frames: Vec<Frame<'_, S>> = arm.steps(at).map(Frame::new).collect();
+    let frames: Vec<StepFrame<'_, S>> = arm.steps(at).map(StepFrame::new).collect();
     let rest = (Twist::rest(), Twist::rest());
     let moving = arm.outward(&rest, |i, (before, _)| {
         let joint_twist = frames[i].along(&qd[i]);
@@ -61,7 +61,7 @@ pub fn forward_dynamics<S: Divide>(
         let moved = whole_bias.with(&given_inertia.times(&drift));
         let given_bias = moved.with(&push.scaled(&times(&rest, &inverse)));
         let sent = frame.back_in(Convention::Modified, given_inertia, given_bias);
-        let joint = Joint {
+        let joint = JointPass {
             push,
             rest,
             inverse,
@@ -89,16 +89,16 @@ pub fn forward_dynamics<S: Divide>(
     accelerations
 }
 
-struct Frame<'a, S> {
+struct StepFrame<'a, S> {
     step: Step<'a, S>,
     /// Its origin in the frame before.
     lever: Vector<S>,
 }
 
-impl<'a, S: Divide> Frame<'a, S> {
+impl<'a, S: Divide> StepFrame<'a, S> {
     fn new(step: Step<'a, S>) -> Self {
         let lever = step.lever();
-        Frame { step, lever }
+        StepFrame { step, lever }
     }
 
     /// A joint moves about or along z of its frame, which is i−1 in standard DH and i in modified.

@@ -23,7 +23,8 @@ pub enum Formulation {
     Dalembert,
     /// The recursion in base axes: [`table1`].
     NewtonEulerBase,
-    /// The recursion in link axes as printed: [`table2::Moment::AsPrinted`].
+    /// The recursion in link axes as printed: [`table2::Moment::AsPrinted`]. It has a second way to
+    /// poses, too: two axes of the hand, and the third by their product.
     NewtonEulerLinkAsPrinted,
     /// The recursion in link axes: [`table2::Moment::RotateFirst`].
     NewtonEulerLink,

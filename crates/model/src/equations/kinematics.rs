@@ -12,7 +12,7 @@ use super::factor::{picked, placed};
 use super::frames::Axes;
 use super::lagrange_euler::PseudoInertia;
 use super::matrix::*;
-use super::newton_euler::{Motion, table1};
+use super::newton_euler::{FrameMotion, table1};
 use super::screws::Wrench;
 use super::{Arm, At, Formulation, joint_axes};
 use crate::robot::{Convention, JointKind};
@@ -141,7 +141,7 @@ impl Formulation {
     ) -> [Vector<S>; 2] {
         if self != Self::LagrangeEuler {
             let arm = arm.weightless();
-            let base = Motion::of_base(&arm.gravity);
+            let base = FrameMotion::of_base(&arm.gravity);
             let rate = table1::tip_acceleration(&arm, at, [qd, qdd], &base);
             return match &arm.base {
                 None => rate,

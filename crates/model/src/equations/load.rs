@@ -8,7 +8,7 @@
 use alloc::vec::Vec;
 
 use super::Link;
-use super::chain::Body;
+use super::chain::MomentBody;
 use super::matrix::{Columns, plus, times};
 use super::regressor::LinkParameter;
 use crate::robot::Inertia;
@@ -52,7 +52,7 @@ impl<S: Scalar> LoadArguments<S> {
     /// Makes it of links that bodies are on, and of the parameters of drives.
     pub fn new(bodies: &[Link<S>], drives: Vec<S>, rows: Vec<LoadRow<S>>) -> LoadArguments<S> {
         let of_body = |link: &Link<S>| {
-            let body = Body::of(link);
+            let body = MomentBody::of(link);
             LinkParameter::ALL.map(|parameter| parameter.of_body(&body))
         };
         let parameters = bodies.iter().flat_map(of_body).chain(drives);

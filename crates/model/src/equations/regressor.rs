@@ -8,7 +8,7 @@
 
 use alloc::vec::Vec;
 
-use super::chain::body::{Body, entry};
+use super::chain::body::{MomentBody, entry};
 pub use super::chain::{Column, Probed};
 use super::factor::scatter;
 use super::matrix::{differences, matrix, minus, opposite, times, transposed, zero_vector};
@@ -60,8 +60,8 @@ impl LinkParameter {
     }
 
     /// Returns a body with a unit of it and nothing else.
-    pub fn unit<S: Scalar>(self) -> Body<S> {
-        let mut body = Body::zero();
+    pub fn unit<S: Scalar>(self) -> MomentBody<S> {
+        let mut body = MomentBody::zero();
         match self {
             LinkParameter::Mass => body.mass = S::one(),
             LinkParameter::First(axis) => body.first[axis] = S::one(),
@@ -71,14 +71,14 @@ impl LinkParameter {
                     true => S::one(),
                     false => S::zero(),
                 });
-                body = Body::of(&link);
+                body = MomentBody::of(&link);
             }
         }
         body
     }
 
     /// Returns its value for a body.
-    pub fn of_body<S: Scalar>(self, body: &Body<S>) -> S {
+    pub fn of_body<S: Scalar>(self, body: &MomentBody<S>) -> S {
         match self {
             LinkParameter::Mass => body.mass.clone(),
             LinkParameter::First(axis) => body.first[axis].clone(),
@@ -91,7 +91,7 @@ impl LinkParameter {
 pub fn of_links<S: Scalar>(arm: &Arm<S>) -> Vec<Column<S>> {
     let of = |joint| {
         let frame = arm.frames.of_link(joint);
-        let in_row = move |unit: Body<S>| match frame {
+        let in_row = move |unit: MomentBody<S>| match frame {
             None => unit,
             Some(frame) => unit.carried(&transposed(&frame.axes), &frame.origin),
         };
@@ -105,8 +105,8 @@ pub fn of_links<S: Scalar>(arm: &Arm<S>) -> Vec<Column<S>> {
 
 impl<S: Scalar> Arm<S> {
     /// Returns the body of a link, about the origin and in the axes of the link's own frame.
-    pub fn body(&self, joint: usize) -> Body<S> {
-        let body = Body::of(&self.links[joint]);
+    pub fn body(&self, joint: usize) -> MomentBody<S> {
+        let body = MomentBody::of(&self.links[joint]);
         match self.frames.of_link(joint) {
             None => body,
             Some(frame) => body.moved(&opposite(&frame.origin)).turned(&frame.axes),
@@ -201,7 +201,7 @@ fn without_bodies<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
 fn of_body<S: Scalar>(
     empty: &Arm<S>,
     joint: usize,
-    body: &Body<S>,
+    body: &MomentBody<S>,
     torques: &impl Fn(&Arm<S>) -> Vec<S>,
 ) -> Vec<S> {
     let with = |mass: S, com: [S; 3], inertia: Inertia<S>| {
@@ -214,7 +214,7 @@ fn of_body<S: Scalar>(
         return with(body.mass.clone(), zero_vector(), body.tensor());
     }
     // About its centre at s a mass of one has Σ − s sᵀ.
-    let about_centre = Body {
+    let about_centre = MomentBody {
         second: Inertia::symmetric(|i, j| {
             let term = times(&body.first[i], &body.first[j]);
             minus(entry(&body.second, i, j), &term)

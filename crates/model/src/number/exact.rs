@@ -26,11 +26,11 @@ use crate::scalar::{Scalar, SinCosPair};
 
 /// An exact constant.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Exact(pub(super) Form);
+pub struct Exact(pub(super) Canonical);
 
 /// Canonical: `Polynomial` only where a generator occurs, no zero coefficient.
 #[derive(Clone, Debug, Eq)]
-pub(super) enum Form {
+pub(super) enum Canonical {
     Rational(Arc<Rational>),
     Polynomial(Arc<Terms>),
 }
@@ -38,24 +38,26 @@ pub(super) enum Form {
 /// The coefficient of each monomial.
 pub(super) type Terms = BTreeMap<Monomial, Rational>;
 
-impl Ord for Form {
+impl Ord for Canonical {
     fn cmp(&self, other: &Self) -> Ordering {
         match (self, other) {
-            (Form::Rational(a), Form::Rational(b)) => compare(a, b),
-            (Form::Polynomial(a), Form::Polynomial(b)) if Arc::ptr_eq(a, b) => Ordering::Equal,
-            (Form::Polynomial(a), Form::Polynomial(b)) => {
+            (Canonical::Rational(a), Canonical::Rational(b)) => compare(a, b),
+            (Canonical::Polynomial(a), Canonical::Polynomial(b)) if Arc::ptr_eq(a, b) => {
+                Ordering::Equal
+            }
+            (Canonical::Polynomial(a), Canonical::Polynomial(b)) => {
                 let terms = a.iter().zip(b.iter());
                 let mut orders = terms.map(|((a, x), (b, y))| a.cmp(b).then_with(|| compare(x, y)));
                 let first = orders.find(|order| order.is_ne());
                 first.unwrap_or_else(|| a.len().cmp(&b.len()))
             }
-            (Form::Rational(_), Form::Polynomial(_)) => Ordering::Less,
-            (Form::Polynomial(_), Form::Rational(_)) => Ordering::Greater,
+            (Canonical::Rational(_), Canonical::Polynomial(_)) => Ordering::Less,
+            (Canonical::Polynomial(_), Canonical::Rational(_)) => Ordering::Greater,
         }
     }
 }
 
-impl PartialOrd for Form {
+impl PartialOrd for Canonical {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
@@ -67,11 +69,11 @@ fn parts(value: &Rational) -> (&BigInt, &BigInt) {
     (value.numer(), value.denom())
 }
 
-impl PartialEq for Form {
+impl PartialEq for Canonical {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
-            (Form::Rational(a), Form::Rational(b)) => parts(a) == parts(b),
-            (Form::Polynomial(a), Form::Polynomial(b)) => {
+            (Canonical::Rational(a), Canonical::Rational(b)) => parts(a) == parts(b),
+            (Canonical::Polynomial(a), Canonical::Polynomial(b)) => {
                 let same = |((a, x), (b, y)): ((_, &Rational), (_, &Rational))| {
                     parts(x) == parts(y) && <Monomial as PartialEq>::eq(a, b)
                 };
@@ -82,11 +84,11 @@ impl PartialEq for Form {
     }
 }
 
-impl Hash for Form {
+impl Hash for Canonical {
     fn hash<H: Hasher>(&self, state: &mut H) {
         match self {
-            Form::Rational(value) => parts(value).hash(state),
-            Form::Polynomial(terms) => {
+            Canonical::Rational(value) => parts(value).hash(state),
+            Canonical::Polynomial(terms) => {
                 for (monomial, coefficient) in terms.iter() {
                     (monomial.len(), parts(coefficient)).hash(state);
                     for power in monomial {
@@ -153,8 +155,8 @@ impl Exact {
     /// Returns the rational value, if no angle occurs.
     pub fn as_rational(&self) -> Option<&Rational> {
         match &self.0 {
-            Form::Rational(value) => Some(value),
-            Form::Polynomial(_) => None,
+            Canonical::Rational(value) => Some(value),
+            Canonical::Polynomial(_) => None,
         }
     }
 
@@ -162,8 +164,10 @@ impl Exact {
     /// (for a polynomial not necessarily that of the value).
     pub fn leads_negative(&self) -> bool {
         match &self.0 {
-            Form::Rational(value) => value.is_negative(),
-            Form::Polynomial(terms) => terms.values().next_back().is_some_and(|c| c.is_negative()),
+            Canonical::Rational(value) => value.is_negative(),
+            Canonical::Polynomial(terms) => {
+                terms.values().next_back().is_some_and(|c| c.is_negative())
+            }
         }
     }
 
@@ -175,8 +179,8 @@ impl Exact {
     /// Returns the number of monomials: 1 for a rational.
     pub fn terms(&self) -> usize {
         match &self.0 {
-            Form::Rational(_) => 1,
-            Form::Polynomial(terms) => terms.len(),
+            Canonical::Rational(_) => 1,
+            Canonical::Polynomial(terms) => terms.len(),
         }
     }
 
@@ -188,8 +192,8 @@ impl Exact {
         pair: &mut impl FnMut(&Angle) -> SinCosPair<S>,
     ) -> Option<S> {
         let terms = match &self.0 {
-            Form::Rational(value) => return rational(value),
-            Form::Polynomial(terms) => terms,
+            Canonical::Rational(value) => return rational(value),
+            Canonical::Polynomial(terms) => terms,
         };
         let mut sum = S::zero();
         let mut pairs = BTreeMap::new();
@@ -219,8 +223,8 @@ impl Exact {
     /// `change` must not give zero for a coefficient of a polynomial.
     fn each(&self, change: impl Fn(&Rational) -> Rational) -> Exact {
         match &self.0 {
-            Form::Rational(value) => Exact::from(change(value)),
-            Form::Polynomial(terms) => Exact(Form::Polynomial(Arc::new(
+            Canonical::Rational(value) => Exact::from(change(value)),
+            Canonical::Polynomial(terms) => Exact(Canonical::Polynomial(Arc::new(
                 terms.iter().map(|(m, c)| (m.clone(), change(c))).collect(),
             ))),
         }
@@ -228,9 +232,9 @@ impl Exact {
 
     fn to_terms(&self) -> Terms {
         match &self.0 {
-            Form::Rational(value) if value.is_zero() => Terms::new(),
-            Form::Rational(value) => Terms::from([(Monomial::new(), value.as_ref().clone())]),
-            Form::Polynomial(terms) => terms.as_ref().clone(),
+            Canonical::Rational(value) if value.is_zero() => Terms::new(),
+            Canonical::Rational(value) => Terms::from([(Monomial::new(), value.as_ref().clone())]),
+            Canonical::Polynomial(terms) => terms.as_ref().clone(),
         }
     }
 
@@ -239,14 +243,14 @@ impl Exact {
         match (terms.len(), terms.get(&Monomial::new())) {
             (0, _) => Exact::zero(),
             (1, Some(value)) => Exact::from(value.clone()),
-            _ => Exact(Form::Polynomial(Arc::new(terms))),
+            _ => Exact(Canonical::Polynomial(Arc::new(terms))),
         }
     }
 }
 
 impl From<Rational> for Exact {
     fn from(value: Rational) -> Self {
-        Exact(Form::Rational(Arc::new(value)))
+        Exact(Canonical::Rational(Arc::new(value)))
     }
 }
 
@@ -258,7 +262,7 @@ impl Scalar for Exact {
         Exact::from(Rational::one())
     }
     fn add(&self, other: &Self) -> Self {
-        if let (Form::Rational(a), Form::Rational(b)) = (&self.0, &other.0) {
+        if let (Canonical::Rational(a), Canonical::Rational(b)) = (&self.0, &other.0) {
             return Exact::from(sum(a, b));
         }
         let mut terms = self.to_terms();
@@ -270,9 +274,9 @@ impl Scalar for Exact {
     }
     fn mul(&self, other: &Self) -> Self {
         match (&self.0, &other.0) {
-            (Form::Rational(a), _) => other.scale(a),
-            (_, Form::Rational(b)) => self.scale(b),
-            (Form::Polynomial(a), Form::Polynomial(b)) => {
+            (Canonical::Rational(a), _) => other.scale(a),
+            (_, Canonical::Rational(b)) => self.scale(b),
+            (Canonical::Polynomial(a), Canonical::Polynomial(b)) => {
                 let mut terms = Terms::new();
                 for (m, c) in a.iter() {
                     for (n, d) in b.iter() {
@@ -301,7 +305,7 @@ fn generator(angle: &Arc<Angle>, sin: u32, cos: u32) -> Exact {
     let angle = angle.clone();
     let monomial = Vec::from([Power { angle, sin, cos }]);
     let terms = Terms::from([(monomial, Rational::one())]);
-    Exact(Form::Polynomial(Arc::new(terms)))
+    Exact(Canonical::Polynomial(Arc::new(terms)))
 }
 
 /// Adds c · m · n to the terms, each s² replaced by 1 − c², and by ½ for an eighth of a turn.

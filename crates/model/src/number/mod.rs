@@ -22,7 +22,6 @@ mod wide;
 pub use angle::{Angle, SnappedAngle};
 pub use exact::Exact;
 pub use round::Rounded;
-pub use text::NotExact;
 pub use wide::Wide;
 
 /// An exact rational number.

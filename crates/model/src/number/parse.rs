@@ -37,6 +37,8 @@ pub enum NumberError {
     OutOfRange,
     /// A fraction whose denominator is zero.
     ZeroDenominator,
+    /// The text is not an exact constant as [`Exact`](super::Exact) prints it.
+    NotExact,
 }
 
 impl NumberError {
@@ -48,6 +50,7 @@ impl NumberError {
             NumberError::Radix => "write it in decimal",
             NumberError::TooLong => "17 digits tell any two doubles apart",
             NumberError::OutOfRange => "zero, or a size from 1e-300 to 1e300",
+            NumberError::NotExact => "such as `3/4` or `1/2*cos(1*pi/5)^2`",
             NumberError::ZeroDenominator => "write a fraction like \"1/3\"",
         }
     }
@@ -61,6 +64,9 @@ impl fmt::Display for NumberError {
             NumberError::Radix => f.write_str("not a decimal number but one in another base"),
             NumberError::TooLong => write!(f, "a number of more than {MAX_DIGITS} digits"),
             NumberError::OutOfRange => f.write_str("a number too large or too small"),
+            NumberError::NotExact => {
+                f.write_str("expected a constant such as `3/4` or `1/2*cos(1*pi/5)^2`")
+            }
             NumberError::ZeroDenominator => f.write_str("a fraction with denominator zero"),
         }
     }

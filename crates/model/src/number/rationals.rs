@@ -80,7 +80,6 @@ fn long_sum(a: &Rational, b: &Rational) -> Rational {
     Rational::new_raw(numerator / &common, of_a * (b.denom() / common))
 }
 
-/// Returns numerator and denominator, if both are below 2⁶³ in magnitude.
 fn words(x: &Rational) -> Option<(i128, i128)> {
     let word = |part: &BigInt| {
         let word = i64::try_from(part).ok()?;

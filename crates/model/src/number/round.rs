@@ -4,7 +4,7 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-use super::exact::{Form, Terms};
+use super::exact::{Canonical, Terms};
 use super::rationals::nearest_double;
 use super::trig::{SLACK, sin_cos};
 use super::{Exact, Rational};
@@ -23,8 +23,8 @@ pub trait Rounded: Copy + PartialEq {
     /// Returns the nearest value of an exact constant; an infinity beyond the range.
     fn nearest(value: &Exact) -> Self {
         match &value.0 {
-            Form::Rational(value) => Self::nearest_rational(value),
-            Form::Polynomial(terms) => round_polynomial(terms),
+            Canonical::Rational(value) => Self::nearest_rational(value),
+            Canonical::Polynomial(terms) => round_polynomial(terms),
         }
     }
     /// Returns the nearest value of a rational; an infinity beyond the range.

@@ -7,15 +7,16 @@ use core::str::FromStr;
 
 use num_traits::Zero;
 
-use super::exact::{Form, Monomial, Power, Terms};
+use super::exact::{Canonical, Monomial, Power, Terms};
+use super::parse::NumberError;
 use super::{Angle, Exact, Rational};
 
 impl fmt::Display for Exact {
     /// Writes it without blanks; angles are in radians, or multiples of `pi`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let terms = match &self.0 {
-            Form::Rational(value) => return write!(f, "{value}"),
-            Form::Polynomial(terms) => terms,
+            Canonical::Rational(value) => return write!(f, "{value}"),
+            Canonical::Polynomial(terms) => terms,
         };
         for (index, (monomial, coefficient)) in terms.iter().enumerate() {
             if index > 0 {
@@ -45,27 +46,15 @@ fn angle_text(angle: &Angle) -> String {
     }
 }
 
-/// The text is no exact constant.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NotExact;
-
-impl fmt::Display for NotExact {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("expected a constant such as `3/4` or `1/2*cos(1*pi/5)^2`")
-    }
-}
-
-impl core::error::Error for NotExact {}
-
 /// Longer texts are refused: no plan needs them.
 const MAX_BYTES: usize = 1 << 16;
 
 impl FromStr for Exact {
-    type Err = NotExact;
+    type Err = NumberError;
 
-    fn from_str(text: &str) -> Result<Self, NotExact> {
+    fn from_str(text: &str) -> Result<Self, NumberError> {
         if text.len() > MAX_BYTES {
-            return Err(NotExact);
+            return Err(NumberError::NotExact);
         }
         let mut terms = Terms::new();
         for term in text.split('+') {
@@ -76,35 +65,41 @@ impl FromStr for Exact {
     }
 }
 
-fn parse_term(text: &str) -> Result<(Monomial, Rational), NotExact> {
+fn parse_term(text: &str) -> Result<(Monomial, Rational), NumberError> {
     let (coefficient, mut rest) = text.split_at(text.find('*').unwrap_or(text.len()));
     let coefficient = rational(coefficient)?;
     let mut monomial = Monomial::new();
     while !rest.is_empty() {
-        rest = rest.strip_prefix('*').ok_or(NotExact)?;
+        rest = rest.strip_prefix('*').ok_or(NumberError::NotExact)?;
         let (is_sin, after) = match rest.strip_prefix("sin(") {
             Some(after) => (true, after),
-            None => (false, rest.strip_prefix("cos(").ok_or(NotExact)?),
+            None => (
+                false,
+                rest.strip_prefix("cos(").ok_or(NumberError::NotExact)?,
+            ),
         };
-        let (angle, after) = after.split_once(')').ok_or(NotExact)?;
+        let (angle, after) = after.split_once(')').ok_or(NumberError::NotExact)?;
         let (exponent, after) = match after.strip_prefix('^') {
             Some(after) => {
                 let end = after.find('*').unwrap_or(after.len());
                 let (exponent, after) = after.split_at(end);
-                (exponent.parse::<u32>().map_err(|_| NotExact)?, after)
+                (
+                    exponent.parse::<u32>().map_err(|_| NumberError::NotExact)?,
+                    after,
+                )
             }
             None => (1, after),
         };
         // Powers come from at most 64 joints; a squared sine is never written.
         if exponent > if is_sin { 1 } else { 1024 } || exponent == 0 {
-            return Err(NotExact);
+            return Err(NumberError::NotExact);
         }
         let angle = parse_angle(angle)?;
         let (sin, cos) = (exponent * u32::from(is_sin), exponent * u32::from(!is_sin));
         match monomial.last_mut() {
             Some(last) if *last.angle == angle && last.cos == 0 && cos > 0 => last.cos = cos,
             // Ascending, each once: reading must not multiply polynomials out.
-            Some(last) if *last.angle >= angle => return Err(NotExact),
+            Some(last) if *last.angle >= angle => return Err(NumberError::NotExact),
             _ => monomial.push(Power {
                 angle: Arc::new(angle),
                 sin,
@@ -116,18 +111,18 @@ fn parse_term(text: &str) -> Result<(Monomial, Rational), NotExact> {
     Ok((monomial, coefficient))
 }
 
-fn parse_angle(text: &str) -> Result<Angle, NotExact> {
+fn parse_angle(text: &str) -> Result<Angle, NumberError> {
     match text.contains("*pi/") {
         true => rational(&text.replacen("*pi/", "/", 1)).map(Angle::PiTimes),
         false => rational(text).map(Angle::Radians),
     }
 }
 
-fn rational(text: &str) -> Result<Rational, NotExact> {
+fn rational(text: &str) -> Result<Rational, NumberError> {
     let (_, denominator) = text.split_once('/').unwrap_or((text, "1"));
     match text.starts_with('+') || denominator.starts_with(['-', '+']) || text.contains('_') {
-        true => Err(NotExact),
-        false => text.parse().map_err(|_| NotExact),
+        true => Err(NumberError::NotExact),
+        false => text.parse().map_err(|_| NumberError::NotExact),
     }
 }
 
@@ -153,7 +148,11 @@ mod tests {
         let wrong = "1/0 x 1*sin( 1*cos(1)^ 1/-2 1*tan(1) 1*cos(1)^9999 1*sin(1)^2 \
             1*sin(1)*sin(1) 1*cos(2)*cos(1)";
         for wrong in wrong.split(' ').chain([""]) {
-            assert_eq!(wrong.parse::<Exact>(), Err(NotExact), "{wrong}");
+            assert_eq!(
+                wrong.parse::<Exact>(),
+                Err(NumberError::NotExact),
+                "{wrong}"
+            );
         }
     }
 }

@@ -12,10 +12,11 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 use core::hash::{Hash, Hasher};
 
-use super::bundle::{BundleError, camel, check_name, kept};
+use super::bundle::{camel, check_name, kept, unknown_output};
 use super::function::{Definition, NamedFunction};
 use super::quantity::{Facts, FrameChoice};
 use super::{Axis, Function, Quantity, Regrouped, Shape, Written};
+use crate::diagnostic::Diagnostic;
 use crate::equations::frames::{Axes, Rows, View};
 use crate::robot::{HAND, suggested_name};
 use crate::scalar::Divide;
@@ -110,7 +111,7 @@ impl Ord for QuantityAt {
 }
 
 impl Function {
-    fn at(self, frame: &str, axes: Axes, rows: Rows) -> Result<Function, BundleError> {
+    fn at(self, frame: &str, axes: Axes, rows: Rows) -> Result<Function, Diagnostic> {
         let function = self;
         let choice = |quantity: &Quantity| quantity.facts().frame;
         let most = function.quantities().iter().map(choice).min();
@@ -126,18 +127,15 @@ impl Function {
         let most = most.unwrap_or(FrameChoice::None);
         if most == FrameChoice::None {
             let message = format!("`{function}` is of no frame");
-            return Err(BundleError::new(message, "leave `@` and what follows out"));
+            return Err(Diagnostic::error(message).with_help("leave `@` and what follows out"));
         }
         if asked == FrameChoice::Frames && most != FrameChoice::Frames {
             let message = format!("`{function}` is of one frame");
-            return Err(BundleError::new(
-                message,
-                "`contact_jacobians` takes several",
-            ));
+            return Err(Diagnostic::error(message).with_help("`contact_jacobians` takes several"));
         }
         if most < asked || most == FrameChoice::Frames && asked > FrameChoice::Frames {
             let message = format!("`{function}` has no choice of `{}`", suffix(OF));
-            return Err(BundleError::new(message, "it takes a frame alone"));
+            return Err(Diagnostic::error(message).with_help("it takes a frame alone"));
         }
         for (place, frame) in frames.iter().enumerate() {
             let name = format!("{function}_{frame}{}", suffix('_'));
@@ -149,16 +147,16 @@ impl Function {
                 let help = format!(
                     "small letters, digits and single `_` between them, such as `{suggested}`"
                 );
-                BundleError::new(format!("`{frame}` cannot name a frame"), help)
+                Diagnostic::error(format!("`{frame}` cannot name a frame")).with_help(help)
             })?;
             if frames[..place].contains(frame) {
                 let message = format!("the frame `{frame}` is there twice");
-                return Err(BundleError::new(message, "leave one of them out"));
+                return Err(Diagnostic::error(message).with_help("leave one of them out"));
             }
         }
         if frames.len() > MAX_FRAMES {
             let message = format!("{} frames in contact", frames.len());
-            return Err(BundleError::new(message, format!("at most {MAX_FRAMES}")));
+            return Err(Diagnostic::error(message).with_help(format!("at most {MAX_FRAMES}")));
         }
         let name = format!("{function}_{}{}", frame.replace(',', "_"), suffix('_'));
         let text = format!("{function}{AT}{frame}{}", suffix(OF));
@@ -186,10 +184,10 @@ impl Function {
         })))
     }
 
-    pub(super) fn parse_at(text: &str) -> Result<Function, BundleError> {
+    pub(super) fn parse_at(text: &str) -> Result<Function, Diagnostic> {
         let (name, rest) = text.split_once(AT).unwrap_or((text, ""));
         let name = name.trim();
-        let function = Function::from_name(name).ok_or_else(|| BundleError::of_unknown(name))?;
+        let function = Function::from_name(name).ok_or_else(|| unknown_output(name))?;
         let mut words = rest.split(OF).map(str::trim);
         let frame = words.next().unwrap_or_default();
         let (mut axes, mut rows) = (None, None);
@@ -207,7 +205,7 @@ impl Function {
                 let message = format!("`{word}` is no choice of axes or components");
                 let help = "`mixed`, `local` or `world`; `linear`, `angular`, or some of \
                             x, y, z, rx, ry and rz, such as `x_y_rz`";
-                return Err(BundleError::new(message, help));
+                return Err(Diagnostic::error(message).with_help(help));
             }
         }
         let (axes, rows) = (axes.unwrap_or_default(), rows.unwrap_or_default());

@@ -9,10 +9,10 @@ use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use core::fmt;
 
 use super::function::{Definition, NamedFunction};
-use super::{Columns, Function, Quantity};
+use super::{Function, Quantity, RegressorColumns};
+use crate::diagnostic::Diagnostic;
 use crate::robot::{ENDINGS, WORDS, is_snake};
 
 const PLUS: char = '+';
@@ -44,18 +44,18 @@ impl Function {
     /// ```
     ///
     /// # Errors
-    /// [`BundleError`]: the name is none or taken, or the parts cannot be in one.
+    /// The name is not valid or taken, or the parts cannot be in one.
     pub fn bundle(
         name: &str,
         parts: impl IntoIterator<Item = Function>,
-    ) -> Result<Function, BundleError> {
+    ) -> Result<Function, Diagnostic> {
         check_name(name)?;
         let parts: Vec<Function> = parts.into_iter().flat_map(Function::parts).collect();
         let is_none = |part: &&Function| {
             !matches!(part, Function::At(_)) && Function::from_name(part.name()) != Some(**part)
         };
         if let Some(part) = parts.iter().find(is_none) {
-            return Err(BundleError::of_unknown(part.name()));
+            return Err(unknown_output(part.name()));
         }
         if parts.len() < 2 {
             let message = "a bundle has two parts at least".to_string();
@@ -63,7 +63,7 @@ impl Function {
                 Some(part) => format!("ask for `{part}` by itself"),
                 None => "a bundle is NAME = OUTPUT + OUTPUT".to_string(),
             };
-            return Err(BundleError::new(message, help));
+            return Err(Diagnostic::error(message).with_help(help));
         }
         let mut results: Vec<(Quantity, Function)> = Vec::new();
         let quantities_of = |&part: &Function| {
@@ -78,12 +78,12 @@ impl Function {
                 let one = "leave one of them out";
                 return Err(if other != quantity {
                     let message = format!("`{by}` and `{part}` would both be the field `{field}`");
-                    BundleError::new(message, "ask for one of them by itself")
+                    Diagnostic::error(message).with_help("ask for one of them by itself")
                 } else if by == part {
-                    BundleError::new(format!("`{by}` is in it twice"), one)
+                    Diagnostic::error(format!("`{by}` is in it twice")).with_help(one)
                 } else {
                     let both = format!("`{by}` and `{part}` both return {}", quantity.symbol());
-                    BundleError::new(both, one)
+                    Diagnostic::error(both).with_help(one)
                 });
             }
             results.push((quantity, part));
@@ -133,14 +133,28 @@ impl Function {
     /// ```
     ///
     /// # Errors
-    /// [`BundleError`]; of what names no function it has the word.
-    pub fn parse(text: &str) -> Result<Function, BundleError> {
+    /// The word that names no output, with the one that was probably meant, or the mistake in a bundle.
+    pub fn parse(text: &str) -> Result<Function, Diagnostic> {
+        Function::parse_among(text, &[])
+    }
+
+    /// Parses a function as [`Function::parse`], beside bundles: these cannot be its parts.
+    ///
+    /// # Errors
+    /// As [`Function::parse`].
+    pub fn parse_among(text: &str, functions: &[Function]) -> Result<Function, Diagnostic> {
+        let is_bundle = |function: &&Function, word: &str| {
+            matches!(function, Function::Bundle(_)) && function.name() == word
+        };
         let named = |word: &str| {
             let word = word.trim();
             if Function::is_at(word) {
                 return Function::parse_at(word);
             }
-            Function::from_name(word).ok_or_else(|| BundleError::of_unknown(word))
+            Function::from_name(word).ok_or_else(|| {
+                let bundle = functions.iter().find(|function| is_bundle(function, word));
+                bundle.map_or_else(|| unknown_output(word), |bundle| nested(*bundle))
+            })
         };
         match text.split_once(IS) {
             Some((name, parts)) => {
@@ -150,7 +164,7 @@ impl Function {
             None if text.contains(PLUS) => {
                 let parts = text.trim();
                 let message = format!("`{parts}` needs a name");
-                Err(BundleError::new(message, format!("write NAME = {parts}")))
+                Err(Diagnostic::error(message).with_help(format!("write NAME = {parts}")))
             }
             None => named(text),
         }
@@ -175,13 +189,13 @@ impl Function {
     }
 }
 
-pub(super) fn check_name(name: &str) -> Result<(), BundleError> {
+pub(super) fn check_name(name: &str) -> Result<(), Diagnostic> {
     let bars = name.ends_with('_') || name.contains("__");
     if !is_snake(name) || bars || name.len() > MAX_BYTES {
         let name: String = name.chars().take(MAX_BYTES).collect();
         let help = "small letters, digits and single `_` between them, such as `servo_2`";
         let message = format!("`{name}` is not the name of a function");
-        return Err(BundleError::new(message, help));
+        return Err(Diagnostic::error(message).with_help(help));
     }
     let structure = camel(name);
     let is_taken = |f: Function| f.structure() == Some(structure.as_str());
@@ -197,7 +211,7 @@ pub(super) fn check_name(name: &str) -> Result<(), BundleError> {
     } else {
         return Ok(());
     };
-    Err(BundleError::new(message, "call the bundle otherwise"))
+    Err(Diagnostic::error(message).with_help("call the bundle otherwise"))
 }
 
 fn joined(name: &str, parts: &[Function]) -> String {
@@ -215,7 +229,10 @@ pub(super) fn camel(name: &str) -> String {
 
 fn summary(parts: &[Function]) -> String {
     let names: Vec<String> = parts.iter().map(|part| format!("`{part}`")).collect();
-    let over = match parts.iter().find(|part| part.columns() != Columns::None) {
+    let over = match parts
+        .iter()
+        .find(|part| part.columns() != RegressorColumns::None)
+    {
         Some(part) => format!(" Columns are those of `{part}`."),
         None => String::new(),
     };
@@ -231,72 +248,39 @@ pub(super) fn kept(text: String) -> &'static str {
     Box::leak(text.into_boxed_str())
 }
 
-/// The reason for which a bundle cannot be.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct BundleError {
-    /// The mistake.
-    pub message: String,
-    /// The likely fix.
-    pub help: String,
-    /// The word that names no output, if this is what is wrong.
-    pub unknown: Option<String>,
+/// Returns the error of a word that names no output.
+pub(super) fn unknown_output(word: &str) -> Diagnostic {
+    if word.is_empty() {
+        return Diagnostic::error("expected an output")
+            .with_help("write its name, such as `gravity`");
+    }
+    let help = match likely(word) {
+        Some(meant) => format!("did you mean `{meant}`?"),
+        None => "a bundle is NAME = OUTPUT + OUTPUT".to_string(),
+    };
+    Diagnostic::error(format!("unknown output `{word}`")).with_help(help)
 }
 
-impl BundleError {
-    pub(super) fn new(message: String, help: impl Into<String>) -> BundleError {
-        BundleError {
-            message,
-            help: help.into(),
-            unknown: None,
-        }
-    }
-
-    pub(super) fn of_unknown(word: &str) -> BundleError {
-        let (message, help) = match word {
-            "" => (
-                "expected an output".to_string(),
-                "write its name, such as `gravity`",
-            ),
-            word => (
-                format!("unknown output `{word}`"),
-                "a bundle is NAME = OUTPUT + OUTPUT",
-            ),
-        };
-        BundleError {
-            unknown: Some(word.to_string()),
-            ..BundleError::new(message, help)
-        }
-    }
-
-    /// Returns the error where these functions are known too: a word may be a bundle among them.
-    #[must_use]
-    pub fn among(self, functions: &[Function]) -> BundleError {
-        let word = self.unknown.as_deref();
-        let is_it = |function: &&Function| {
-            matches!(function, Function::Bundle(_)) && word == Some(function.name())
-        };
-        let Some(bundle) = functions.iter().find(is_it) else {
-            return self;
-        };
-        let parts = bundle
-            .parts()
-            .iter()
-            .map(|part| part.name())
-            .collect::<Vec<&str>>()
-            .join(" + ");
-        let help = format!("bundles do not nest: write its parts, {parts}");
-        BundleError::new(format!("`{bundle}` is a bundle itself"), help)
-    }
+#[cfg(feature = "std")]
+fn likely(word: &str) -> Option<&'static str> {
+    crate::read::closest(word, &Function::ALL.map(Function::name))
 }
 
-impl fmt::Display for BundleError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.message, self.help)
-    }
+#[cfg(not(feature = "std"))]
+fn likely(_: &str) -> Option<&'static str> {
+    None
 }
 
-impl core::error::Error for BundleError {}
+fn nested(bundle: Function) -> Diagnostic {
+    let parts = bundle
+        .parts()
+        .iter()
+        .map(|part| part.name())
+        .collect::<Vec<&str>>()
+        .join(" + ");
+    Diagnostic::error(format!("`{bundle}` is a bundle itself"))
+        .with_help(format!("bundles do not nest: write its parts, {parts}"))
+}
 
 #[cfg(test)]
 mod tests {
@@ -351,7 +335,7 @@ a=regressor+full_regressor
 a=gravity
 a bundle has two parts at least: ask for `gravity` by itself
 a=gravty+jacobian
-unknown output `gravty`: a bundle is NAME = OUTPUT + OUTPUT
+unknown output `gravty`: did you mean `gravity`?
 gravity+jacobian
 `gravity+jacobian` needs a name: write NAME = gravity+jacobian
 gravity=inertia+jacobian

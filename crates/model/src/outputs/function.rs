@@ -85,7 +85,7 @@ impl NamedFunction {
 
 /// The columns of a regressor that a function's results are over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Columns {
+pub enum RegressorColumns {
     /// None: it is no regressor.
     None,
     /// Every inertial parameter of every link.
@@ -193,15 +193,15 @@ impl Function {
     }
 
     /// Returns the columns of a regressor that a result is over.
-    pub fn columns(self) -> Columns {
+    pub fn columns(self) -> RegressorColumns {
         let over = |axis| {
             let mut results = self.quantities().iter();
             results.find(|quantity| quantity.shape().0.contains(&axis))
         };
         match (over(Axis::BaseParameters), over(Axis::LinkParameters)) {
-            (Some(&quantity), _) => Columns::Base(quantity),
-            (None, Some(_)) => Columns::Links,
-            (None, None) => Columns::None,
+            (Some(&quantity), _) => RegressorColumns::Base(quantity),
+            (None, Some(_)) => RegressorColumns::Links,
+            (None, None) => RegressorColumns::None,
         }
     }
 
@@ -279,7 +279,6 @@ impl Function {
     }
 }
 
-/// Returns the sizes of results over all rows of an arm.
 fn arm_sizes<S>(arm: &Arm<S>) -> Sizes {
     let (rows, floating) = (arm.links.len(), arm.base_joints());
     let sizes = Sizes {

@@ -13,8 +13,8 @@
 //! - the others: quantities that belong together
 //!
 //! Readers of robot files and macros, scenes, traces, proofs, printing, reading back and the checks
-//! in floating point all ask here; none of them knows an output by name. To add one: write its
-//! quantity in one of these files, or in one of its own, and add its row below.
+//! in floating point all ask here, and none of them names an output. The checker alone has a list and
+//! equations besides, since it trusts nothing of this. `docs/architecture.md` says how to add one.
 
 mod argument;
 mod at;
@@ -47,9 +47,8 @@ use formula::Formula;
 
 pub use argument::Argument;
 pub use at::QuantityAt;
-pub use bundle::BundleError;
 pub use formula::{Motion, Regrouped, Written};
-pub use function::{Columns, NamedFunction};
+pub use function::{NamedFunction, RegressorColumns};
 pub use quantity::{ErrorScale, Facts, Index};
 pub use runtime::{PayloadDependence, RuntimeParameter};
 pub use shape::{Axis, Shape, Sizes};

@@ -77,12 +77,12 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
     let steps = placed.iter().enumerate().map(|(joint, placed)| {
         let axis = frame::direction(&placed.axis).ok_or(NoDirection(joint))?;
         let link = frame::pose(&placed.placement);
-        Ok(row::Axis {
+        Ok(row::JointAxis {
             along: link.rotate(&axis),
             link,
         })
     });
-    let axes = steps.collect::<Result<Vec<row::Axis>, NoDirection>>()?;
+    let axes = steps.collect::<Result<Vec<row::JointAxis>, NoDirection>>()?;
     let Some(first) = axes.first() else {
         return Ok(());
     };

@@ -16,7 +16,7 @@ pub const NEARLY_PARALLEL: f64 = 1.0 / 64.0;
 const PARALLEL: f64 = 7e-46;
 
 /// A joint's axis in the frame of the link before it.
-pub(super) struct Axis {
+pub(super) struct JointAxis {
     pub(super) along: Vector<Wide>,
     /// The link's own frame at q = 0, whose origin is a point of it.
     pub(super) link: Columns<Wide>,
@@ -33,7 +33,7 @@ pub(super) struct Row {
 
 /// Returns frame 0: on the first axis, next to the origin, its x as near to the base's as it can
 /// be, or to the base's y where the axis is along x.
-pub(super) fn first_frame(first: &Axis) -> Columns<Wide> {
+pub(super) fn first_frame(first: &JointAxis) -> Columns<Wide> {
     let z = &first.along;
     let back = dot(&first.link.origin, z).neg();
     let base = Columns::identity();
@@ -50,7 +50,7 @@ fn frame(x: Vector<Wide>, z: &Vector<Wide>, origin: Vector<Wide>) -> Columns<Wid
     Columns { axes, origin }
 }
 
-pub(super) fn to_axis(here: &Columns<Wide>, next: &Axis, size: &Rational) -> Row {
+pub(super) fn to_axis(here: &Columns<Wide>, next: &JointAxis, size: &Rational) -> Row {
     let u = &here.axes[2];
     let beside = dot(&here.origin, u).neg();
     let normal = cross(u, &next.along);
@@ -96,7 +96,7 @@ pub(super) fn to_link(here: &Columns<Wide>) -> Row {
     }
 }
 
-fn askew(here: &Columns<Wide>, next: &Axis, normal: &Vector<Wide>) -> Row {
+fn askew(here: &Columns<Wide>, next: &JointAxis, normal: &Vector<Wide>) -> Row {
     let (u, w) = (&here.axes[2], &next.along);
     let p = difference(&next.link.origin, &here.origin);
     let x = near(here, unit(normal).unwrap_or_else(|| here.axes[0]));
@@ -118,7 +118,7 @@ fn askew(here: &Columns<Wide>, next: &Axis, normal: &Vector<Wide>) -> Row {
 }
 
 /// Chooses among many common normals the one beside the link's own origin.
-fn parallel(here: &Columns<Wide>, next: &Axis, d: Wide, size: &Rational) -> Row {
+fn parallel(here: &Columns<Wide>, next: &JointAxis, d: Wide, size: &Rational) -> Row {
     let u = &here.axes[2];
     let origin = along(&here.origin, &d, u);
     let p = difference(&next.link.origin, &origin);
@@ -145,7 +145,7 @@ fn parallel(here: &Columns<Wide>, next: &Axis, d: Wide, size: &Rational) -> Row 
 /// Returns a common normal that may be far away: the frame stays beside the link's own
 /// origin, and turns about y too. z = Rx(α) Ry(β) z_0 is
 /// (sin β, −sin α cos β, cos α cos β) in the axes turned by θ.
-fn nearly_parallel(here: &Columns<Wide>, next: &Axis, d: Wide, passes: &Vector<Wide>) -> Row {
+fn nearly_parallel(here: &Columns<Wide>, next: &JointAxis, d: Wide, passes: &Vector<Wide>) -> Row {
     let (u, w) = (&here.axes[2], &next.along);
     let origin = along(&here.origin, &d, u);
     let x = near(here, unit(passes).unwrap_or_else(|| here.axes[0]));

@@ -9,11 +9,9 @@ use toml_span::Value;
 use super::report::quote;
 use super::table::{Table, locate};
 use super::value::{Context, bodies, placement};
-use super::{Reading, base, guard, joint, link, mimic, parent, scene, suggest, syntax};
+use super::{Diagnostic, Reading, base, guard, joint, link, mimic, parent, scene, suggest, syntax};
 use crate::placed::{derive, place};
-use crate::robot::{
-    Convention, Finding, FloatingBase, Frame, Placed, Placement, Robot, RobotWarning,
-};
+use crate::robot::{Convention, FloatingBase, Frame, Placed, Placement, Robot, RobotWarning};
 
 /// `None` only after an error.
 pub(super) fn read(source: &str, cx: &mut Context) -> Option<Reading> {
@@ -31,11 +29,10 @@ pub(super) fn read(source: &str, cx: &mut Context) -> Option<Reading> {
     keys.span = 0..0;
     let (robot, findings) = robot(cx, &mut keys);
     for finding in findings {
-        let place = in_file(&robot, &finding.place);
+        let place = in_file(&robot, finding.keys());
         if !cx.is_unread(&place) {
             let span = locate(&root, 0..0, source, &place);
-            cx.sink
-                .found(finding.warning, span, finding.message, &finding.help);
+            cx.sink.place(finding, span);
         }
     }
     let outputs = keys.optional(cx, "outputs", |cx, value| cx.outputs(value, "a robot"));
@@ -63,7 +60,7 @@ fn in_file(robot: &Robot, place: &str) -> String {
     }
 }
 
-fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Finding>) {
+fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Diagnostic>) {
     const NAME: &str = "name = \"puma560\"; the generated module is called after it";
     const WHICH: &str = "\"standard\" where joint i acts along z of frame i − 1, \"modified\" (Craig) where it acts along z of frame i";
     const CONVENTION: &str =
@@ -222,7 +219,7 @@ fn frames(cx: &mut Context, robot: &Robot, list: &Value) -> Option<Vec<Frame>> {
 }
 
 /// Warnings about placed joints are about their placements, not about the rows.
-fn rows(cx: &mut Context, robot: &mut Robot, read: Vec<joint::Read>) -> Vec<Finding> {
+fn rows(cx: &mut Context, robot: &mut Robot, read: Vec<joint::Read>) -> Vec<Diagnostic> {
     let (branches, is_any) = (
         robot.is_tree(),
         read.iter().any(|joint| joint.placed.is_some()),
@@ -277,8 +274,8 @@ fn rows(cx: &mut Context, robot: &mut Robot, read: Vec<joint::Read>) -> Vec<Find
     let mut findings = robot.validate_placed(&placements);
     // Directions of length zero were refused where they stand, and then there is an
     // error already. An oddity of a derived row is none of the file's.
-    if derive(robot, &placed).is_ok() && !findings.iter().any(Finding::is_error) {
-        findings.extend(robot.validate().into_iter().filter(Finding::is_error));
+    if derive(robot, &placed).is_ok() && !findings.iter().any(Diagnostic::is_error) {
+        findings.extend(robot.validate().into_iter().filter(Diagnostic::is_error));
     }
     findings
 }

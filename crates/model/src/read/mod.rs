@@ -69,10 +69,10 @@ use crate::outputs::Function;
 use crate::robot::Robot;
 use crate::scene::Scene;
 
-pub use crate::robot::{RobotWarning, Severity};
+pub use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
+pub use crate::robot::RobotWarning;
 pub use guard::MAX_BYTES;
-pub use report::{Diagnostic, Diagnostics};
-pub use suggest::{closest, for_bundle};
+pub use suggest::closest;
 
 /// A robot file that was read.
 #[derive(Clone, Debug)]

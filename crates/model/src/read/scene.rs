@@ -12,7 +12,7 @@ use super::report::quote;
 use super::table::{Table, locate};
 use super::value::{Context, bodies, bytes_of};
 use crate::robot::{Follower, Joint, JointKind, Parent, Position, Robot};
-use crate::scene::{Float, MotionBox, Payload, Scale, Scene, Tolerance};
+use crate::scene::{MotionBox, Payload, Scale, Scene, SceneScalar, Tolerance};
 
 pub(super) fn read(cx: &mut Context, robot: &Robot, root: &Value, scenes: &Value) -> Vec<Scene> {
     const HELP: &str = "each scene is a [scene.NAME] table";
@@ -29,20 +29,19 @@ pub(super) fn read(cx: &mut Context, robot: &Robot, root: &Value, scenes: &Value
         keys.span = bytes_of(key.span);
         let scene = scene(cx, robot, &key.name, &mut keys);
         for finding in scene.validate(robot) {
-            let suffix = finding.place.strip_prefix(&keys.place);
+            let suffix = finding.keys().strip_prefix(&keys.place);
             let inner_place = suffix.map(|suffix| suffix.trim_start_matches('/'));
             // A limit that a tolerance seems to lack may be one that cannot be read.
             let is_lack = inner_place == Some("tolerance") && !cx.unread.is_empty();
-            if is_lack || cx.is_unread(&finding.place) {
+            if is_lack || cx.is_unread(finding.keys()) {
                 continue;
             }
             let (value, place) = match inner_place {
                 Some(inner_place) => (value, inner_place),
-                None => (root, finding.place.as_str()),
+                None => (root, finding.keys()),
             };
             let span = locate(value, bytes_of(key.span), &cx.sink.source, place);
-            let (warning, message) = (finding.warning, finding.message);
-            cx.sink.found(warning, span, message, &finding.help);
+            cx.sink.place(finding, span);
         }
         keys.finish(cx);
         read.push(scene);
@@ -80,7 +79,9 @@ fn scene(cx: &mut Context, robot: &Robot, name: &str, keys: &mut Table) -> Scene
         payload_link,
         bounds: bounds(cx, robot, keys).unwrap_or_default(),
         tolerance: tolerance(cx, keys),
-        scalar: keys.optional(cx, "scalar", |cx, value| cx.word(value, &Float::WORDS, "")),
+        scalar: keys.optional(cx, "scalar", |cx, value| {
+            cx.word(value, &SceneScalar::WORDS, "")
+        }),
     }
 }
 
@@ -168,7 +169,6 @@ fn zero(cx: &mut Context, keys: &mut Table, key: &'static str) -> bool {
     read.is_some()
 }
 
-/// Returns the payload, and the link that holds it.
 fn payload(cx: &mut Context, robot: &Robot, keys: &mut Table) -> Option<(Payload, Option<Parent>)> {
     const HELP: &str = "payload = { mass = 2.5, com = [0, 0, 0.05], inertia = [0.01, 0.01, 0.01, 0, 0, 0] }, in the last link's frame; `link = \"left_hand\"` names another where links branch";
     const COM: &str = "com = [x, y, z], in the frame of the last link, m";

@@ -6,8 +6,6 @@ use core::iter;
 
 use strsim::osa_distance;
 
-use crate::outputs::{BundleError, Function};
-
 /// Our words, each with those of other tools and textbooks.
 const OTHER_WORDS: [(&str, &[&str]); 29] = [
     ("mass", &["m", "weight"]),
@@ -43,15 +41,6 @@ const OTHER_WORDS: [(&str, &[&str]); 29] = [
     ("lagrange_euler", &["lagrange"]),
     ("newton_euler", &["newton", "rne"]),
 ];
-
-/// Returns the likely fix of a bundle that cannot be read, with the output that was probably meant.
-pub fn for_bundle(error: &BundleError) -> String {
-    let word = error.unknown.as_deref();
-    match word.and_then(|word| closest(word, &Function::ALL.map(Function::name))) {
-        Some(meant) => format!("did you mean `{meant}`?"),
-        None => error.help.clone(),
-    }
-}
 
 pub(super) fn for_key(word: &str, known: &[&str]) -> Option<String> {
     const FRICTION: &str = "write `viscous` for friction that grows with the speed, `coulomb` for one that does not, or both";

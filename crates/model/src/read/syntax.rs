@@ -23,7 +23,7 @@ pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
     let before = source.get(..start).unwrap_or_default();
     let whole = word_at(source, before.trim_end_matches(digits).len());
     let zeros = foreign::leading_zeros(whole);
-    let earlier = |byte: usize| format!("it is first defined on line {}", sink.position(byte).0);
+    let earlier = |byte: usize| format!("it is first defined on line {}", sink.line(byte));
     let (message, help) = match &error.kind {
         // What is no number may be an angle without its quotes: -pi/2, 90deg.
         ErrorKind::InvalidNumber | ErrorKind::UnquotedString if Angle::parse(word).is_ok() => (

@@ -190,7 +190,7 @@ impl Context {
             let help = format!("write {} if you mean it", values::angle(multiple));
             let warning = RobotWarning::NearRightAngle;
             self.sink
-                .found(Some(warning), bytes_of(value.span), message, &help);
+                .warning(warning, bytes_of(value.span), message, &help);
         }
         Some(snapped.angle())
     }
@@ -301,12 +301,12 @@ impl Context {
         let mut outputs: Vec<Function> = Vec::new();
         self.each(items, |cx, _, item| {
             let is_bundle = |text: &&str| text.contains(['=', '+', '@', ':']);
-            let output = match item.as_str().filter(is_bundle).map(Function::parse) {
+            let text = item.as_str().filter(is_bundle);
+            let output = match text.map(|text| Function::parse_among(text, &outputs)) {
                 None => cx.word(item, &words, "")?,
                 Some(Ok(bundle)) => bundle,
                 Some(Err(error)) => {
-                    let error = error.among(&outputs);
-                    let help = suggest::for_bundle(&error);
+                    let help = error.help.unwrap_or_default();
                     return cx.refuse(item, error.message, &help);
                 }
             };

@@ -1,33 +1,12 @@
-//! Findings about robots and scenes: errors and warnings, each at a place of the robot file.
+//! Errors and warnings about robots and scenes, each at keys of the robot file.
 
-use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
 use super::values::word;
-
-/// The severity of a finding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Severity {
-    /// Nothing can be generated.
-    Error,
-    /// Probably a slip; taken as it stands.
-    Warning,
-    /// A decision of the reader that the author may want to know.
-    Note,
-}
-
-impl fmt::Display for Severity {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-            Severity::Note => "note",
-        })
-    }
-}
+use crate::diagnostic::{Diagnostic, Place, Severity};
 
 /// The name of a warning about a robot file. List it in the file to silence the warning:
 /// `allow = ["large_mass"]`.
@@ -94,40 +73,9 @@ impl fmt::Display for RobotWarning {
     }
 }
 
-/// An error or a warning about a robot or a scene.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Finding {
-    /// The name of a warning; `None` of an error.
-    pub warning: Option<RobotWarning>,
-    /// The keys of the robot file that lead to the value, from the outermost one:
-    /// `joint/#2/limits/velocity`. An entry of a list or a table is named by `#` and its
-    /// number, from one.
-    pub place: String,
-    /// A sentence that says the mistake.
-    pub message: String,
-    /// The likely fix; may be empty.
-    pub help: String,
-}
-
-impl Finding {
-    /// True if it is an error, not a warning.
-    pub fn is_error(&self) -> bool {
-        self.warning.is_none()
-    }
-}
-
-impl fmt::Display for Finding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)?;
-        match self.help.as_str() {
-            "" => Ok(()),
-            help => write!(f, " ({help})"),
-        }
-    }
-}
-
+/// The errors and warnings about a robot or a scene, each at keys of the robot file.
 #[derive(Default)]
-pub(crate) struct Findings(pub(crate) Vec<Finding>);
+pub(crate) struct Findings(pub(crate) Vec<Diagnostic>);
 
 impl Findings {
     pub(crate) fn error(
@@ -136,7 +84,7 @@ impl Findings {
         message: impl Into<String>,
         help: &str,
     ) {
-        self.push(None, place.into(), message.into(), help);
+        self.push(Diagnostic::error(message), place, help);
     }
 
     pub(crate) fn warn(
@@ -146,16 +94,16 @@ impl Findings {
         message: impl Into<String>,
         help: &str,
     ) {
-        self.push(Some(warning), place.into(), message.into(), help);
+        let diagnostic = Diagnostic {
+            warning: Some(warning),
+            ..Diagnostic::new(Severity::Warning, message)
+        };
+        self.push(diagnostic, place, help);
     }
 
-    fn push(&mut self, warning: Option<RobotWarning>, place: String, message: String, help: &str) {
-        self.0.push(Finding {
-            warning,
-            place,
-            message,
-            help: help.to_owned(),
-        });
+    fn push(&mut self, diagnostic: Diagnostic, place: impl Into<String>, help: &str) {
+        let place = Place::Keys(place.into());
+        self.0.push(diagnostic.with_help(help).at(place));
     }
 }
 

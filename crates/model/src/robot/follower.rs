@@ -77,7 +77,6 @@ impl Follower {
     }
 }
 
-/// Returns a number of radians, rounded to a double.
 fn nearest(radians: Rational) -> Position {
     let nearest = Rational::from_float(Angle::Radians(radians.clone()).to_f64());
     Position::Angle(Angle::Radians(nearest.unwrap_or(radians)).canonical())
@@ -125,7 +124,6 @@ impl Position {
         }
     }
 
-    /// Returns the number of radians or metres.
     fn number(&self) -> Rational {
         match self {
             Position::Angle(angle) => angle.radians(),

@@ -4,7 +4,7 @@
 //! One [`Joint`] per row of the DH table, or per joint that is placed where links branch;
 //! everything is SI, angles are exact ([`Angle`]), all other numbers are exact rationals.
 //!
-//! - `findings`: errors and warnings, each at a place of the robot file ([`Finding`]), and the
+//! - `findings`: errors and warnings, each at a place of the robot file ([`Diagnostic`](crate::diagnostic::Diagnostic)), and the
 //!   names by which a file silences them ([`RobotWarning`])
 //! - `follower`: joints that follow others, rows without a coordinate ([`Follower`])
 //! - `floating`: a base that floats ([`FloatingBase`])
@@ -38,7 +38,7 @@ use crate::number::{Angle, Rational};
 
 pub use body::Defect;
 pub(crate) use findings::Findings;
-pub use findings::{Finding, RobotWarning, Severity};
+pub use findings::RobotWarning;
 pub use floating::{BaseLimits, FloatingBase};
 pub use follower::Follower;
 pub(crate) use tree::limb_starts;

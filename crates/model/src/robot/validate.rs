@@ -12,11 +12,12 @@ use alloc::vec::Vec;
 use num_traits::{Signed, Zero};
 
 use super::body::Defect;
-use super::findings::{Finding, Findings, of_joint};
+use super::findings::{Findings, of_joint};
 use super::{
     BodyRange, Convention, Joint, JointKind, Limit, Placement, Position, Robot, RobotWarning,
     reach, units, values,
 };
+use crate::diagnostic::Diagnostic;
 use crate::number::parse::in_range;
 use crate::number::{Angle, Rational, Rounded};
 
@@ -34,12 +35,12 @@ pub(crate) const ENDINGS: [&str; 2] = ["_batch", "_columns"];
 impl Robot {
     /// Returns every error and warning about the robot. Every later stage accepts a robot
     /// without an error.
-    pub fn validate(&self) -> Vec<Finding> {
+    pub fn validate(&self) -> Vec<Diagnostic> {
         self.validate_placed(&[])
     }
 
     /// `placed` are the placements of joints that have no rows yet; empty for a robot with rows.
-    pub(crate) fn validate_placed(&self, placed: &[Placement]) -> Vec<Finding> {
+    pub(crate) fn validate_placed(&self, placed: &[Placement]) -> Vec<Diagnostic> {
         let mut findings = Findings::default();
         let reach = reach::reach(self, placed);
         findings.robot_name(&self.name);

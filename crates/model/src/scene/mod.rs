@@ -51,7 +51,7 @@ pub struct Scene {
     /// The accuracy that may be given up.
     pub tolerance: Option<Tolerance>,
     /// The scalar; `None` if the scene leaves that to the request.
-    pub scalar: Option<Float>,
+    pub scalar: Option<SceneScalar>,
 }
 
 /// Ranges of motion, an entry a joint, and of the payload; what is missing is the robot's limit. Of
@@ -125,16 +125,17 @@ impl Scale {
 
 /// The scalar that a scene asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Float {
+pub enum SceneScalar {
     /// Doubles.
     F64,
     /// Single precision.
     F32,
 }
 
-impl Float {
+impl SceneScalar {
     /// Every scalar with its word.
-    pub const WORDS: [(&'static str, Self); 2] = [("f64", Float::F64), ("f32", Float::F32)];
+    pub const WORDS: [(&'static str, Self); 2] =
+        [("f64", SceneScalar::F64), ("f32", SceneScalar::F32)];
 }
 
 impl Scene {

@@ -15,14 +15,13 @@ use core::fmt::Display;
 use num_traits::Signed;
 
 use super::Scene;
-use crate::robot::{
-    Finding, Findings, Joint, JointKind, Parent, Robot, RobotWarning, is_plain, reach,
-};
+use crate::diagnostic::Diagnostic;
+use crate::robot::{Findings, Joint, JointKind, Parent, Robot, RobotWarning, is_plain, reach};
 
 impl Scene {
     /// Returns every error and warning about the scene. Every later stage accepts a scene
     /// without an error, with this robot.
-    pub fn validate(&self, robot: &Robot) -> Vec<Finding> {
+    pub fn validate(&self, robot: &Robot) -> Vec<Diagnostic> {
         let mut check = Check {
             scene: self,
             robot,

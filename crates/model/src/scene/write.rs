@@ -5,7 +5,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::{Float, Scene};
+use super::{Scene, SceneScalar};
 use crate::robot::Parent;
 use crate::robot::values::{
     bodies, lines, list, number, numbers, position, quoted, range, short_hash, table, word,
@@ -59,7 +59,7 @@ pub fn write(scene: &Scene) -> String {
         table([("value", Some(value)), ("relative_to", Some(scale))])
     });
     let scalar = scene.scalar.as_ref();
-    let scalar = scalar.map(|scalar| quoted(word(&Float::WORDS, scalar)));
+    let scalar = scalar.map(|scalar| quoted(word(&SceneScalar::WORDS, scalar)));
     lines(
         &mut text,
         [

@@ -8,7 +8,7 @@ use crate::scalar::Scalar;
 
 /// ∫ dm, ∫ r dm and ∫ r rᵀ dm, a pseudo-inertia by its parts; a regrouped mass may be negative.
 #[derive(Clone, Debug)]
-pub struct Body<S> {
+pub struct MomentBody<S> {
     /// ∫ dm
     pub mass: S,
     /// ∫ r dm
@@ -17,10 +17,10 @@ pub struct Body<S> {
     pub second: Inertia<S>,
 }
 
-impl<S> Body<S> {
+impl<S> MomentBody<S> {
     /// Returns every number through `f`.
-    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Body<T> {
-        Body {
+    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> MomentBody<T> {
+        MomentBody {
             mass: f(&self.mass),
             first: self.first.each_ref().map(&mut f),
             second: self.second.map(&mut f),
@@ -28,10 +28,10 @@ impl<S> Body<S> {
     }
 }
 
-impl<S: Scalar> Body<S> {
+impl<S: Scalar> MomentBody<S> {
     /// Returns nothing.
     pub fn zero() -> Self {
-        Body {
+        MomentBody {
             mass: S::zero(),
             first: zero_vector(),
             second: Inertia::symmetric(|_, _| S::zero()),
@@ -51,7 +51,7 @@ impl<S: Scalar> Body<S> {
             };
             plus(&about_centre, &times(&first[i], &link.com[j]))
         });
-        Body {
+        MomentBody {
             mass: link.mass.clone(),
             first,
             second,
@@ -80,8 +80,8 @@ impl<S: Scalar> Body<S> {
     }
 
     /// Returns both together, about the same origin and in the same axes.
-    pub fn with(&self, other: &Body<S>) -> Self {
-        Body {
+    pub fn with(&self, other: &MomentBody<S>) -> Self {
+        MomentBody {
             mass: plus(&self.mass, &other.mass),
             first: sum(&self.first, &other.first),
             second: Inertia::symmetric(|i, j| {
@@ -106,7 +106,7 @@ impl<S: Scalar> Body<S> {
             true => turned_by_rows(&self.second, rotation),
             false => turned_by_products(&self.second, rotation),
         };
-        Body {
+        MomentBody {
             mass: self.mass.clone(),
             first: apply(rotation, &self.first),
             second,
@@ -116,7 +116,7 @@ impl<S: Scalar> Body<S> {
     /// Returns it about another origin: r → r + p.
     pub fn moved(&self, offset: &Vector<S>) -> Self {
         let first = sum(&self.first, &scaled(&self.mass, offset));
-        Body {
+        MomentBody {
             mass: self.mass.clone(),
             // ∫ (r + p)(r + p)ᵀ = Σ + s pᵀ + p (s + m p)ᵀ
             second: Inertia::symmetric(|i, j| {
@@ -137,7 +137,7 @@ impl<S: Scalar> Body<S> {
         let across = times(s, &minus(&old.xx, &old.yy));
         let k = plus(&across, &times(c, &twice(&old.xy)));
         let shift = times(s, &k);
-        Body {
+        MomentBody {
             mass: self.mass.clone(),
             first: [x, y, self.first[2].clone()],
             second: Inertia {
@@ -158,7 +158,7 @@ impl<S: Scalar> Body<S> {
 
     /// Returns it in another unit of length: torques keep their numbers, masses get its square.
     pub fn in_unit(&self, unit: &S) -> Self {
-        Body {
+        MomentBody {
             mass: times(unit, &times(unit, &self.mass)),
             first: scaled(unit, &self.first),
             second: self.second.clone(),

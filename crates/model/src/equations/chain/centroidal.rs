@@ -2,11 +2,11 @@
 
 use alloc::vec::Vec;
 
-use super::Body;
+use super::MomentBody;
 use super::composite::Composite;
 use super::floating::unit_twists;
 use super::form::Form;
-use super::recursion::{Motion, Motions};
+use super::recursion::{LinkMotion, Motions};
 use crate::equations::BASE_COORDINATES;
 use crate::equations::centroidal::about;
 use crate::equations::factor::Factor;
@@ -23,7 +23,7 @@ struct Whole<S> {
 }
 
 impl<S: Divide> Whole<S> {
-    fn new(body: &Body<S>) -> Whole<S> {
+    fn new(body: &MomentBody<S>) -> Whole<S> {
         let per_mass = S::one().div(&body.mass);
         let centre = scaled(&per_mass, &body.first);
         let [first, second] = [&body.first, &centre];
@@ -31,9 +31,9 @@ impl<S: Divide> Whole<S> {
             let second_moment = super::body::entry(&body.second, i, j);
             minus(second_moment, &times(&first[i], &second[j]))
         });
-        let about_centre = Body {
+        let about_centre = MomentBody {
             second,
-            ..Body::zero()
+            ..MomentBody::zero()
         };
         Whole {
             per_mass,
@@ -113,7 +113,7 @@ impl<S: Divide> Composite<'_, S> {
         let whole = Whole::new(self.base.as_ref()?);
         let (rates, accelerations) = (chain.rates(qd), chain.rates(qdd));
         let (fall, base) = chain.falling(qd);
-        let links = chain.outward(base.clone(), |i, before: &Motion<S>| {
+        let links = chain.outward(base.clone(), |i, before: &LinkMotion<S>| {
             let (rate, acceleration) = (&rates[i], &accelerations[i]);
             before.next(&chain.links[i], &at[i], rate, acceleration, form.spin)
         });

@@ -4,8 +4,8 @@
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
-use super::recursion::{AccelerationForm, MomentForm, Motion};
-use super::{Body, Chain, Displacement};
+use super::recursion::{AccelerationForm, LinkMotion, MomentForm};
+use super::{Chain, Displacement, MomentBody};
 use crate::equations::matrix::*;
 use crate::equations::screws::{Twist, Wrench};
 use crate::robot::JointKind;
@@ -26,8 +26,8 @@ pub struct Composite<'a, S> {
     pub(super) chain: &'a Chain<S>,
     pub(super) at: &'a [Displacement<S>],
     /// That of a base that floats with all that it carries.
-    pub(super) base: Option<Body<S>>,
-    pub(super) bodies: Vec<Body<S>>,
+    pub(super) base: Option<MomentBody<S>>,
+    pub(super) bodies: Vec<MomentBody<S>>,
     /// `twists[m][i]`, i < m: joint i seen from frame m.
     twists: Vec<Vec<Twist<S>>>,
 }
@@ -42,14 +42,16 @@ pub(super) struct JointEffect<S, const WRENCHES: usize, const VECTORS: usize> {
 impl<'a, S: Scalar> Composite<'a, S> {
     /// Composes the bodies from the hand inward.
     pub fn new(chain: &'a Chain<S>, at: &'a [Displacement<S>]) -> Self {
-        let whole = |i: usize, outer: Option<Body<S>>| {
-            let body = chain.links[i].body.with(&outer.unwrap_or_else(Body::zero));
+        let whole = |i: usize, outer: Option<MomentBody<S>>| {
+            let body = chain.links[i]
+                .body
+                .with(&outer.unwrap_or_else(MomentBody::zero));
             (body.clone(), body)
         };
-        let back = |i: usize, body: Body<S>| {
+        let back = |i: usize, body: MomentBody<S>| {
             let (link, at) = (&chain.links[i], &at[i]);
             if link.parent.is_none() && chain.base.is_none() {
-                return Body::zero();
+                return MomentBody::zero();
             }
             let turned = match at {
                 Displacement::Turn(theta) => body.turned_z(theta).turned(&link.rotation),
@@ -57,8 +59,8 @@ impl<'a, S: Scalar> Composite<'a, S> {
             };
             turned.moved(&link.lever(at))
         };
-        let (bodies, arrived) = chain.inward(whole, back, Body::with);
-        let arrived = arrived.unwrap_or_else(Body::zero);
+        let (bodies, arrived) = chain.inward(whole, back, MomentBody::with);
+        let arrived = arrived.unwrap_or_else(MomentBody::zero);
         let base = chain.base.as_ref().map(|body| body.with(&arrived));
         let mut twists: Vec<Vec<Twist<S>>> = Vec::with_capacity(chain.links.len());
         for (m, link) in chain.links.iter().enumerate() {
@@ -189,7 +191,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
         let (rates, accelerations) = (chain.rates(qd), chain.rates(qdd));
         let n = chain.links.len();
         let base = chain.base_motion([qd, qdd], gravity);
-        let mut motions: Vec<Motion<S>> = Vec::with_capacity(n);
+        let mut motions: Vec<LinkMotion<S>> = Vec::with_capacity(n);
         let mut wrenches = Vec::with_capacity(n);
         let mut static_loads = Vec::with_capacity(n);
         for (i, link) in chain.links.iter().enumerate() {
@@ -310,7 +312,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
     }
 }
 
-fn slid<S: Scalar>(body: &Body<S>, acceleration: &Vector<S>) -> Wrench<S> {
+fn slid<S: Scalar>(body: &MomentBody<S>, acceleration: &Vector<S>) -> Wrench<S> {
     Wrench {
         force: scaled(&body.mass, acceleration),
         moment: cross(&body.first, acceleration),

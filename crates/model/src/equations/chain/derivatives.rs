@@ -4,8 +4,8 @@
 use alloc::vec::Vec;
 
 use super::composite::{Composite, CompositeOrder, JointEffect};
-use super::recursion::{AccelerationForm, MomentForm, Motion, Motions};
-use super::{Body, ChainLink, Displacement, Rotation};
+use super::recursion::{AccelerationForm, LinkMotion, MomentForm, Motions};
+use super::{ChainLink, Displacement, MomentBody, Rotation};
 use crate::equations::matrix::*;
 use crate::equations::screws::{Twist, Wrench};
 use crate::robot::JointKind;
@@ -27,7 +27,7 @@ pub(super) struct Flow<S> {
     moment: Rotation<S>,
 }
 
-pub(super) struct Joint<S> {
+pub(super) struct JointSlopes<S> {
     /// The first and second rate of the joint's twist.
     pub(super) drift: [Twist<S>; 2],
     pub(super) push: Wrench<S>,
@@ -84,13 +84,13 @@ impl<S: Scalar> Composite<'_, S> {
     }
 
     /// Returns each joint's contribution by itself.
-    pub(super) fn own_slopes(&self, qd: &[S], qdd: &[S]) -> Vec<Joint<S>> {
+    pub(super) fn own_slopes(&self, qd: &[S], qdd: &[S]) -> Vec<JointSlopes<S>> {
         self.own_slopes_to(qd, qdd).0
     }
 
     /// Returns the slopes, and the flow of all bodies where it arrives at the base. That a base moves
     /// along has no effect but on its acceleration: velocities are those of one that only turns.
-    fn own_slopes_to(&self, qd: &[S], qdd: &[S]) -> (Vec<Joint<S>>, Flow<S>) {
+    fn own_slopes_to(&self, qd: &[S], qdd: &[S]) -> (Vec<JointSlopes<S>>, Flow<S>) {
         let chain = self.chain;
         let velocities = chain.velocities(self.at, chain.base_turning(qd), qd);
         let Motions { links: motions, .. } =
@@ -110,7 +110,7 @@ impl<S: Scalar> Composite<'_, S> {
             let damping = flow
                 .of_turn(&twist.turn)
                 .with(&inertial(body, &first.doubled()));
-            let joint = Joint {
+            let joint = JointSlopes {
                 push,
                 swing: flow.swing(link),
                 position: (changing.along(&twist), changing.with(&turned)),
@@ -199,7 +199,11 @@ pub(super) fn rate<S: Scalar>(link: &ChainLink<S>, velocity: &Twist<S>) -> Twist
 }
 
 /// Returns V × Δ and its rate: of a joint that turns the third column of U, and of the origin.
-fn drift<S: Scalar>(link: &ChainLink<S>, velocity: &Twist<S>, motion: &Motion<S>) -> [Twist<S>; 2] {
+fn drift<S: Scalar>(
+    link: &ChainLink<S>,
+    velocity: &Twist<S>,
+    motion: &LinkMotion<S>,
+) -> [Twist<S>; 2] {
     let first = rate(link, velocity);
     let second = match link.kind {
         JointKind::Revolute => {
@@ -218,7 +222,7 @@ fn drift<S: Scalar>(link: &ChainLink<S>, velocity: &Twist<S>, motion: &Motion<S>
 }
 
 /// Returns the wrench of t + α × r of a body: m t + α × s, and s × t + I α with I = tr(Σ)·1 − Σ.
-pub(super) fn inertial<S: Scalar>(body: &Body<S>, twist: &Twist<S>) -> Wrench<S> {
+pub(super) fn inertial<S: Scalar>(body: &MomentBody<S>, twist: &Twist<S>) -> Wrench<S> {
     let Twist { turn, shift } = twist;
     let force = sum(&scaled(&body.mass, shift), &cross(turn, &body.first));
     let moment = tensor_times(&body.tensor(), turn);
@@ -245,7 +249,7 @@ impl<S: Scalar> Flow<S> {
     }
 
     /// Returns V = v + ω × r over one body: ∫ V dm = m v + ω × s and ∫ V rᵀ dm = v sᵀ + [ω]× Σ.
-    pub(super) fn of(body: &Body<S>, velocity: &Twist<S>) -> Self {
+    pub(super) fn of(body: &MomentBody<S>, velocity: &Twist<S>) -> Self {
         let (omega, origin) = (&velocity.turn, &velocity.shift);
         let columns = body.second.rows().map(|column| cross(omega, &column));
         let entry = |r: usize, c: usize| plus(&times(&origin[r], &body.first[c]), &columns[c][r]);

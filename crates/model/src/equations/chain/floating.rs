@@ -5,8 +5,8 @@ use alloc::vec::Vec;
 
 use super::composite::{Composite, JointEffect};
 use super::derivatives::{Flow, Slopes, inertial};
-use super::recursion::Motion;
-use super::{Body, Chain};
+use super::recursion::LinkMotion;
+use super::{Chain, MomentBody};
 use crate::equations::BASE_COORDINATES;
 use crate::equations::matrix::*;
 use crate::equations::screws::{Twist, Wrench};
@@ -74,14 +74,14 @@ impl<S: Scalar> Chain<S> {
 
     /// Returns the motion of the base, which rises instead of being pulled down. The velocity of
     /// its origin turns with its axes: the acceleration is v̇ + ω × v.
-    pub(super) fn base_motion(&self, [qd, qdd]: [&[S]; 2], gravity: &Vector<S>) -> Motion<S> {
+    pub(super) fn base_motion(&self, [qd, qdd]: [&[S]; 2], gravity: &Vector<S>) -> LinkMotion<S> {
         if self.base.is_none() {
-            return Motion::base([zero_vector(), zero_vector()], opposite(gravity));
+            return LinkMotion::base([zero_vector(), zero_vector()], opposite(gravity));
         }
         let ([v, omega], [v_dot, omega_dot]) = (parts(qd), parts(qdd));
         let acceleration = scaled(&self.per_unit, &sum(&v_dot, &cross(&omega, &v)));
         let rising = difference(&acceleration, gravity);
-        Motion::base([omega, omega_dot], rising)
+        LinkMotion::base([omega, omega_dot], rising)
     }
 
     /// Returns a load of a coordinate, or a slope by it, in metres.
@@ -105,7 +105,7 @@ impl<S: Scalar> Chain<S> {
     pub(super) fn with_base(
         &self,
         (joints, arrived): (Vec<S>, Wrench<S>),
-        base_wrench: impl FnOnce(&Body<S>) -> Wrench<S>,
+        base_wrench: impl FnOnce(&MomentBody<S>) -> Wrench<S>,
     ) -> Vec<S> {
         let Some(body) = &self.base else {
             return joints;
@@ -115,7 +115,7 @@ impl<S: Scalar> Chain<S> {
     }
 
     /// Returns the loads of its weight on a base that floats with all that it carries.
-    pub(super) fn weight(&self, body: &Body<S>) -> [S; BASE_COORDINATES] {
+    pub(super) fn weight(&self, body: &MomentBody<S>) -> [S; BASE_COORDINATES] {
         let force = opposite(&scaled(&body.mass, &self.gravity));
         let moment = opposite(&cross(&body.first, &self.gravity));
         self.on_base(&Wrench { force, moment })
@@ -125,14 +125,14 @@ impl<S: Scalar> Chain<S> {
 impl<S: Divide> Chain<S> {
     /// Returns accelerations of a base that floats which shorten the recursion, and the motion that
     /// they give: it falls freely, and ω̇ makes U_12, U_23 and U_31 vanish.
-    pub(super) fn falling(&self, qd: &[S]) -> ([S; BASE_COORDINATES], Motion<S>) {
+    pub(super) fn falling(&self, qd: &[S]) -> ([S; BASE_COORDINATES], LinkMotion<S>) {
         let [v, omega] = parts(qd);
         let [x, y, z] = &omega;
         let omega_dot = [times(y, z), times(x, z), times(x, y)];
         let fall = self.gravity.each_ref().map(|g| g.div(&self.per_unit));
         let [a, b, c] = difference(&fall, &cross(&omega, &v));
         let [d, e, f] = omega_dot.clone();
-        let motion = Motion::base([omega, omega_dot], zero_vector());
+        let motion = LinkMotion::base([omega, omega_dot], zero_vector());
         ([a, b, c, d, e, f], motion)
     }
 }
@@ -210,7 +210,11 @@ impl<S: Scalar> Composite<'_, S> {
     }
 
     /// Returns D of all coordinates, from that of the joints.
-    pub(super) fn bordered_inertia(&self, body: &Body<S>, joints: Vec<Vec<S>>) -> Vec<Vec<S>> {
+    pub(super) fn bordered_inertia(
+        &self,
+        body: &MomentBody<S>,
+        joints: Vec<Vec<S>>,
+    ) -> Vec<Vec<S>> {
         let pushes: Vec<Wrench<S>> = (0..joints.len()).map(|k| self.push_on_base(k)).collect();
         let base = |unit: &Twist<S>| inertial(body, unit);
         let along = |i: usize, k: usize, _: &Twist<S>| {
@@ -235,7 +239,7 @@ impl<S: Scalar> Composite<'_, S> {
     /// velocity, and e × g as the base turns.
     pub(super) fn bordered_slopes(
         &self,
-        (body, flow): (&Body<S>, &Flow<S>),
+        (body, flow): (&MomentBody<S>, &Flow<S>),
         qd: &[S],
         later: Vec<JointEffect<S, 3, 1>>,
         joints: Slopes<S>,
@@ -280,7 +284,7 @@ impl<S: Scalar> Composite<'_, S> {
     /// a unit twist of the base turns with its axes.
     pub(super) fn bordered_coriolis(
         &self,
-        (body, flow): (&Body<S>, &Flow<S>),
+        (body, flow): (&MomentBody<S>, &Flow<S>),
         qd: &[S],
         later: Vec<JointEffect<S, 2, 1>>,
         joints: Vec<Vec<S>>,

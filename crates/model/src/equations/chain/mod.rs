@@ -23,7 +23,7 @@ mod spin;
 
 use alloc::vec::Vec;
 
-pub use body::Body;
+pub use body::MomentBody;
 pub use form::{Form, HandChoice, HandForm};
 pub use parallel::Unknowns;
 pub use pose::Displacement;
@@ -49,7 +49,7 @@ pub struct Chain<S> {
     /// Acceleration of gravity in base axes.
     pub gravity: Vector<S>,
     /// The body of a base that floats, about the origin of the base.
-    pub base: Option<Body<S>>,
+    pub base: Option<MomentBody<S>>,
     /// The probes that are fixed to it.
     pub base_probes: Vec<Probe<S>>,
     /// Links, each after the one that carries it.
@@ -76,7 +76,7 @@ pub struct ChainLink<S> {
     /// The pair of the constant added to q (revolute).
     pub theta: SinCosPair<S>,
     /// The link, about the origin and in the axes of its frame.
-    pub body: Body<S>,
+    pub body: MomentBody<S>,
     /// The probes that are fixed to it, a column of a regressor each; not regrouped.
     pub probes: Vec<Probe<S>>,
     /// Mass, first and second moment along a revolute axis that the link could keep, arrivals too.

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use super::derivatives::inertial;
-use super::{Body, Chain, ChainLink, Displacement};
+use super::{Chain, ChainLink, Displacement, MomentBody};
 use crate::equations::matrix::*;
 use crate::equations::screws::{Twist, Wrench};
 use crate::robot::JointKind;
@@ -23,7 +23,7 @@ impl<S: Scalar> Twist<S> {
 }
 
 /// Returns ½ m v·v + v·(ω × ∫ r dm) + ½ ω·(I ω)
-fn energy_of<S: Scalar>(body: &Body<S>, velocity: &Twist<S>) -> S {
+fn energy_of<S: Scalar>(body: &MomentBody<S>, velocity: &Twist<S>) -> S {
     let (omega, origin) = (&velocity.turn, &velocity.shift);
     let half = body.tensor().map(halved);
     let spin = tensor_times(&half, omega);

@@ -4,7 +4,7 @@
 
 use alloc::vec::Vec;
 
-use super::recursion::{MomentForm, Motion, Motions, from_column, from_rates};
+use super::recursion::{LinkMotion, MomentForm, Motions, from_column, from_rates};
 use super::{Chain, ChainLink, Displacement};
 use crate::equations::matrix::*;
 use crate::robot::JointKind;
@@ -17,7 +17,7 @@ struct Mixed<S> {
     /// Half of that of v: the halves are taken once, at the joints.
     half_nu: Vector<S>,
     /// U and v̇, bilinear in the velocities; without a velocity of its own.
-    motion: Motion<S>,
+    motion: LinkMotion<S>,
 }
 
 impl<S: Scalar> Mixed<S> {
@@ -50,7 +50,7 @@ impl<S: Scalar> Mixed<S> {
         let column = link.inward(at, &motion.u_times(&axis));
         let (omega_dot, u) = from_column(mixed(&omega, &half_nu), &along, column);
         Mixed {
-            motion: Motion {
+            motion: LinkMotion {
                 omega: zero_vector(),
                 omega_dot,
                 u,
@@ -109,7 +109,7 @@ impl<S: Scalar> Chain<S> {
             0 => Vec::new(),
             _ => [&v[..3], &qd[3..6]].concat(),
         };
-        let Motion {
+        let LinkMotion {
             omega,
             omega_dot,
             acceleration,
@@ -118,7 +118,7 @@ impl<S: Scalar> Chain<S> {
         let half_nu = self.base_twist(halves).turn;
         let omega_dot = sum(&omega_dot, &cross(&omega, &half_nu));
         Mixed {
-            motion: Motion {
+            motion: LinkMotion {
                 omega: zero_vector(),
                 u: from_rates(mixed(&omega, &half_nu), &omega_dot),
                 omega_dot,

@@ -3,7 +3,7 @@
 
 use alloc::vec::Vec;
 
-use super::{Body, Chain, ChainLink, Displacement};
+use super::{Chain, ChainLink, Displacement, MomentBody};
 use crate::equations::matrix::*;
 use crate::equations::screws::Wrench;
 use crate::robot::JointKind;
@@ -30,7 +30,7 @@ pub enum MomentForm {
 
 /// The motion of one link, in its own axes.
 #[derive(Clone, Debug)]
-pub(super) struct Motion<S> {
+pub(super) struct LinkMotion<S> {
     pub(super) omega: Vector<S>,
     pub(super) omega_dot: Vector<S>,
     pub(super) u: [Vector<S>; 3],
@@ -38,9 +38,9 @@ pub(super) struct Motion<S> {
     pub(super) acceleration: Vector<S>,
 }
 
-impl<S: Scalar> Motion<S> {
+impl<S: Scalar> LinkMotion<S> {
     pub(super) fn base([omega, omega_dot]: [Vector<S>; 2], acceleration: Vector<S>) -> Self {
-        Motion {
+        LinkMotion {
             u: from_rates(squares(&omega), &omega_dot),
             omega,
             omega_dot,
@@ -66,7 +66,7 @@ impl<S: Scalar> Motion<S> {
                 let carried = sum(&self.acceleration, &self.u_times(&link.lever(at)));
                 let axis = &link.axis;
                 let coriolis = cross(&scaled(&twice(rate), &self.omega), axis);
-                Motion {
+                LinkMotion {
                     acceleration: sum(&sum(&carried, &coriolis), &scaled(acceleration, axis)),
                     ..self.clone()
                 }
@@ -105,7 +105,7 @@ impl<S: Scalar> Motion<S> {
                 (omega_dot, u)
             }
         };
-        Motion {
+        LinkMotion {
             omega,
             omega_dot,
             u,
@@ -113,7 +113,7 @@ impl<S: Scalar> Motion<S> {
         }
     }
 
-    pub(super) fn wrench(&self, body: &Body<S>, couple: MomentForm) -> Wrench<S> {
+    pub(super) fn wrench(&self, body: &MomentBody<S>, couple: MomentForm) -> Wrench<S> {
         let force = scaled(&body.mass, &self.acceleration);
         let force = sum(&force, &self.u_times(&body.first));
         let moment = self.couple(body, couple);
@@ -122,7 +122,7 @@ impl<S: Scalar> Motion<S> {
     }
 
     /// Returns ∫ r × (U r) dm
-    fn couple(&self, body: &Body<S>, form: MomentForm) -> Vector<S> {
+    fn couple(&self, body: &MomentBody<S>, form: MomentForm) -> Vector<S> {
         match form {
             MomentForm::SecondMoments => {
                 let s = body.second.rows();
@@ -199,8 +199,8 @@ fn squares<S: Scalar>(omega: &Vector<S>) -> impl Fn(usize, usize) -> S + '_ {
 
 /// The motion of the base, and those of the links.
 pub(super) struct Motions<S> {
-    pub(super) base: Motion<S>,
-    pub(super) links: Vec<Motion<S>>,
+    pub(super) base: LinkMotion<S>,
+    pub(super) links: Vec<LinkMotion<S>>,
 }
 
 impl<S: Scalar> Chain<S> {
@@ -264,7 +264,7 @@ impl<S: Scalar> Chain<S> {
     ) -> Motions<S> {
         let (rates, accelerations) = (self.rates(qd), self.rates(qdd));
         let base = self.base_motion([qd, qdd], &self.gravity);
-        let links = self.outward(base.clone(), |i, before: &Motion<S>| {
+        let links = self.outward(base.clone(), |i, before: &LinkMotion<S>| {
             before.next(&self.links[i], &at[i], &rates[i], &accelerations[i], spin)
         });
         Motions { base, links }
@@ -314,7 +314,7 @@ impl<S: Divide> Chain<S> {
                 base
             }
         };
-        let mut links: Vec<Motion<S>> = Vec::with_capacity(self.links.len());
+        let mut links: Vec<LinkMotion<S>> = Vec::with_capacity(self.links.len());
         for (i, link) in self.links.iter().enumerate() {
             let before = link.parent.map_or(&base, |parent| &links[parent]);
             let (next, acceleration) = match link.kind {

@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 
 use super::composite::CompositeOrder;
 use super::floating::unit_twists;
-use super::recursion::{AccelerationForm, MomentForm, Motion, Motions};
-use super::{Body, Chain, Displacement, Rotation, Segment, Skeleton};
+use super::recursion::{AccelerationForm, LinkMotion, MomentForm, Motions};
+use super::{Chain, Displacement, MomentBody, Rotation, Segment, Skeleton};
 use crate::equations::matrix::{
     Vector, cross, difference, dot, plus, sum, times, zero_vector, zeros,
 };
@@ -46,7 +46,7 @@ pub struct Probe<S> {
 #[derive(Clone, Debug)]
 pub enum Probed<S> {
     /// A body, about the origin and in the axes of the link's frame.
-    Body(Body<S>),
+    Body(MomentBody<S>),
     /// A unit of the rotor's inertia.
     Armature,
     /// A unit of viscous friction.
@@ -54,7 +54,7 @@ pub enum Probed<S> {
 }
 
 impl<S> Probed<S> {
-    fn through<T>(&self, f: impl FnOnce(&Body<S>) -> Body<T>) -> Probed<T> {
+    fn through<T>(&self, f: impl FnOnce(&MomentBody<S>) -> MomentBody<T>) -> Probed<T> {
         match self {
             Probed::Body(body) => Probed::Body(f(body)),
             Probed::Armature => Probed::Armature,
@@ -70,7 +70,7 @@ impl<S> Probe<S> {
 
     pub(super) fn each<T>(
         probes: &[Probe<S>],
-        mut f: impl FnMut(&Body<S>) -> Body<T>,
+        mut f: impl FnMut(&MomentBody<S>) -> MomentBody<T>,
     ) -> Vec<Probe<T>> {
         let mapped_probes = probes.iter().map(|probe| Probe {
             column: probe.column,
@@ -98,7 +98,7 @@ impl<S: Scalar> Skeleton<S> {
     /// Returns the skeleton whose bodies have its columns, times these values, and no columns.
     #[must_use]
     pub fn with_values(mut self, values: &[S]) -> Skeleton<S> {
-        let weighed = |unit: &Body<S>, value: &S| unit.map(|x| times(value, x));
+        let weighed = |unit: &MomentBody<S>, value: &S| unit.map(|x| times(value, x));
         for Segment { link, .. } in &mut self.links {
             for probe in core::mem::take(&mut link.probes) {
                 match (&probe.of, values.get(probe.column)) {
@@ -191,21 +191,23 @@ impl<S: Scalar> Chain<S> {
                 base.centres.extend(meeting(&base.twists));
             }
         }
-        let enter = |rows: &mut Vec<Vec<S>>, way: &Way<S>, motion: &Motion<S>, probe: &Probe<S>| {
-            let Probed::Body(body) = &probe.of else {
-                return;
-            };
-            let wrench = motion.wrench(body, MomentForm::SecondMoments);
-            let about = |centre: &Centre<S>| sum(&wrench.moment, &cross(&wrench.force, &centre.at));
-            let moments: Vec<Vector<S>> = way.centres.iter().map(about).collect();
-            for (k, twist) in &way.twists {
-                let power = match widest(&way.centres, *k) {
-                    Some(centre) => dot(&twist.turn, &moments[centre]),
-                    None => wrench.along(twist),
+        let enter =
+            |rows: &mut Vec<Vec<S>>, way: &Way<S>, motion: &LinkMotion<S>, probe: &Probe<S>| {
+                let Probed::Body(body) = &probe.of else {
+                    return;
                 };
-                rows[*k][probe.column] = self.coordinate_in_metres(*k, power);
-            }
-        };
+                let wrench = motion.wrench(body, MomentForm::SecondMoments);
+                let about =
+                    |centre: &Centre<S>| sum(&wrench.moment, &cross(&wrench.force, &centre.at));
+                let moments: Vec<Vector<S>> = way.centres.iter().map(about).collect();
+                for (k, twist) in &way.twists {
+                    let power = match widest(&way.centres, *k) {
+                        Some(centre) => dot(&twist.turn, &moments[centre]),
+                        None => wrench.along(twist),
+                    };
+                    rows[*k][probe.column] = self.coordinate_in_metres(*k, power);
+                }
+            };
         for probe in &self.base_probes {
             enter(&mut rows, &base, &motions.base, probe);
         }

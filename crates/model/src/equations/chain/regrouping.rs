@@ -3,7 +3,7 @@
 
 use alloc::vec::Vec;
 
-use super::{Body, Chain, ChainLink, Probe, Skeleton, apply};
+use super::{Chain, ChainLink, MomentBody, Probe, Skeleton, apply};
 use crate::equations::matrix::*;
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
@@ -76,7 +76,7 @@ pub struct MetricChain<S> {
     /// The chain, whatever the unit of its regrouping.
     pub chain: Chain<S>,
     /// The moments that arrive from each link at the one that carries it.
-    arriving: Vec<Body<S>>,
+    arriving: Vec<MomentBody<S>>,
 }
 
 impl<S: Scalar> MetricChain<S> {
@@ -103,7 +103,7 @@ impl<S: Scalar> MetricChain<S> {
             .iter()
             .map(|segment| segment.link.parent)
             .collect();
-        let mut kept: Vec<Option<(&ChainLink<S>, &Body<S>)>> = match known {
+        let mut kept: Vec<Option<(&ChainLink<S>, &MomentBody<S>)>> = match known {
             Some((known, _)) => known
                 .chain
                 .links
@@ -204,7 +204,7 @@ fn placed<S: Scalar>(
 
 impl<S: Scalar> ChainLink<S> {
     /// Gives away the moments that it need not keep: returns what arrives at the link before.
-    fn regroup(&mut self, keep: &LinkRegrouping<S>) -> Body<S> {
+    fn regroup(&mut self, keep: &LinkRegrouping<S>) -> MomentBody<S> {
         let moving = self.moving(&self.body, keep);
         let body = &self.body;
         self.free = [
@@ -216,8 +216,8 @@ impl<S: Scalar> ChainLink<S> {
         self.arriving(&moving)
     }
 
-    fn moving(&self, body: &Body<S>, keep: &LinkRegrouping<S>) -> Body<S> {
-        let mut moving = Body::zero();
+    fn moving(&self, body: &MomentBody<S>, keep: &LinkRegrouping<S>) -> MomentBody<S> {
+        let mut moving = MomentBody::zero();
         match self.kind {
             JointKind::Revolute => {
                 moving.mass = body.mass.sub(&keep.mass);
@@ -230,7 +230,7 @@ impl<S: Scalar> ChainLink<S> {
         moving
     }
 
-    fn arriving(&self, moving: &Body<S>) -> Body<S> {
+    fn arriving(&self, moving: &MomentBody<S>) -> MomentBody<S> {
         match self.kind {
             JointKind::Revolute => moving.carried(&self.rotation, &self.offset),
             // Second moments without mass have no place, only axes, and these are shared.
@@ -240,7 +240,7 @@ impl<S: Scalar> ChainLink<S> {
 
     /// Splits a body into the part that the link keeps where all moves that can, and the part that
     /// arrives before it.
-    pub fn split_base(&self, body: &Body<S>) -> (Body<S>, Body<S>) {
+    pub fn split_base(&self, body: &MomentBody<S>) -> (MomentBody<S>, MomentBody<S>) {
         let moving = self.moving(body, &LinkRegrouping::base(zero_vector()));
         (body.with(&moving.negated()), self.arriving(&moving))
     }

@@ -3,9 +3,9 @@
 
 use alloc::vec::Vec;
 
-use super::Body;
+use super::MomentBody;
 use super::composite::{Composite, CompositeOrder, JointEffect};
-use super::derivatives::{Flow, Joint, inertial, rate};
+use super::derivatives::{Flow, JointSlopes, inertial, rate};
 use crate::equations::matrix::*;
 use crate::equations::screws::Twist;
 use crate::scalar::Scalar;
@@ -24,12 +24,12 @@ pub struct SecondDerivatives<S> {
 }
 
 /// Δ, Δ′, Δ̇ and Δ̈ of a joint: the twists that wrenches of later joints have power on.
-type Earlier<S> = [Twist<S>; 4];
+type EarlierBends<S> = [Twist<S>; 4];
 
 /// The change of a joint's composite body as the joint turns and is driven: of the force ∫ a dm, of
 /// the momentum ∫ ℓ dm of Λ, of the force as the joint's velocity grows and as its acceleration does;
 /// of 2 ∫ v × ℓ dm, and of the same as its velocity grows.
-type Later<S> = JointEffect<S, 4, 2>;
+type LaterBends<S> = JointEffect<S, 4, 2>;
 
 impl<S: Scalar> Composite<'_, S> {
     /// Returns the second derivatives of λᵀτ; `driven` is ∂(D λ)/∂q, row i that of entry i.
@@ -64,7 +64,10 @@ impl<S: Scalar> Composite<'_, S> {
         derivatives
     }
 
-    fn pairs(&self, [qd, qdd, multiplier]: [&[S]; 3]) -> (Vec<Earlier<S>>, Vec<Later<S>>) {
+    fn pairs(
+        &self,
+        [qd, qdd, multiplier]: [&[S]; 3],
+    ) -> (Vec<EarlierBends<S>>, Vec<LaterBends<S>>) {
         let chain = self.chain;
         let joints = self.own_slopes(qd, qdd);
         let velocities = chain.velocities(self.at, Twist::rest(), qd);
@@ -93,7 +96,7 @@ impl<S: Scalar> Composite<'_, S> {
 }
 
 impl<S: Scalar> SecondDerivatives<S> {
-    fn enter(&mut self, [i, k]: [usize; 2], earlier: &Earlier<S>, later: &Later<S>) {
+    fn enter(&mut self, [i, k]: [usize; 2], earlier: &EarlierBends<S>, later: &LaterBends<S>) {
         let [twist, virtually, first, second] = earlier;
         let [force, momentum, damping, push] = &later.wrenches;
         let [couple, swing] = &later.vectors;
@@ -112,13 +115,13 @@ impl<S: Scalar> SecondDerivatives<S> {
 }
 
 fn later<S: Scalar>(
-    body: &Body<S>,
-    joint: &Joint<S>,
-    [twist, virtually, first, _]: &Earlier<S>,
+    body: &MomentBody<S>,
+    joint: &JointSlopes<S>,
+    [twist, virtually, first, _]: &EarlierBends<S>,
     flow: &Flow<S>,
     couple: &Vector<S>,
     swing: Vector<S>,
-) -> Later<S> {
+) -> LaterBends<S> {
     let turned = flow.wrench().turned(twist);
     let within = difference(&joint.flow.across(virtually), &flow.across(first));
     let changed = sum(&cross(&twist.turn, couple), &within);
@@ -135,7 +138,7 @@ fn later<S: Scalar>(
 
 /// Returns ∫ v × ℓ dm of a body, where points move by v = v₀ + ω × r and by ℓ = ℓ₀ + ν × r:
 /// (m v₀ + ω × s) × ℓ₀ + v₀ × (ν × s) + Σ (ω × ν), since (ω × r) × (ν × r) = r (r·(ω × ν)).
-fn crossed<S: Scalar>(body: &Body<S>, v: &Twist<S>, l: &Twist<S>) -> Vector<S> {
+fn crossed<S: Scalar>(body: &MomentBody<S>, v: &Twist<S>, l: &Twist<S>) -> Vector<S> {
     let momentum = Flow::of(body, v).wrench().force;
     let straight = cross(&momentum, &l.shift);
     let straight = sum(&straight, &cross(&v.shift, &cross(&l.turn, &body.first)));

@@ -9,7 +9,7 @@ use alloc::vec::Vec;
 use super::body::entry;
 use super::composite::{Composite, CompositeOrder};
 use super::recursion::ReferenceMotion;
-use super::{Body, Chain, ChainLink, Displacement, Form, apply, apply_transposed};
+use super::{Chain, ChainLink, Displacement, Form, MomentBody, apply, apply_transposed};
 use crate::equations::factor::{Factor, picked, placed};
 use crate::equations::forward::free;
 use crate::equations::matrix::*;
@@ -254,9 +254,9 @@ struct HingeSolution<S> {
 impl<S: Scalar> HingedBody<S> {
     fn carried(&self, link: &ChainLink<S>, at: &Displacement<S>) -> Self {
         // A tensor turns as second moments do.
-        let body = Body {
+        let body = MomentBody {
             second: self.inertia.clone(),
-            ..Body::zero()
+            ..MomentBody::zero()
         };
         let inertia = match at {
             Displacement::Turn(theta) => body.turned_z(theta).turned(&link.rotation).second,
@@ -266,7 +266,7 @@ impl<S: Scalar> HingedBody<S> {
         HingedBody { inertia, moment }
     }
 
-    fn with(&self, body: &Body<S>, height: &S, wrench: &Wrench<S>) -> Self {
+    fn with(&self, body: &MomentBody<S>, height: &S, wrench: &Wrench<S>) -> Self {
         let lever = [S::zero(), S::zero(), height.clone()];
         let tensor = body.moved(&lever).tensor();
         let both = |i: usize, k: usize| plus(entry(&self.inertia, i, k), entry(&tensor, i, k));

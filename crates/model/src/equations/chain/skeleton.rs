@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::pose::sense;
 use super::regressor::{Column, Probe, probes};
-use super::{Body, ChainLink, Rotation, apply, product, turn};
+use super::{ChainLink, MomentBody, Rotation, apply, product, turn};
 use crate::equations::matrix::*;
 use crate::equations::{Arm, DhVariables, JointPosition, SinCosPair};
 use crate::robot::{Convention, JointKind};
@@ -17,7 +17,7 @@ pub struct Skeleton<S> {
     /// Acceleration of gravity in base axes.
     pub gravity: Vector<S>,
     /// The body of a base that floats.
-    pub base: Option<Body<S>>,
+    pub base: Option<MomentBody<S>>,
     /// The probes that are fixed to it, a column of a regressor each.
     pub base_probes: Vec<Probe<S>>,
     /// The joints that move, each after the one that carries it; none of them are those of a base.
@@ -59,7 +59,7 @@ impl<S: Scalar> Skeleton<S> {
             merged: false,
         };
         let floating = arm.base_joints().checked_sub(1);
-        let mut base_body = floating.map(|body| Body::of(&arm.links[body]));
+        let mut base_body = floating.map(|body| MomentBody::of(&arm.links[body]));
         let mut base_probes = Vec::new();
         if let Some(body) = floating {
             base_probes.extend(probes(columns, body, &identity(), &zero_vector()));
@@ -91,7 +91,7 @@ impl<S: Scalar> Skeleton<S> {
                 Convention::Standard => (twist, along),
                 Convention::Modified => (identity(), zero_vector()),
             };
-            let body = Body::of(link);
+            let body = MomentBody::of(link);
             if let Some(Some(lock)) = locks.get(joint) {
                 let DhVariables { theta, d } = link.at(lock);
                 moved = sum(&moved, &apply(&turned, &[S::zero(), S::zero(), d]));
@@ -126,7 +126,7 @@ impl<S: Scalar> Skeleton<S> {
                 offset: moved.clone(),
                 axis: unit_z(),
                 theta: link.theta.clone(),
-                body: Body::zero(),
+                body: MomentBody::zero(),
                 probes: Vec::new(),
                 free: zero_vector(),
                 armature: link.armature.clone(),

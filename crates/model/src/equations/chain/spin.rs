@@ -9,7 +9,7 @@ use alloc::vec::Vec;
 
 use super::composite::{Composite, CompositeOrder};
 use super::recursion::ReferenceMotion;
-use super::{Body, Chain, ChainLink, Displacement, Form, Unknowns};
+use super::{Chain, ChainLink, Displacement, Form, MomentBody, Unknowns};
 use crate::equations::SinCosPair;
 use crate::equations::forward::inverted;
 use crate::equations::matrix::*;
@@ -23,7 +23,7 @@ pub struct EliminatedTip<'a, S> {
     /// The joints before; the last link is fixed to theirs.
     chain: Chain<S>,
     /// The last link with what is left about the axis, in the axes that it turns from.
-    link: Body<S>,
+    link: MomentBody<S>,
     /// J
     inertia: S,
     /// 1/(J + A)

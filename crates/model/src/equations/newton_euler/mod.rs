@@ -13,16 +13,16 @@ use super::matrix::{Vector, centripetal, cross, opposite, plus, sum, times, zero
 use crate::scalar::Scalar;
 
 #[derive(Clone, Debug)]
-pub(super) struct Motion<S> {
+pub(super) struct FrameMotion<S> {
     omega: Vector<S>,
     omega_dot: Vector<S>,
     /// v̇ of the origin of frame i.
     acceleration: Vector<S>,
 }
 
-impl<S: Scalar> Motion<S> {
+impl<S: Scalar> FrameMotion<S> {
     fn new(omega: Vector<S>, omega_dot: Vector<S>, acceleration: Vector<S>) -> Self {
-        Motion {
+        FrameMotion {
             omega,
             omega_dot,
             acceleration,
@@ -31,7 +31,7 @@ impl<S: Scalar> Motion<S> {
 
     /// Returns the base, accelerated upwards instead of being pulled down.
     pub(super) fn of_base(gravity: &Vector<S>) -> Self {
-        Motion::new(zero_vector(), zero_vector(), opposite(gravity))
+        FrameMotion::new(zero_vector(), zero_vector(), opposite(gravity))
     }
 
     /// Returns ω̇ × r + ω × (ω × r).
@@ -40,7 +40,6 @@ impl<S: Scalar> Motion<S> {
         sum(&turning, &centripetal(&self.omega, r))
     }
 
-    /// Returns the acceleration of a point at r from the origin.
     fn acceleration_at(&self, r: &Vector<S>) -> Vector<S> {
         sum(&self.acceleration, &self.of_lever(r))
     }

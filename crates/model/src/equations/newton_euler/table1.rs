@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::{Motion, with_drive};
+use super::{FrameMotion, with_drive};
 use crate::equations::arm::Step;
 use crate::equations::matrix::*;
 use crate::equations::screws::Wrench;
@@ -11,7 +11,7 @@ use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 
 /// One link in base axes.
-struct Body<S> {
+struct BaseLink<S> {
     /// ⁰R_i
     rotation: [Vector<S>; 3],
     /// The joint's axis: z_{i−1}, or z_i in modified DH.
@@ -20,12 +20,12 @@ struct Body<S> {
     lever: Vector<S>,
     /// s̄_i
     com: Vector<S>,
-    motion: Motion<S>,
+    motion: FrameMotion<S>,
 }
 
 /// Returns τ by the recursion of Table 1.
 pub fn inverse_dynamics<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], qdd: &[S]) -> Vec<S> {
-    let bodies = bodies(arm, at, [qd, qdd], &Motion::of_base(&arm.gravity));
+    let bodies = bodies(arm, at, [qd, qdd], &FrameMotion::of_base(&arm.gravity));
     let wrenches = wrenches_on(arm, &bodies);
     let torque = |(i, link): (usize, &Link<S>)| {
         let along = dot(wrenches[i].part(link.kind), &bodies[i].axis);
@@ -37,7 +37,7 @@ pub fn inverse_dynamics<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], qdd: &[S]
 /// Returns f_i and n_i: what link i−1 exerts on link i, gravity included, the moment
 /// about the origin of frame i−1, or of frame i in modified DH.
 pub fn wrenches<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], qdd: &[S]) -> Vec<Wrench<S>> {
-    let bodies = bodies(arm, at, [qd, qdd], &Motion::of_base(&arm.gravity));
+    let bodies = bodies(arm, at, [qd, qdd], &FrameMotion::of_base(&arm.gravity));
     wrenches_on(arm, &bodies)
 }
 
@@ -46,7 +46,7 @@ pub(in crate::equations) fn tip_acceleration<S: Scalar>(
     arm: &Arm<S>,
     at: &At<S>,
     rates: [&[S]; 2],
-    base: &Motion<S>,
+    base: &FrameMotion<S>,
 ) -> [Vector<S>; 2] {
     let Some(last) = bodies(arm, at, rates, base).pop() else {
         return [base.acceleration.clone(), base.omega_dot.clone()];
@@ -55,7 +55,7 @@ pub(in crate::equations) fn tip_acceleration<S: Scalar>(
     [acceleration, last.motion.omega_dot]
 }
 
-fn wrenches_on<S: Scalar>(arm: &Arm<S>, bodies: &[Body<S>]) -> Vec<Wrench<S>> {
+fn wrenches_on<S: Scalar>(arm: &Arm<S>, bodies: &[BaseLink<S>]) -> Vec<Wrench<S>> {
     arm.inward(|i, arrived: Vec<(usize, Wrench<S>)>| {
         let (body, link) = (&bodies[i], &arm.links[i]);
         let inertial_force = scaled(&link.mass, &body.motion.acceleration_at(&body.com));
@@ -84,9 +84,14 @@ fn wrenches_on<S: Scalar>(arm: &Arm<S>, bodies: &[Body<S>]) -> Vec<Wrench<S>> {
     })
 }
 
-fn bodies<S: Scalar>(arm: &Arm<S>, at: &At<S>, rates: [&[S]; 2], base: &Motion<S>) -> Vec<Body<S>> {
+fn bodies<S: Scalar>(
+    arm: &Arm<S>,
+    at: &At<S>,
+    rates: [&[S]; 2],
+    base: &FrameMotion<S>,
+) -> Vec<BaseLink<S>> {
     let [qd, qdd] = rates;
-    let base = Body {
+    let base = BaseLink {
         rotation: identity(),
         axis: zero_vector(),
         lever: zero_vector(),
@@ -94,11 +99,11 @@ fn bodies<S: Scalar>(arm: &Arm<S>, at: &At<S>, rates: [&[S]; 2], base: &Motion<S
         motion: base.clone(),
     };
     let steps: Vec<Step<S>> = arm.steps(at).collect();
-    arm.outward(&base, |i, before: &Body<S>| {
+    arm.outward(&base, |i, before: &BaseLink<S>| {
         let (step, link) = (&steps[i], &arm.links[i]);
         // The step's own origin is p_i*: no difference of two large positions.
         let frame = step.append(&Columns::turned(before.rotation.clone()));
-        let body = Body {
+        let body = BaseLink {
             com: frame.rotate(&link.com),
             axis: step.at_joint(&before.rotation, &frame.axes)[2].clone(),
             rotation: frame.axes,
@@ -109,7 +114,7 @@ fn bodies<S: Scalar>(arm: &Arm<S>, at: &At<S>, rates: [&[S]; 2], base: &Motion<S
     })
 }
 
-impl<S: Scalar> Body<S> {
+impl<S: Scalar> BaseLink<S> {
     fn acceleration_of(&self, tool: Option<&Columns<S>>) -> Vector<S> {
         let Some(tool) = tool else {
             return self.motion.acceleration.clone();

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::{Motion, with_drive};
+use super::{FrameMotion, with_drive};
 use crate::equations::arm::Step;
 use crate::equations::matrix::*;
 use crate::equations::screws::Wrench;
@@ -23,7 +23,7 @@ pub enum Moment {
     Differences,
 }
 
-impl<S: Scalar> Motion<S> {
+impl<S: Scalar> FrameMotion<S> {
     /// Returns N_i = I_i ω̇_i + ω_i × (I_i ω_i)
     fn euler(&self, link: &Link<S>, moment: Moment) -> Vector<S> {
         let spin = match moment {
@@ -147,24 +147,27 @@ pub(in crate::equations) fn last_motion<S: Scalar>(
     at: &At<S>,
     qd: &[S],
     qdd: &[S],
-) -> Motion<S> {
+) -> FrameMotion<S> {
     let last = motions(arm, at, qd, qdd).pop();
-    last.unwrap_or_else(|| Motion::of_base(&arm.gravity))
+    last.unwrap_or_else(|| FrameMotion::of_base(&arm.gravity))
 }
 
-fn motions<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], qdd: &[S]) -> Vec<Motion<S>> {
+fn motions<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], qdd: &[S]) -> Vec<FrameMotion<S>> {
     let steps: Vec<Step<S>> = arm.steps(at).collect();
-    arm.outward(&Motion::of_base(&arm.gravity), |i, before: &Motion<S>| {
-        let step = &steps[i];
-        match step.convention {
-            Convention::Standard => standard(step, before, &qd[i], &qdd[i]),
-            Convention::Modified => modified(step, before, &qd[i], &qdd[i]),
-        }
-    })
+    arm.outward(
+        &FrameMotion::of_base(&arm.gravity),
+        |i, before: &FrameMotion<S>| {
+            let step = &steps[i];
+            match step.convention {
+                Convention::Standard => standard(step, before, &qd[i], &qdd[i]),
+                Convention::Modified => modified(step, before, &qd[i], &qdd[i]),
+            }
+        },
+    )
 }
 
 /// The joint moves along z_{i−1}, before the rotation X, and the rows of Table 2 stand as printed.
-fn standard<S: Scalar>(step: &Step<S>, before: &Motion<S>, qd: &S, qdd: &S) -> Motion<S> {
+fn standard<S: Scalar>(step: &Step<S>, before: &FrameMotion<S>, qd: &S, qdd: &S) -> FrameMotion<S> {
     let lever = step.link.lever_here(&step.at.d);
     let of_lever = |omega: &Vector<S>, omega_dot: &Vector<S>| {
         sum(&cross(omega_dot, &lever), &centripetal(omega, &lever))
@@ -176,7 +179,7 @@ fn standard<S: Scalar>(step: &Step<S>, before: &Motion<S>, qd: &S, qdd: &S) -> M
             let omega_dot = step.to_link(&sum(&before.omega_dot, &turning));
             let acceleration = step.to_link(&before.acceleration);
             let acceleration = sum(&acceleration, &of_lever(&omega, &omega_dot));
-            Motion::new(omega, omega_dot, acceleration)
+            FrameMotion::new(omega, omega_dot, acceleration)
         }
         JointKind::Prismatic => {
             let omega = step.to_link(&before.omega);
@@ -185,24 +188,24 @@ fn standard<S: Scalar>(step: &Step<S>, before: &Motion<S>, qd: &S, qdd: &S) -> M
             let along = scaled(&twice(qd), &step.link.axis_here());
             let coriolis = cross(&omega, &along);
             let acceleration = sum(&sliding, &of_lever(&omega, &omega_dot));
-            Motion::new(omega, omega_dot, sum(&acceleration, &coriolis))
+            FrameMotion::new(omega, omega_dot, sum(&acceleration, &coriolis))
         }
     }
 }
 
 /// The joint moves along z_i, after the rotation X, and the lever P_i belongs to the previous link.
-fn modified<S: Scalar>(step: &Step<S>, before: &Motion<S>, qd: &S, qdd: &S) -> Motion<S> {
+fn modified<S: Scalar>(step: &Step<S>, before: &FrameMotion<S>, qd: &S, qdd: &S) -> FrameMotion<S> {
     let carried = step.to_link(&before.acceleration_at(&step.lever_before()));
     let omega = step.to_link(&before.omega);
     let omega_dot = step.to_link(&before.omega_dot);
     match step.link.kind {
         JointKind::Revolute => {
             let omega_dot = sum(&omega_dot, &plus_z(&cross_z(&omega, qd), qdd));
-            Motion::new(plus_z(&omega, qd), omega_dot, carried)
+            FrameMotion::new(plus_z(&omega, qd), omega_dot, carried)
         }
         JointKind::Prismatic => {
             let sliding = plus_z(&cross_z(&omega, &twice(qd)), qdd);
-            Motion::new(omega, omega_dot, sum(&carried, &sliding))
+            FrameMotion::new(omega, omega_dot, sum(&carried, &sliding))
         }
     }
 }

@@ -94,7 +94,7 @@ fn compare(arm: &Arm<S>, draw: &mut Draw, round: usize) {
 }
 
 /// A locked link is a part of the one that carries it: D loses a row and a column.
-fn locked(arm: &Arm<S>, draw: &mut Draw, position: &Position, d: &[Vec<S>], round: usize) {
+fn locked(arm: &Arm<S>, draw: &mut Draw, position: &Positions, d: &[Vec<S>], round: usize) {
     let (n, first) = (position.len(), arm.base_joints());
     let joint = first + round % (n - first);
     let mut locks: Vec<Option<JointPosition<S>>> = vec![None; n];
@@ -131,7 +131,7 @@ fn forward(
     }
 }
 
-fn derivatives(chain: &Chain<S>, position: &Position, [qd, qdd, v]: [&[S]; 3], round: usize) {
+fn derivatives(chain: &Chain<S>, position: &Positions, [qd, qdd, v]: [&[S]; 3], round: usize) {
     let n = qd.len();
     let (posed, at) = chain.posed(position);
     let composite = Composite::new(&posed, &at);
@@ -216,7 +216,7 @@ fn derivatives(chain: &Chain<S>, position: &Position, [qd, qdd, v]: [&[S]; 3], r
 fn regressors(
     skeleton: &Skeleton<S>,
     chain: &Chain<S>,
-    position: &Position,
+    position: &Positions,
     [qd, qdd, v, a]: [&[S]; 4],
     round: usize,
 ) {

@@ -58,7 +58,7 @@ impl Draw {
         }
     }
 
-    fn body(&mut self) -> Body<S> {
+    fn body(&mut self) -> MomentBody<S> {
         let mut second = Inertia::symmetric(|_, _| S::zero());
         let [xx, zz] = [self.value(), self.value()];
         second = Inertia {
@@ -67,7 +67,7 @@ impl Draw {
             zz,
             ..second
         };
-        let mut body = Body {
+        let mut body = MomentBody {
             mass: self.value(),
             first: [S::zero(), S::zero(), self.constant()],
             second,
@@ -189,7 +189,7 @@ impl Draw {
     }
 
     /// Draws positions of an arm's joints; those of a base that floats are zero.
-    pub(super) fn position_of(&mut self, arm: &Arm<S>) -> Position {
+    pub(super) fn position_of(&mut self, arm: &Arm<S>) -> Positions {
         let (base, joints) = arm.links.split_at(arm.base_joints());
         let zero = base_position::<S>().into_iter().take(base.len());
         zero.chain(self.position(joints)).collect()
@@ -246,7 +246,7 @@ impl Draw {
         }
     }
 
-    pub(super) fn position(&mut self, links: &[Link<S>]) -> Position {
+    pub(super) fn position(&mut self, links: &[Link<S>]) -> Positions {
         let joints = links.iter().map(|link| match link.kind {
             JointKind::Revolute => JointPosition::Revolute(self.angle()),
             JointKind::Prismatic => JointPosition::Prismatic(self.value()),

@@ -13,8 +13,8 @@ use alloc::vec::Vec;
 use super::chain::composite::{Composite, CompositeOrder};
 use super::chain::recursion::{AccelerationForm, MomentForm};
 use super::chain::{
-    Body, Chain, Column, Displacement, EliminatedTip, Form, HandChoice, LinkRegrouping,
-    MetricChain, Probed, Regrouping, Skeleton, Unknowns,
+    Chain, Column, Displacement, EliminatedTip, Form, HandChoice, LinkRegrouping, MetricChain,
+    MomentBody, Probed, Regrouping, Skeleton, Unknowns,
 };
 use super::frames::{Frames, NamedFrame};
 use super::friction::Friction;
@@ -30,7 +30,7 @@ use crate::scalar::{Divide, Scalar};
 use draw::Draw;
 
 type S = Sparse<Field>;
-type Position = Vec<JointPosition<S>>;
+type Positions = Vec<JointPosition<S>>;
 
 const TRAVELS: [CompositeOrder; 2] = [CompositeOrder::Inward, CompositeOrder::Outward];
 const SPINS: [AccelerationForm; 2] = [AccelerationForm::Column, AccelerationForm::Rates];
@@ -55,7 +55,6 @@ fn friction(arm: &Arm<S>, rates: &[S]) -> Vec<S> {
         .collect()
 }
 
-/// Returns a chain whose numbers have rates, none at first.
 fn dual(chain: &Chain<S>) -> Chain<Dual<S>> {
     chain.map(|x| Dual::constant(*x))
 }
@@ -64,7 +63,6 @@ fn constants(values: &[S]) -> Vec<Dual<S>> {
     values.iter().cloned().map(Dual::constant).collect()
 }
 
-/// Returns values of which one grows.
 fn growing(values: &[S], at: usize) -> Vec<Dual<S>> {
     let mut values = constants(values);
     values[at].rate = S::one();

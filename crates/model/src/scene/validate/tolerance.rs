@@ -60,7 +60,7 @@ impl Check<'_> {
     }
 
     /// True also if the scene leaves its outputs to the request.
-    fn reads(&self, argument: Argument) -> bool {
+    fn may_read(&self, argument: Argument) -> bool {
         let outputs = &self.scene.outputs;
         outputs.is_empty() || outputs.iter().any(|f| f.arguments().contains(&argument))
     }
@@ -78,9 +78,9 @@ impl Check<'_> {
         let rows: Vec<usize> = (0..base)
             .chain(joints.iter().map(|joint| base + joint))
             .collect();
-        let velocity = !scene.velocity_zero && self.reads(Argument::Velocity);
-        let acceleration = !scene.acceleration_zero && self.reads(Argument::Acceleration);
-        // Functions that only the request names are generation's to judge.
+        let velocity = !scene.velocity_zero && self.may_read(Argument::Velocity);
+        let acceleration = !scene.acceleration_zero && self.may_read(Argument::Acceleration);
+        // The generator checks functions that the request alone names.
         let inertia = self.is_scaled(ErrorScale::Inertia);
         let coefficients = self.is_scaled(ErrorScale::Coefficient);
         for coordinate in 0..robot.coordinates() {
@@ -131,8 +131,9 @@ impl Check<'_> {
     }
 
     fn range(&mut self, coordinate: usize, what: &str, lacks: bool) {
-        let is_said = (1..self.base()).contains(&coordinate);
-        if lacks && !is_said {
+        // One message is enough for the six coordinates of a base.
+        let is_repeated = (1..self.base()).contains(&coordinate);
+        if lacks && !is_repeated {
             let name = self.label(coordinate);
             let message = format!("a tolerance needs the range of the {what} of {name}");
             let owner = self.owner(coordinate);

@@ -4,9 +4,8 @@ use std::fmt;
 
 use crate::function::{Argument, Function};
 use crate::program::ScalarType;
-use crate::tolerance::refusals::ToleranceError;
 use crate::verify::exact::Disproof;
-use crate::words::{Complaint, complaint};
+use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::scene::Scene;
 
 /// The reasons for which nothing is generated.
@@ -14,18 +13,18 @@ use dalembert_model::scene::Scene;
 #[non_exhaustive]
 pub enum GenerateError {
     /// The request cannot be met; the function that it is about, if it is about one.
-    Refused(Option<Function>, Complaint),
+    Refused(Option<Function>, Diagnostic),
     /// A parameter cannot be an argument, of a function if it is about one.
-    Parameter(Option<Function>, Complaint),
+    Parameter(Option<Function>, Diagnostic),
     /// The plan is for another robot, or for this robot or scene, which is named, before an edit. It
     /// keeps hashes alone, so what was edited is not known.
-    Stale(String, Complaint),
+    Stale(Box<str>, Diagnostic),
     /// A constant is beyond the scalar's range, or rounds to zero.
-    Constant(Function, Complaint),
+    Constant(Function, Diagnostic),
     /// No polynomial gives a sine as exactly as was wanted.
-    SinCos(Function, Complaint),
+    SinCos(Function, Diagnostic),
     /// D has no inverse in any state.
-    Singular(Function, Complaint),
+    Singular(Function, Diagnostic),
     /// The program is not the formula: a defect of this library, a plan's
     /// program of something else, or parameters that cannot be proved with.
     Disproved(Function, Disproof),
@@ -34,11 +33,25 @@ pub enum GenerateError {
     /// proved is wrong at a state where it was run, by which somebody may have aimed at a proof.
     Defect(Function, Option<ScalarType>, String),
     /// The base parameters cannot be written down.
-    Base(Function, Complaint),
+    Base(Function, Diagnostic),
     /// No variant meets the scene's tolerance.
-    Tolerance(Function, ToleranceError),
+    Tolerance(Function, Miss, Diagnostic),
     /// The plan's variant is none of the plan's program.
-    Variant(Function, Complaint),
+    Variant(Function, Diagnostic),
+}
+
+/// The reasons for which no variant meets a tolerance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Miss {
+    /// Errors of such a function have no bound, a limit that it needs is missing, or the actuators
+    /// are no measure of its outputs; or it would take more work than may be done.
+    Refused,
+    /// The full model's D cannot be shown to be positive definite.
+    Indefinite,
+    /// A value inside the box may be more than the scalar holds.
+    Overflow,
+    /// The errors of rounding and of the sines alone are not shown to be within the tolerance.
+    Above,
 }
 
 impl GenerateError {
@@ -48,7 +61,7 @@ impl GenerateError {
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> GenerateError {
-        GenerateError::Refused(function.into(), Complaint::new(message, help))
+        GenerateError::Refused(function.into(), Diagnostic::error(message).with_help(help))
     }
 
     /// Refuses a request for nothing.
@@ -57,25 +70,28 @@ impl GenerateError {
         GenerateError::refused(None, "nothing to generate", help)
     }
 
-    pub(super) fn stale_plan(robot: &str) -> GenerateError {
+    pub(crate) fn stale_plan(robot: &str) -> GenerateError {
         let message = format!(
             "the plan beside the robot file no longer fits `{robot}`: a parameter, a limit or a name \
              was changed since; make it anew with `dalembert generate ROBOT --save-plan` and the \
              effort that it was made with, or delete it"
         );
-        GenerateError::Stale(format!("`{robot}`"), complaint(message))
+        GenerateError::Stale(format!("`{robot}`").into(), Diagnostic::error(message))
     }
 
-    pub(super) fn stale_scene(scene: &str) -> GenerateError {
+    pub(crate) fn stale_scene(scene: &str) -> GenerateError {
         let message = format!(
             "the plan no longer fits the scene `{scene}`: the scene was edited, the robot was not; \
              make its program anew with `dalembert generate ROBOT --scene {scene} --save-plan` and \
              the effort that it was made with, or delete the plan"
         );
-        GenerateError::Stale(format!("the scene `{scene}`"), complaint(message))
+        GenerateError::Stale(
+            format!("the scene `{scene}`").into(),
+            Diagnostic::error(message),
+        )
     }
 
-    pub(super) fn follows(function: Function) -> GenerateError {
+    pub(crate) fn follows(function: Function) -> GenerateError {
         let takes_slopes = function.arguments().contains(&Argument::Multiplier);
         let (message, help) = match takes_slopes {
             true => (
@@ -94,7 +110,7 @@ impl GenerateError {
         GenerateError::refused(function, message, help)
     }
 
-    pub(super) fn floats(function: Function) -> GenerateError {
+    pub(crate) fn floats(function: Function) -> GenerateError {
         let takes_slopes = function.arguments().contains(&Argument::Multiplier);
         let (why, help) = match takes_slopes {
             true => (
@@ -110,7 +126,7 @@ impl GenerateError {
         GenerateError::refused(function, message, help)
     }
 
-    pub(super) fn is_fixed(function: Function, scene: Option<&Scene>) -> GenerateError {
+    pub(crate) fn is_fixed(function: Function, scene: Option<&Scene>) -> GenerateError {
         let message =
             format!("`{function}` is not there where the base is fixed: something holds it");
         let help = match scene {
@@ -134,15 +150,15 @@ impl GenerateError {
             | GenerateError::Defect(function, ..)
             | GenerateError::SinCos(function, _)
             | GenerateError::Disproved(function, _)
-            | GenerateError::Tolerance(function, _)
+            | GenerateError::Tolerance(function, ..)
             | GenerateError::Variant(function, _) => Some(*function),
         }
     }
 }
 
-impl From<Complaint> for GenerateError {
-    fn from(complaint: Complaint) -> GenerateError {
-        GenerateError::Refused(None, complaint)
+impl From<Diagnostic> for GenerateError {
+    fn from(error: Diagnostic) -> GenerateError {
+        GenerateError::Refused(None, error)
     }
 }
 
@@ -162,7 +178,7 @@ impl fmt::Display for GenerateError {
             GenerateError::SinCos(function, why)
             | GenerateError::Base(function, why)
             | GenerateError::Singular(function, why) => write!(f, "`{function}`: {why}"),
-            GenerateError::Tolerance(function, why) => write!(f, "`{function}`: {why}"),
+            GenerateError::Tolerance(function, _, why) => write!(f, "`{function}`: {why}"),
             GenerateError::Variant(function, why) => write!(
                 f,
                 "the plan's variant of `{function}`: {why}; make the plan anew with `dalembert \
