@@ -86,7 +86,11 @@ fn has(text: &str, words: &str) -> bool {
 fn banned() -> Vec<String> {
     let mut phrases: Vec<String> = PHRASES.map(str::to_owned).to_vec();
     // Apart, so that they are not found here.
-    let apart = [["stands", "there"], ["what it is", "of"], ["says nothing", "of"]];
+    let apart = [
+        ["stands", "there"],
+        ["what it is", "of"],
+        ["says nothing", "of"],
+    ];
     phrases.extend(apart.map(|words| words.join(" ")));
     for verb in ["is", "are", "was", "be", "has", "have", "there is"] {
         let things = THINGS.split('|');

@@ -1,5 +1,5 @@
-//! The way in of those that keep a compiler waiting, the macro and build scripts: a robot file
-//! and what is asked, as one text.
+//! The entry point of the macro and of build scripts, which keep a compiler waiting: a robot file
+//! and the options of a request, as one text.
 
 use dalembert_model::diagnostic::{Diagnostic, Diagnostics, Place, Severity};
 use dalembert_stamp::Asked;

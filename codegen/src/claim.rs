@@ -68,7 +68,7 @@ pub(crate) fn of_setup(
     constants: &mut ConstantTable,
 ) -> FunctionClaim {
     let scene = setup.scene().map(|scene| &*scene.name);
-    let claimed = claimed(program, scene, constants);
+    let claim = claimed(program, scene, constants);
     let base = setup.base_of(program.function).ok().flatten();
     let combinations = base.map_or(&[][..], |base| &base.combinations);
     let terms = combinations
@@ -96,7 +96,7 @@ pub(crate) fn of_setup(
             false => Vec::new(),
         },
         keeps_zeros: program.arguments.contains(&Argument::Bodies) && !setup.zeros().is_empty(),
-        ..claimed
+        ..claim
     }
 }
 

@@ -1,9 +1,9 @@
 //! Watching a long search, and ending it early.
 //!
-//! The library reads no clock and no signal: whoever waits brings an [`Observer`]. It is told what
+//! The library reads no clock and no signal: the caller brings an [`Observer`]. It is told what
 //! was reached, and it may ask for an end; the search then finishes its round and the best program
 //! so far, if the quick search has none cheaper, goes on to be proved like any other. As long as
-//! nobody asks, watching changes nothing.
+//! it does not ask, watching changes nothing.
 
 use std::fmt;
 use std::sync::Arc;
@@ -54,7 +54,7 @@ pub trait Observer: Send + Sync {
 }
 
 /// An observer, or none. It prints the same with and without one: generated code does not depend on
-/// who watches, and neither may a hash of the request.
+/// the observer, and neither may a hash of the request.
 #[derive(Clone, Default)]
 pub struct Watch(Option<Arc<dyn Observer>>);
 
@@ -81,7 +81,7 @@ impl fmt::Debug for Watch {
     }
 }
 
-/// The watch over the search for one function; by default nobody's.
+/// The watch over the search for one function; by default without an observer.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FunctionWatch<'a>(Option<(&'a Watch, Function)>);
 

@@ -1,5 +1,5 @@
 //! Items of the generator that the workspace's other crates use besides those that it shows to
-//! everyone, in one list, so that the compiler finds what nobody uses.
+//! everyone, in one list, so that the compiler finds unused items.
 
 pub use crate::dag::{Dag, Folding, Node, Points};
 pub use crate::figures::bound_of;

@@ -203,7 +203,7 @@ fn generated(
 ) -> TokenStream {
     let shown = invocation.robot.value();
     for (file, stale) in refused {
-        // Who asks for something else may have no use for the file.
+        // A request for something else may have no use for the file.
         if matches!(stale, Stale::Robot | Stale::Text | Stale::Version(_)) {
             let file = shown_file(&shown, file);
             let is_text = *stale == Stale::Text;

@@ -20,8 +20,8 @@ pub(crate) fn texts(
     };
     let file = match file {
         Ok(file) => file,
-        Err(found) => {
-            for error in &found.0 {
+        Err(diagnostics) => {
+            for error in &diagnostics.0 {
                 errors.say(&invocation.robot, error.render_plain().trim_end(), "");
             }
             return Default::default();
@@ -53,7 +53,7 @@ pub(crate) fn texts(
 }
 
 /// Returns a deprecated constant and its use at the robot's tokens: on a stable compiler a macro can
-/// only say what is an error. Whoever knows better writes `#[allow(deprecated)]` above the module.
+/// only report errors. An `#[allow(deprecated)]` above the module silences the warning.
 fn warning(invocation: &Invocation, number: usize, said: &str) -> TokenStream {
     let span = invocation.robot.span();
     let name = format_ident!("ROBOT_WARNING_{number}", span = span);

@@ -62,10 +62,10 @@ impl Symbol {
             (Symbol::Node(builder, _), _) | (_, Symbol::Node(builder, _)) => builder,
             _ => return self.without_nodes(operation, other),
         };
-        let mut shared = builder.borrow_mut();
-        let [a, b] = [self, other].map(|symbol| symbol.edge(&mut shared));
-        let edge = shared.apply(operation, a, b);
-        match shared.exact(edge) {
+        let mut graph_builder = builder.borrow_mut();
+        let [a, b] = [self, other].map(|symbol| symbol.edge(&mut graph_builder));
+        let edge = graph_builder.apply(operation, a, b);
+        match graph_builder.exact(edge) {
             Some(constant) => Symbol::Constant(constant),
             None => Symbol::Node(builder.clone(), edge),
         }

@@ -171,14 +171,14 @@ pub(super) fn header(
                 None => "the base".to_owned(),
                 Some(carrier) => link_name(robot, carrier),
             };
-            let list = |list: &[Rational; 3]| list.each_ref().map(decimal).join(", ");
+            let decimals = |list: &[Rational; 3]| list.each_ref().map(decimal).join(", ");
             let rpy = place
                 .placement
                 .rpy
                 .each_ref()
                 .map(Angle::to_string)
                 .join(", ");
-            let (xyz, axis) = (list(&place.placement.xyz), list(&place.axis));
+            let (xyz, axis) = (decimals(&place.placement.xyz), decimals(&place.axis));
             let mass = decimal(&joint.mass);
             lines.push(format!(
                 "| {label} | {kind} | {carrier} | {xyz} | {rpy} | {axis} | {mass} |"

@@ -40,12 +40,12 @@ pub(super) fn no_dearer_than_quick(
     generated: &mut [GeneratedFunction],
     scalars: &[ScalarType],
 ) {
-    let quick = Request {
+    let quick_request = Request {
         effort: Effort::Quick,
         watch: Watch::default(),
         ..job.request.clone()
     };
-    let Ok((quick, theirs)) = functions(&job.with(&quick)) else {
+    let Ok((quick, theirs)) = functions(&job.with(&quick_request)) else {
         return;
     };
     if theirs != scalars {

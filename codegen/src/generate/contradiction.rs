@@ -1,8 +1,8 @@
 //! Runs each generated program at random states, as a test of the proof.
 //!
-//! A proof in a prime field may miss, with a chance that nobody will see, and whoever writes it may
-//! err. Two states of the robot tell: the program with its exact constants, in 256 bits, against
-//! the robot's own recursion in 256 bits. With a tolerance the text, read back, against its bounds.
+//! A proof in a prime field may miss, with a negligible chance, and its implementation may have
+//! a defect. Two states show it: the program with its exact constants, in 256 bits, against
+//! the robot's own recursion in 256 bits; with a tolerance the text, read back, against its bounds.
 
 use crate::generate::{GenerateError, GeneratedFunction};
 use crate::program::ScalarType;

@@ -39,7 +39,7 @@ use crate::verify::parameters::prove_base;
 use crate::verify::singular::without_inertia;
 pub use again::generate_anew;
 use range::{check_constants, leave_out_single, vanishing, warn_of_overflow};
-use search::{found, replay};
+use search::{found_program, replay};
 use tolerate::tolerate;
 
 /// Everything generated for a robot.
@@ -79,7 +79,7 @@ impl GeneratedCode {
             named.scalars = scalars;
             let mut asked = named.asked();
             if self.without_single.is_some() {
-                // Nobody asked for f64 alone. It is an option.
+                // f64 alone was not asked for. `set` cannot fail: `scalar` is an option.
                 let _ = asked.set("scalar", "");
             }
             let stamp = Stamp {
@@ -123,6 +123,7 @@ const MAX_OUTPUTS: usize = 20_000;
 ///
 /// let pendulum = "
 ///     name = \"pendulum\"
+///     convention = \"standard\"
 ///     gravity = [0, -9.81, 0]
 ///     [[joint]]
 ///     kind = \"revolute\"
@@ -265,14 +266,14 @@ fn check(robot: &Robot, setup: &Setup, request: &Request) -> Outcome<()> {
     }
     let scene = request.scene.as_ref();
     let has_tolerance = scene.is_some_and(|scene| scene.tolerance.is_some());
-    let refused = |&function: &Function| {
+    let refusal = |&function: &Function| {
         let why = match robot.followers.is_empty() {
             false => Diagnostic::error(FOLLOWERS_ARE_UNBOUNDED),
             true => unbounded(function, setup.robot().floating.is_some())?,
         };
         Some((function, why))
     };
-    let refused = request.functions.iter().find_map(refused);
+    let refused = request.functions.iter().find_map(refusal);
     let Some((function, why)) = refused.filter(|_| has_tolerance) else {
         return Ok(());
     };
@@ -434,7 +435,7 @@ fn proved(job: &Job<'_>, function: Function) -> Outcome<GeneratedFunction> {
             }
             (entry.source, entry.passes, program, None)
         }
-        None => found(job, function)?,
+        None => found_program(job, function)?,
     };
     let program = without_vain_steps(program);
     if let Some(last) = passes.last_mut() {

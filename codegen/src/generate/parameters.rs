@@ -20,11 +20,11 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
     let scene = request.scene.as_ref();
     let floats = job.setup.robot().floating.is_some();
     if job.tolerance().is_some() {
-        let mut others = request.parameters.iter();
+        let mut parameters = request.parameters.iter();
         let is_other = |parameter: &&RuntimeParameter| {
             parameter.given().is_some() && **parameter != RuntimeParameter::Payload
         };
-        if let Some(other) = others.find(is_other) {
+        if let Some(other) = parameters.find(is_other) {
             let message = format!(
                 "a tolerance bounds functions over a box, and `{}` has none",
                 other.name()

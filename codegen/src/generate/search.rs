@@ -53,7 +53,7 @@ pub fn replay(job: &Job<'_>, plan: Option<&Plan>, function: Function) -> Outcome
 type Origin = (Source, Vec<Pass>, Program, Option<RefusedProgram>);
 
 /// Returns the program, its limbs as lanes where that is asked for or cheaper.
-pub(super) fn found(job: &Job<'_>, function: Function) -> Result<Origin, GenerateError> {
+pub(super) fn found_program(job: &Job<'_>, function: Function) -> Result<Origin, GenerateError> {
     let search = Search::new(job, function);
     let (source, passes, apart, refused) = search.apart()?;
     let accepts = |graph: &Dag| search.judge.accepts(graph);
@@ -131,16 +131,16 @@ impl<'a> Search<'a> {
     fn cheapest(&self) -> Result<SearchResult, GenerateError> {
         let request = self.job.request;
         let watch = request.watch.over(self.task.function);
-        let nobody = FunctionWatch::default();
+        let no_watch = FunctionWatch::default();
         // A function whose turn comes after an early end gets the quick search.
         if watch.is_over() {
-            return self.quick(nobody);
+            return self.quick(no_watch);
         }
         let tell = |part, best| watch.step(part, [0, 1], best);
         tell(Part::Formulations, None);
         // Nobody ends the quick search inside a thorough one: that is at least as good.
         let is_quick = request.effort == Effort::Quick;
-        let quick = self.quick(if is_quick { watch } else { nobody })?;
+        let quick = self.quick(if is_quick { watch } else { no_watch })?;
         if is_quick || watch.is_over() {
             tell(Part::Proof, Some(quick.searched.graph.counts()));
             return Ok(quick);

@@ -168,8 +168,8 @@ fn chosen(
     let request = job.request;
     let function = budget.exact.function;
     let watch = request.watch.over(function);
-    // Who wants an end before a function's turn gets the quick search for it,
-    // which nobody ends: it would leave out nothing.
+    // If the observer ends the search before a function's turn, it gets the quick search,
+    // which runs to its end: otherwise nothing would be left out.
     let over = watch.is_over();
     let watch = if over { Default::default() } else { watch };
     let mut effort = match request.effort {

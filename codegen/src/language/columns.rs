@@ -18,7 +18,7 @@
 //! ```
 //!
 //! It is a text of its own, since one that both took would slow down the other: unoptimised, each
-//! operator of a type that nobody knows is a call.
+//! operator of a generic type is a call.
 
 use super::c99::{
     Names, argument_structure, float, is_bundle, is_number, is_told, largest, structure_name,

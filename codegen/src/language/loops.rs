@@ -111,18 +111,20 @@ fn exports(code: &Code, ids: &[Id], block: &Loop) -> Vec<(usize, bool)> {
         .collect();
     // Reads of the value, and of its negative.
     let mut reads = vec![[false; 2]; block.rows];
-    let mut read = |id: &Id, is_negative: bool| {
+    let mut mark_read = |id: &Id, is_negative: bool| {
         if let Some(row) = inside.get(id) {
             reads[*row][usize::from(is_negative)] = true;
         }
     };
     for (id, _, operands) in code.dag.operations() {
         if !inside.contains_key(&id) {
-            operands.iter().for_each(|operand| read(operand, false));
+            operands
+                .iter()
+                .for_each(|operand| mark_read(operand, false));
         }
     }
     for edge in &code.dag.outputs {
-        read(&edge.node, edge.negative);
+        mark_read(&edge.node, edge.negative);
     }
     let read = reads
         .iter()

@@ -52,9 +52,9 @@ impl Parts {
         let constants = rolled.constants(limbs);
         let phases = Phases::of(rolled, &constants);
         let mut contents: BTreeMap<(usize, Option<usize>), Vec<LaneOperand>> = BTreeMap::new();
-        let live = |id: Id| rolled.dag.node(id).operands().is_some();
+        let is_operation = |id: Id| rolled.dag.node(id).operands().is_some();
         let reads = rolled.dag.reads();
-        for id in (0..rolled.dag.nodes.len() as Id).filter(|&id| live(id)) {
+        for id in (0..rolled.dag.nodes.len() as Id).filter(|&id| is_operation(id)) {
             if reads[id as usize] > 0 && rolled.member(id).is_none() {
                 let place = (phases.shared[id as usize], None);
                 contents
@@ -157,7 +157,7 @@ impl Phases {
             rows: vec![1; rolled.rows.len()],
         };
         loop {
-            let mut ends = true;
+            let mut is_stable = true;
             for (id, node) in (0..).zip(&rolled.dag.nodes) {
                 let Some(operands) = node.operands() else {
                     continue;
@@ -184,10 +184,10 @@ impl Phases {
                 };
                 if a.max(b) > *place {
                     *place = a.max(b);
-                    ends = false;
+                    is_stable = false;
                 }
             }
-            if ends {
+            if is_stable {
                 return phases;
             }
         }

@@ -13,8 +13,8 @@ pub(super) fn by_limbs(rolled: &LimbRows<'_>) -> Dag {
     let reads = dag.reads();
     let is_sum = |id: Id| {
         let node = dag.node(id);
-        let is_sum = matches!(node, Node::Apply(Operation::Add | Operation::Sub, _));
-        is_sum && rolled.member(id).is_none()
+        let is_addition = matches!(node, Node::Apply(Operation::Add | Operation::Sub, _));
+        is_addition && rolled.member(id).is_none()
     };
     // A sum that one other sum alone reads is part of it.
     let mut is_part = vec![false; dag.nodes.len()];

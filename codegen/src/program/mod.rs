@@ -196,11 +196,11 @@ impl Program {
 
     #[must_use]
     pub(crate) fn with_speeds(self, speeds: Vec<Speed>) -> Program {
-        let speeds = self.read(speeds);
+        let speeds = self.read_speeds(speeds);
         Program { speeds, ..self }
     }
 
-    pub(crate) fn read(&self, mut speeds: Vec<Speed>) -> Vec<Speed> {
+    pub(crate) fn read_speeds(&self, mut speeds: Vec<Speed>) -> Vec<Speed> {
         let is_read = |joint_speed: &Speed| {
             let speed = Input::PerSpeed(joint_speed.coordinate);
             self.dag.inputs().any(|input| *input == speed)
@@ -249,12 +249,12 @@ impl Program {
             };
             (0..block.rows).all(|row| {
                 let (_, operation, operands) = &operations[block.first + row];
-                let own_rows = operands.each_ref().map(|id| within(id, 0));
+                let first_rows = operands.each_ref().map(|id| within(id, 0));
                 (1..block.lanes).all(|lane| {
                     let (_, other, others) = &operations[block.first + lane * block.rows + row];
                     // None reads a value of another lane.
                     let rows = others.each_ref().map(|id| within(id, lane));
-                    other == operation && rows == own_rows && !rows.contains(&Some(None))
+                    other == operation && rows == first_rows && !rows.contains(&Some(None))
                 })
             })
         })

@@ -27,7 +27,7 @@ impl Degree {
         let powers = self.under.iter().map(|(d, e)| (d.clone(), *e, 0.0));
         let others = other.under.iter().map(|(d, e)| (d.clone(), 0.0, *e));
         let mut divisors: Vec<_> = powers.chain(others).collect();
-        // Stable: of two of a divisor the own one is first.
+        // Stable: of two entries for one divisor, the one of `self` comes first.
         divisors.sort_by_key(|(divisor, ..)| Rc::as_ptr(divisor).addr());
         divisors.dedup_by(|second, first| {
             let is_same = Rc::ptr_eq(&second.0, &first.0);
@@ -86,11 +86,11 @@ impl Divide for Degree {
     fn div(&self, other: &Self) -> Self {
         let mut top = self.top;
         let mut under = Vec::new();
-        for (divisor, exponent, others) in self.powers(other) {
-            if others > exponent {
-                top += (others - exponent) * *divisor;
-            } else if exponent > others {
-                under.push((divisor, exponent - others));
+        for (divisor, exponent, other_exponent) in self.powers(other) {
+            if other_exponent > exponent {
+                top += (other_exponent - exponent) * *divisor;
+            } else if exponent > other_exponent {
+                under.push((divisor, exponent - other_exponent));
             }
         }
         if other.top > 0.0 {

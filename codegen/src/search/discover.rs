@@ -84,25 +84,25 @@ pub(super) fn resubstitute(classes: &mut Classes, pool: &[Class]) {
             }
         }
     };
-    let mut met = Sieve::new(5 * pool.len() * pool.len() / 2);
-    let mut again = Sieve::new(5 * pool.len() * pool.len() / 2);
+    let mut once = Sieve::new(5 * pool.len() * pool.len() / 2);
+    let mut twice = Sieve::new(5 * pool.len() * pool.len() / 2);
     let mut meet = |key| {
-        if met.note(key) {
-            again.note(key);
+        if once.note(key) {
+            twice.note(key);
         }
     };
     pairs_of(&keys, |key, _| meet(key));
     quotients(&mut |key, _, _| meet(key));
     let mut pairs: Vec<(Field, Way)> = Vec::new();
     pairs_of(&keys, |key, way| {
-        pairs.extend(again.passes(key).then_some((key, way)));
+        pairs.extend(twice.passes(key).then_some((key, way)));
     });
     let mut first: FxHashMap<Field, Way> = FxHashMap::default();
     for &(key, way) in &pairs {
         first.entry(key).or_insert(way);
     }
     let mut nestings: Vec<(Class, Class, Kind, Way)> = Vec::new();
-    let mut meet = |key: Field, y: Class, c: Class, outer: Kind| {
+    let mut add_nesting = |key: Field, y: Class, c: Class, outer: Kind| {
         if let Some(&inner) = first.get(&key)
             && !inner.1.contains(&y)
         {
@@ -111,13 +111,13 @@ pub(super) fn resubstitute(classes: &mut Classes, pool: &[Class]) {
     };
     for &(key, (op, [y, c])) in &pairs {
         if op != Operation::Mul && y != c {
-            meet(key, y, c, SUM);
-            meet(key, c, y, SUM);
+            add_nesting(key, y, c, SUM);
+            add_nesting(key, c, y, SUM);
         }
     }
     quotients(&mut |key, y, c| {
-        if again.passes(key) {
-            meet(key, y, c, PRODUCT);
+        if twice.passes(key) {
+            add_nesting(key, y, c, PRODUCT);
         }
     });
     nestings.sort_unstable();

@@ -241,8 +241,9 @@ impl<'a> Extraction<'a> {
             for id in live {
                 for way in self.ways(id) {
                     let (cost, now) = (self.cost, self.chosen[id as usize]);
-                    let moves = self.uses[id as usize] > 0 && way != now && self.switch(id, way);
-                    if moves && self.cost >= cost {
+                    let has_switched =
+                        self.uses[id as usize] > 0 && way != now && self.switch(id, way);
+                    if has_switched && self.cost >= cost {
                         self.switch(id, now);
                     }
                 }

@@ -18,6 +18,7 @@ use crate::random::Random;
 pub use effort::{Effort, Limits};
 use egraph::{Classes, LeafPrints};
 use extract::Extraction;
+#[cfg(feature = "testing")]
 pub use extract::Schedule;
 
 /// The most values of a program that are paired with each other in every search.

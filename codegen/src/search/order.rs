@@ -81,7 +81,7 @@ impl Order {
     ) -> bool {
         self.stamp += 1;
         self.queue.clear();
-        // What comes before the class does not depend on it, nor does what that reads.
+        // The classes before this one do not depend on it, nor do the classes that they read.
         let least = self.labels[class as usize];
         let (mut next, mut pending) = (0, new);
         loop {
@@ -100,7 +100,7 @@ impl Order {
             }
             next += 1;
         }
-        // Moves them, which is all that they read among what comes after the class, before it.
+        // Moves the queue before the class: the later ones among the new reads and what they read.
         let mut queue = std::mem::take(&mut self.queue);
         queue.sort_unstable_by_key(|&id| self.labels[id as usize]);
         let steps = queue.len() as u64 + 1;

@@ -65,14 +65,14 @@ pub(super) fn saturate(classes: &mut Classes, iterations: usize) {
         let matches = classes.matches(READ.iter().map(|(left, ..)| left));
         for (rule_matches, (_, outer, inner)) in matches.into_iter().zip(READ.iter()) {
             for class_match in &rule_matches {
-                for bound in &class_match.substs {
+                for substitution in &class_match.substs {
                     if classes.bound() < most {
                         classes.nest(
                             class_match.eclass,
                             outer,
-                            bound[a],
+                            substitution[a],
                             inner,
-                            [bound[b], bound[c]],
+                            [substitution[b], substitution[c]],
                         );
                     }
                 }

@@ -44,10 +44,13 @@ pub(crate) fn trace_symbols(
     let mut gravity = None;
     if setup.takes(function, RuntimeParameter::Gravity) {
         let entry = |axis| Symbol::input(&builder, Input::Entry(Argument::Gravity, axis));
-        let taken = [0, 1, 2].map(entry);
-        let in_frame_0 = setup.arm(Symbol::constant).with_gravity(&taken).gravity;
+        let gravity_entries = [0, 1, 2].map(entry);
+        let in_frame_0 = setup
+            .arm(Symbol::constant)
+            .with_gravity(&gravity_entries)
+            .gravity;
         chain.gravity = scaled(&chain.per_unit, &in_frame_0);
-        gravity = Some(taken);
+        gravity = Some(gravity_entries);
     }
     let arguments = function.arguments();
     let leaves = (Symbol::constant, reader(&arguments, &builder));

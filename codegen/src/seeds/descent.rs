@@ -55,17 +55,17 @@ pub(crate) fn tunings(problem: &Tuning<'_>, forms: &[Form]) -> (ChainChoice, Opt
     let Task { setup, function } = task;
     let arm = skeleton_for(task);
     let tried = Cell::new(0);
-    let is_over = || {
+    let is_over_after_step = || {
         tried.set(tried.get() + 1);
-        let tried = [tried.get(), 0];
-        problem.watch.step(Part::Formulations, tried, None);
+        let rounds = [tried.get(), 0];
+        problem.watch.step(Part::Formulations, rounds, None);
         problem.watch.is_over()
     };
-    let traced = |chain: &Chain<Exact>, form: Form, below: u64| {
+    let traced_price = |chain: &Chain<Exact>, form: Form, below: u64| {
         price(&merged(task, chain, form), limit, below)
     };
     // The cheapest regrouping before a search need not be the cheapest after it.
-    let quick = |chain: &Chain<Exact>, form: Form, below: u64| match is_over() {
+    let quick_price = |chain: &Chain<Exact>, form: Form, below: u64| match is_over_after_step() {
         true => u64::MAX,
         false => price(&glance(&merged(task, chain, form)), limit, below),
     };
@@ -74,7 +74,7 @@ pub(crate) fn tunings(problem: &Tuning<'_>, forms: &[Form]) -> (ChainChoice, Opt
     {
         // The numbers of the load are those of one regrouping, for all functions.
         return (
-            tune::tune(&arm, load.regrouping.clone(), forms, 0, traced),
+            tune::tune(&arm, load.regrouping.clone(), forms, 0, traced_price),
             None,
         );
     }
@@ -95,21 +95,21 @@ pub(crate) fn tunings(problem: &Tuning<'_>, forms: &[Form]) -> (ChainChoice, Opt
         starts.sort_by_cached_key(|from| {
             let chain = Chain::new(&arm, from);
             match arm.links.len() <= MAX_TRIED {
-                true => quick(&chain, forms[0], u64::MAX),
-                false => traced(&chain, forms[0], u64::MAX),
+                true => quick_price(&chain, forms[0], u64::MAX),
+                false => traced_price(&chain, forms[0], u64::MAX),
             }
         });
         starts.truncate(if chain.is_serial() { 1 } else { 2 });
     }
-    let beside = starts.first().map(at_feet);
+    let beside = starts.first().map(with_zero_origins);
     starts.extend_from_slice(problem.from);
-    let watched = |chain: &Chain<Exact>, form: Form, below: u64| match is_over() {
+    let watched_price = |chain: &Chain<Exact>, form: Form, below: u64| match is_over_after_step() {
         true => u64::MAX,
-        false => traced(chain, form, below),
+        false => traced_price(chain, form, below),
     };
     let descend = |from: Regrouping<Exact>| {
-        let mut choice = tune::tune(&arm, from, forms, effort.regrouping_rounds(), watched);
-        choice.price = quick(&Chain::new(&arm, &choice.regrouping), choice.form, u64::MAX);
+        let mut choice = tune::tune(&arm, from, forms, effort.regrouping_rounds(), watched_price);
+        choice.price = quick_price(&Chain::new(&arm, &choice.regrouping), choice.form, u64::MAX);
         choice
     };
     let mut tuned: Option<ChainChoice> = None;
@@ -126,15 +126,16 @@ pub(crate) fn tunings(problem: &Tuning<'_>, forms: &[Form]) -> (ChainChoice, Opt
     });
     let mut second = beside.map(descend);
     second = second.filter(|second| second.price < tuned.price);
-    if effort == Effort::Thorough && arm.links.len() <= MAX_QUICK_LINKS && !is_over() {
-        let finished =
-            |choice: ChainChoice| tune::tune(&arm, choice.regrouping, &[choice.form], 2, quick);
+    if effort == Effort::Thorough && arm.links.len() <= MAX_QUICK_LINKS && !is_over_after_step() {
+        let finished = |choice: ChainChoice| {
+            tune::tune(&arm, choice.regrouping, &[choice.form], 2, quick_price)
+        };
         (tuned, second) = (finished(tuned), second.map(finished));
     }
     (tuned, second)
 }
 
-fn at_feet(from: &Regrouping<Exact>) -> Regrouping<Exact> {
+fn with_zero_origins(from: &Regrouping<Exact>) -> Regrouping<Exact> {
     let mut from = from.clone();
     for link in &mut from.links {
         link.origin = zero_vector();

@@ -19,7 +19,7 @@ use crate::setup::load::Unknowns;
 use crate::setup::{Setup, Task};
 
 /// The load's numbers are those of the regrouping in which torques cost least. Every request gets
-/// these, so that whoever has the parameters has the load.
+/// these, so that the parameters alone determine the load.
 #[must_use]
 pub(crate) fn chosen(setup: Setup) -> Setup {
     if !setup.has_load() {
@@ -35,7 +35,9 @@ pub(crate) fn chosen(setup: Setup) -> Setup {
         let entry = Node::Input(Input::Entry(Argument::Load, index));
         graph.live().any(|(_, node)| *node == entry)
     };
-    let met = met(&chain, &full.unknowns()).into_iter().enumerate();
+    let met = unknown_numbers(&chain, &full.unknowns())
+        .into_iter()
+        .enumerate();
     let read = met
         .filter(|(index, _)| is_read(*index))
         .map(|(_, number)| number)
@@ -43,7 +45,7 @@ pub(crate) fn chosen(setup: Setup) -> Setup {
     setup.with_load(read, best.regrouping)
 }
 
-fn met(chain: &Chain<Exact>, unknowns: &Unknowns) -> Vec<Exact> {
+fn unknown_numbers(chain: &Chain<Exact>, unknowns: &Unknowns) -> Vec<Exact> {
     let mut met: Vec<Exact> = Vec::new();
     chain.map(|number| {
         if unknowns.occur_in(number) && place(&met, number).is_none() {
@@ -73,7 +75,7 @@ pub(super) fn symbols(
     let unknowns = setup.unknowns();
     let numbers = match setup.load() {
         Some(load) => load.numbers.clone(),
-        None => met(chain, &unknowns),
+        None => unknown_numbers(chain, &unknowns),
     };
     chain.map(|number| {
         if !unknowns.occur_in(number) {

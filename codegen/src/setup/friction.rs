@@ -1,4 +1,4 @@
-//! Coulomb friction of a robot in its scene: what programs read of speeds, and who reads it.
+//! Coulomb friction of a robot in its scene: the joints that have it, and the value 1/√(q̇² + w²).
 
 use dalembert_model::equations::friction::per_speed;
 use dalembert_model::number::{Exact, Rational};

@@ -63,11 +63,11 @@ impl Setup {
         let payload = self.has(RuntimeParameter::Payload).then_some(last);
         let bodies = self.bodies.iter().copied().chain(payload);
         // Of a body with numbers that stay zero, other parameters are zero too.
-        let drawn = |input: Input| match input {
+        let indeterminate = |input: Input| match input {
             Input::Entry(_, place) => Exact::sincos(&unknown(2_000_003 + place as i64)).sin,
             Input::Sin(_) | Input::Cos(_) | Input::PerSpeed(_) => Exact::zero(),
         };
-        let general = self.given_bodies(drawn, Exact::clone);
+        let general = self.given_bodies(indeterminate, Exact::clone);
         let unit = |place: usize, parameter: LinkParameter| {
             let body = general.get(place).map(MomentBody::of);
             match body.is_some_and(|body| parameter.of_body(&body).is_zero()) {
@@ -153,7 +153,7 @@ impl Unknowns {
     }
 
     fn row(&self, number: &Exact) -> LoadRow<Exact> {
-        let constant = self.where_one_is(number, None);
+        let constant = self.value_with_one(number, None);
         let mut occurring: Vec<usize> = Vec::new();
         number.map(&mut |x| Some(Exact::from(x.clone())), &mut |angle| {
             let place = self.angles.iter().position(|candidate| candidate == angle);
@@ -162,7 +162,7 @@ impl Unknowns {
         });
         occurring.sort_unstable();
         let coefficients = occurring.into_iter().filter_map(|place| {
-            let with = self.where_one_is(number, Some(&self.angles[place]));
+            let with = self.value_with_one(number, Some(&self.angles[place]));
             let factor = with.sub(&constant);
             (!factor.is_zero()).then_some((place, factor))
         });
@@ -172,7 +172,7 @@ impl Unknowns {
         }
     }
 
-    fn where_one_is(&self, number: &Exact, one: Option<&Angle>) -> Exact {
+    fn value_with_one(&self, number: &Exact, one: Option<&Angle>) -> Exact {
         let value = number.map(
             &mut |x| Some(Exact::from(x.clone())),
             &mut |angle| match self.angles.contains(angle) {

@@ -104,9 +104,9 @@ fn body(draw: &mut impl FnMut(f64) -> f64, mass: f64, length: f64) -> Vec<f64> {
     let size = mass * length * length / 64.0;
     let moments = [(); 3].map(|()| f64::from((size * 0.75 + draw(size / 4.0)) as f32));
     let products = [(); 3].map(|()| draw(size / 20.0));
-    let mut payload = vec![mass];
-    payload.extend(centre);
-    payload.extend(moments);
-    payload.extend(products);
-    payload
+    let mut numbers = vec![mass];
+    numbers.extend(centre);
+    numbers.extend(moments);
+    numbers.extend(products);
+    numbers
 }

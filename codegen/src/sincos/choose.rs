@@ -122,8 +122,8 @@ impl Candidates {
             if estimate * HOPE > most || estimate * HOPE >= least || idle {
                 continue;
             }
-            let dearer = |c: &KernelChoice| c.kernel.operations() < cost;
-            if least <= enough && front.last().is_some_and(dearer) {
+            let is_cheaper = |c: &KernelChoice| c.kernel.operations() < cost;
+            if least <= enough && front.last().is_some_and(is_cheaper) {
                 break;
             }
             let kernel = form.kernel(Some(&self.fits[fit]), self.need, self.scalar);

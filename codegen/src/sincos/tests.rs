@@ -18,7 +18,7 @@ pub(super) fn alone(kernel: KernelWriter, node: Id) -> Kernel {
     kernel.kernel(need, [Edge::from(node); 2])
 }
 
-fn seen(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
+fn largest_errors(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
     let mut random = Random::new(11);
     let mut worst = Errors::default();
     for i in 0..4000 {
@@ -73,7 +73,7 @@ fn errors_are_as_proved_and_not_far_below() {
     for (scalar, low, high, error) in CASES {
         let over = range(low, high);
         let choice = cheapest(BOTH, scalar, over, error);
-        let sample_errors = seen(&choice.kernel, scalar, over);
+        let sample_errors = largest_errors(&choice.kernel, scalar, over);
         let proved = choice.errors;
         // libm's own errors, of which the samples are not free.
         let libm_error = 2.0 * f64::EPSILON;
@@ -97,7 +97,7 @@ fn a_changed_literal_shows() {
                 continue;
             };
             *value = scalar.nearest(*value * 1.01);
-            let wrong = seen(&kernel, scalar, over);
+            let wrong = largest_errors(&kernel, scalar, over);
             if let Some(bound) = prove(&kernel, scalar, over, f64::INFINITY) {
                 let is_bound = wrong.sin <= bound.sin && wrong.cos <= bound.cos;
                 let is_seen = bound.worst() > honest.errors.worst();

@@ -30,13 +30,13 @@ pub enum GenerateError {
     Disproved(Function, Disproof),
     /// A defect of this library, in the scalar where there is one: the printed text is not the
     /// program, what was left out within a tolerance is not what the edits say, or code that was
-    /// proved is wrong at a state where it was run, by which somebody may have aimed at a proof.
+    /// proved is wrong at a state where it was run: it may have been made to deceive the proof.
     Defect(Function, Option<ScalarType>, String),
     /// The base parameters cannot be written down.
     Base(Function, Diagnostic),
     /// No variant meets the scene's tolerance.
     Tolerance(Function, Miss, Diagnostic),
-    /// The plan's variant is none of the plan's program.
+    /// The plan's variant does not belong to the plan's program.
     Variant(Function, Diagnostic),
 }
 

@@ -136,7 +136,7 @@ impl Default for Request {
 }
 
 impl Request {
-    /// Asks for these functions, and for the rest as nobody says otherwise.
+    /// Asks for these functions; every other option has its default.
     pub fn new(functions: &[Function]) -> Request {
         Request {
             functions: functions.to_vec(),
@@ -145,7 +145,7 @@ impl Request {
     }
 
     /// Returns the units of [`work`](Request::work) of the ways in that keep a compiler waiting,
-    /// `dynamics!` and build scripts; no limit for who asks for a thorough search there.
+    /// `dynamics!` and build scripts; no limit if a thorough search is asked for there.
     pub fn work_while_compiling(effort: Effort) -> Option<u64> {
         match effort {
             Effort::Quick => Some(WORK_WHILE_COMPILING),
@@ -157,7 +157,7 @@ impl Request {
     /// searches for the regrouping that its numbers are of, which takes seconds.
     ///
     /// # Errors
-    /// The scene is none of this robot, or a function needs mass and no link has any.
+    /// The scene does not fit this robot, or a function needs mass and no link has any.
     pub fn prepare(&self, robot: &Robot) -> Result<Setup, Diagnostic> {
         let setup = Setup::in_scene(robot, self.scene.as_ref())?
             .taking(&self.parameters)

@@ -78,7 +78,7 @@ pub fn attempt(
             };
             let mut error = |state: &JointState| run.error(output, state);
             let (state, _) = climb(limits, from, MOVES, &mut random, &mut error);
-            let mut cost = |state: &JointState| rounded(&run.emitted, output, state);
+            let mut cost = |state: &JointState| rounding_estimate(&run.emitted, output, state);
             climbed.push(climb(limits, state.clone(), MOVES, &mut random, &mut cost));
             top.push((run.error(output, &state), state));
         }
@@ -172,7 +172,7 @@ impl VariantCode<'_> {
 }
 
 /// First order, in units of u: the sum of |value·adjoint| over all operations.
-fn rounded(code: &Code, output: usize, state: &JointState) -> f64 {
+fn rounding_estimate(code: &Code, output: usize, state: &JointState) -> f64 {
     let (values, mut adjoints) = (code.values_at(state), Vec::new());
     let top = code.dag.outputs[output].node;
     code.dag.adjoints(top, &values, &mut adjoints);

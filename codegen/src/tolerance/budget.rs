@@ -279,7 +279,7 @@ impl<'a> Budget<'a> {
         let allowances = self.allowances(&exact, allowed);
         let mut programs = Vec::new();
         if allowances.iter().any(|allowance| *allowance > 0.0)
-            && self.reference.has_others(&allowances)
+            && self.reference.may_be_definite(&allowances)
         {
             let target = Target {
                 setup: self.setup,

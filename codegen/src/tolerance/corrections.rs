@@ -57,7 +57,7 @@ pub(super) struct ColumnSketch {
 }
 
 /// The errors that are left once constants are corrected.
-pub(super) struct Left {
+pub(super) struct RemainingErrors {
     pub(super) sum: f64,
     pub(super) worst: f64,
     pub(super) change: Vec<f64>,
@@ -70,7 +70,7 @@ impl Greedy<'_> {
 
     fn unknowns(&self, state: &Edits, live: &[bool]) -> Vec<Unknown> {
         let count = self.net.inputs.len();
-        let of = |node: usize| {
+        let unknown_at = |node: usize| {
             // A node's value, the sign of its derivative, and the node that it multiplies.
             let (place, constant, sign, other) = match state.edits[node] {
                 Some(NodeValue::Constant(c)) if c != 0.0 => {
@@ -104,7 +104,7 @@ impl Greedy<'_> {
             })
         };
         let live = (0..self.net.len()).filter(|&node| live[node]);
-        live.filter_map(of).collect()
+        live.filter_map(unknown_at).collect()
     }
 
     /// Returns the change of the errors by each constant, and keeps the derivatives by all nodes
@@ -204,17 +204,23 @@ impl Greedy<'_> {
             .iter()
             .map(|column| dot(column, rows))
             .collect();
-        let left = gone
+        let gone_changes = gone
             .iter()
             .map(|&k| dot(&sketch.inverse[k], &right))
             .collect();
         let taken = sketch.factor.forward(right);
-        let lost = Factor::new(gone.len(), |a, b| sketch.inverse[gone[a]][gone[b]]).forward(left);
+        let lost =
+            Factor::new(gone.len(), |a, b| sketch.inverse[gone[a]][gone[b]]).forward(gone_changes);
         dot(rows, rows) - dot(&taken, &taken) + dot(&lost, &lost)
     }
 
     /// Returns the errors that constants leave to first order, and their changes.
-    pub(super) fn left(&self, frame: &Frame, mut rows: Vec<f64>, gone: &[usize]) -> Left {
+    pub(super) fn left(
+        &self,
+        frame: &Frame,
+        mut rows: Vec<f64>,
+        gone: &[usize],
+    ) -> RemainingErrors {
         let fine = &frame.fine;
         let sketch = self.sketch(&rows, &frame.weights, fine.size);
         let right = fine.columns.iter().map(|column| dot(column, &sketch));
@@ -237,7 +243,7 @@ impl Greedy<'_> {
             }
         }
         let (sum, worst) = self.summed(&self.samples.blocks(&rows));
-        Left { sum, worst, change }
+        RemainingErrors { sum, worst, change }
     }
 
     /// Corrects constants so that the largest error is small: least squares again and again, weighed by

@@ -22,7 +22,7 @@ const SAMPLES: usize = 64;
 const CERTAIN: f64 = 1e-6;
 
 /// Returns the place of D among the results, if it is there and its two halves are the same values.
-pub(super) fn symmetric(program: &Program) -> Option<usize> {
+pub(super) fn inertia_place(program: &Program) -> Option<usize> {
     let (n, first) = (program.rows.len(), start(program)?);
     let outputs = &program.dag.outputs[first..][..n * n];
     let mut entries = (0..n).flat_map(|i| (0..i).map(move |j| (i, j)));
@@ -39,7 +39,7 @@ pub(crate) fn is_definite(
     off: Option<&[f64]>,
 ) -> bool {
     let n = program.rows.len();
-    let Some(first) = symmetric(program) else {
+    let Some(first) = inertia_place(program) else {
         return false;
     };
     let entry = |i: usize, j: usize| first + i * n + j;
@@ -51,23 +51,23 @@ pub(crate) fn is_definite(
             kernel.errors.cos
         })
     };
-    let errors: Option<&dyn Fn(usize, bool) -> Option<f64>> = match sines {
+    let sine_errors: Option<&dyn Fn(usize, bool) -> Option<f64>> = match sines {
         [] => None,
         _ => Some(&error),
     };
     let written = reference::read(program).ok();
-    let Some(written) = written.and_then(|program| domain.write(&program, errors).ok()) else {
+    let Some(written) = written.and_then(|program| domain.write(&program, sine_errors).ok()) else {
         return false;
     };
     let lower: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
-    let off = |output: usize| off.map_or(0.0, |off| off[output]);
+    let result_error = |output: usize| off.map_or(0.0, |off| off[output]);
     let entries: Vec<_> = lower
         .iter()
         .map(|&(i, j)| written[entry(i, j)].clone())
         .collect();
     let errors: Vec<f64> = lower
         .iter()
-        .map(|&(i, j)| off(entry(i, j)).next_up())
+        .map(|&(i, j)| result_error(entry(i, j)).next_up())
         .collect();
     domain.is_definite(&entries, &errors)
 }

@@ -255,7 +255,7 @@ impl<'a> Greedy<'a> {
                 pool.truncate(POOL);
                 let look: Vec<(usize, NodeValue)> = pool.iter().copied().take(LOOKED_AT).collect();
                 if let Some(next) =
-                    self.taken(&frame, &mut state, (paid, now), &look, &mut refused, random)
+                    self.next_edit(&frame, &mut state, (paid, now), &look, &mut refused, random)
                 {
                     break next;
                 }
@@ -266,7 +266,7 @@ impl<'a> Greedy<'a> {
         }
     }
 
-    fn taken(
+    fn next_edit(
         &self,
         frame: &Frame,
         state: &mut Edits,

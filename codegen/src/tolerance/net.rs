@@ -186,8 +186,8 @@ impl Net {
                 continue;
             }
             let add = |before: &mut [f64], to: usize, factor: f64| {
-                let to = before[to * m..][..m].iter_mut().zip(adjoint);
-                to.for_each(|(to, derivative)| *to += factor * derivative);
+                let targets = before[to * m..][..m].iter_mut().zip(adjoint);
+                targets.for_each(|(to, derivative)| *to += factor * derivative);
             };
             let op = match state.edits[node] {
                 Some(NodeValue::Constant(_)) => continue,

@@ -161,14 +161,16 @@ impl Engine {
         let engine = |program, sines, off| definite::is_definite(domain, program, sines, off);
         self.is_shown()
             && match self.is_loaded() {
-                true => definite::symmetric(program).is_some() && engine(exact, &[], Some(errors)),
+                true => {
+                    definite::inertia_place(program).is_some() && engine(exact, &[], Some(errors))
+                }
                 false => program == exact && sines.is_empty() || engine(program, sines, rounding),
             }
     }
 
     /// Returns true if D of a program that the search finds may be shown to be positive definite, or the
     /// function has no D.
-    pub(super) fn has_others(&self, allowed: &[f64]) -> bool {
+    pub(super) fn may_be_definite(&self, allowed: &[f64]) -> bool {
         let least: Vec<f64> = allowed.iter().map(|most| PARTS[0] * most).collect();
         let is_borne = |exact| self.is_borne(exact, &least);
         self.inertia.as_ref().is_none_or(is_borne) || self.is_shown()
@@ -184,7 +186,8 @@ impl Engine {
     }
 
     fn is_borne(&self, program: &Program, errors: &[f64]) -> bool {
-        let Some((turning, first)) = self.turning.as_ref().zip(definite::symmetric(program)) else {
+        let Some((turning, first)) = self.turning.as_ref().zip(definite::inertia_place(program))
+        else {
             return false;
         };
         let n = program.rows.len();

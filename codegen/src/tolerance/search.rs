@@ -67,7 +67,7 @@ pub struct SearchEffort {
 }
 
 impl SearchEffort {
-    /// For who waits: seconds for a six-joint arm.
+    /// For an interactive use: seconds for a six-joint arm.
     pub const QUICK: SearchEffort = SearchEffort {
         has_models: false,
         retries: 0,
@@ -188,14 +188,14 @@ impl ProgramSearch<'_> {
         self.target.watch.step(Part::Omissions, rounds, best);
         self.rounds[0] += 1;
         let target = self.target;
-        let of = |(start, seed): &(&Program, u64)| {
+        let prune = |(start, seed): &(&Program, u64)| {
             // A thread counts its work for itself.
             let meter = Meter::new(None);
             (pruned(target, start, *seed), meter.done())
         };
         let outcomes: Vec<(Vec<Program>, u64)> = match target.effort.work {
-            Some(_) => starts.iter().map(of).collect(),
-            None => parallel::each(starts, of),
+            Some(_) => starts.iter().map(prune).collect(),
+            None => parallel::each(starts, prune),
         };
         self.spent += outcomes.iter().map(|outcome| outcome.1).sum::<u64>();
         let price = |programs: &[Program]| programs.iter().map(cost).min();

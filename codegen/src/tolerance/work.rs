@@ -1,4 +1,4 @@
-//! Work counted, for who cannot wait.
+//! The work of a search, counted so that it can be limited.
 //!
 //! A unit is 64 products and sums: some hundredths of a microsecond. Units
 //! are counted where the time goes and never timed, so that a limit ends a search at the same place

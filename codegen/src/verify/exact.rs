@@ -114,7 +114,7 @@ impl fmt::Display for Disproof {
 /// The first output that differs, or the reason for which nothing can be proved.
 pub fn prove(setup: &Setup, program: &Program) -> Result<Proof, Disproof> {
     // A program reads speeds of the robot's widths, and no other.
-    if program.rows != setup.rows() || program.speeds != program.read(setup.speeds()) {
+    if program.rows != setup.rows() || program.speeds != program.read_speeds(setup.speeds()) {
         return Err(Disproof::Shape);
     }
     let function = program.function;

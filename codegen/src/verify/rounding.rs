@@ -116,7 +116,7 @@ impl Rounding {
     }
 }
 
-/// Zero stays zero, whatever it is multiplied by: an error that does not arrive is none.
+/// Zero times anything is zero, infinity and NaN too: an error that does not arrive does not count.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Sticky(f64);
 

@@ -36,7 +36,7 @@ pub(crate) fn warn(message: &str) {
     tell(&format!("warning={}", lines.join(" ")));
 }
 
-/// Tells cargo; outside a build script nobody would listen.
+/// Tells cargo; does nothing outside a build script.
 fn tell(line: &str) {
     if env::var_os("OUT_DIR").is_some() {
         println!("cargo::{line}");

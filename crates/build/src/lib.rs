@@ -180,7 +180,7 @@ impl Generator {
         cargo::watch(&self.robot, output);
         match fs::read(&self.robot) {
             Ok(bytes) => Ok(String::from_utf8_lossy(&bytes).into_owned()),
-            // What is wrong with it, the generator says better.
+            // The generator explains better what is wrong with the file.
             #[cfg(feature = "search")]
             Err(_) => self.generated(output).map(|_| String::new()),
             #[cfg(not(feature = "search"))]

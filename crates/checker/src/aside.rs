@@ -1,6 +1,6 @@
 //! Items beside the functions of a file. Each is compared with the one that follows from the
-//! functions and from the robot, so that whoever asks for the number of joints, or whether a state
-//! is inside the box, gets what was checked, and that nothing hides.
+//! functions and from the robot, so that the number of joints, and the test whether a state is
+//! inside the box, are what was checked, and nothing hides.
 
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
@@ -117,26 +117,26 @@ impl<'k> FileFacts<'k> {
         };
         self.add(item.module, lines.join("\n"));
         for scalar in SCALARS {
-            let (mut kind, mut asks) = ("pub struct StateBox {".to_owned(), String::new());
+            let (mut structure, mut checks) = ("pub struct StateBox {".to_owned(), String::new());
             let mut arguments = Vec::new();
             for (name, ends) in STATE.iter().zip(&ends) {
                 let Some(ends) = ends else { continue };
                 let count = ends.len();
-                kind += &format!("\npub {name}: [[{scalar}; 2]; {count}],");
+                structure += &format!("\npub {name}: [[{scalar}; 2]; {count}],");
                 arguments.push(format!("{name}: &[{scalar}; {count}]"));
                 for joint in (0..count).filter(|joint| ends[*joint].is_some()) {
-                    let (entry, ends) =
+                    let (entry, bounds) =
                         (format!("{name}[{joint}]"), format!("BOX.{name}[{joint}]"));
-                    asks += "\nlet inside = inside & ";
-                    asks += &format!("({ends}[0] <= {entry}) & ({entry} <= {ends}[1]);");
+                    checks += "\nlet inside = inside & ";
+                    checks += &format!("({bounds}[0] <= {entry}) & ({entry} <= {bounds}[1]);");
                 }
             }
             let arguments = arguments.join(", ");
-            self.add(item.module, kind + "\n}");
+            self.add(item.module, structure + "\n}");
             let head = format!("pub fn in_box({arguments}) -> bool {{");
             self.add(
                 item.module,
-                format!("{head}\nlet inside = true;{asks}\ninside\n}}"),
+                format!("{head}\nlet inside = true;{checks}\ninside\n}}"),
             );
         }
     }
@@ -151,7 +151,7 @@ impl<'k> FileFacts<'k> {
         let text = lines.join("\n");
         let is_known = self.items.contains(&text)
             || self.items.contains(&format!("mod {}\n{text}", item.module))
-            || values.any(|(name, constants)| are(&lines, name, constants));
+            || values.any(|(name, constants)| is_array(&lines, name, constants));
         let head = lines.first().unwrap_or(&"");
         let why = || format!("it does not follow from the functions and the robot: `{head}`");
         let fault = || Fault::Text(item.line, why());
@@ -294,7 +294,7 @@ fn ends(lines: &[&str], is_single: bool) -> Option<Ends> {
     Some(ends)
 }
 
-fn are(lines: &[&str], name: &str, values: &[Exact]) -> bool {
+fn is_array(lines: &[&str], name: &str, values: &[Exact]) -> bool {
     let [head, lines @ .., "];"] = lines else {
         return false;
     };

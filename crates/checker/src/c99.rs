@@ -162,7 +162,7 @@ pub(crate) fn functions<'t>(
             item.text.ends_with("\n}\n") && !item.text.replacen(LOOP, "", 1).contains('#')
         };
         let mut item = candidate.filter(is_plain).ok_or_else(|| fault(first))?;
-        // What functions call by these names is what `together` knows.
+        // Functions of these names have to be those of `together`.
         let mut names = heads.iter().copied().filter_map(symbol);
         if names.any(|(symbol_name, _)| {
             symbol_name.ends_with("_sincos") || symbol_name.contains("_sines_")

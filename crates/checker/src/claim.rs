@@ -39,7 +39,18 @@ const MOST_RESULTS: usize = 1 << 19;
 /// in each divisor.
 const MOST_DEGREES: usize = 1 << 26;
 
-/// The functions of a robot, each with what is claimed of it.
+/// The functions of a robot, each with what is claimed of it: the exact program, its arguments and
+/// results, and the scene. It has no bounds: the checker finds these itself.
+///
+/// ```
+/// use dalembert_checker::claim::Claim;
+///
+/// let text = std::fs::read_to_string("tests/data/attacks/A.claim.json").unwrap();
+/// let claim = Claim::read(&text)?;
+/// assert_eq!(claim.functions.len(), 1);
+/// assert_eq!(claim.functions[0].scene.as_deref(), Some("pick"));
+/// # Ok::<(), dalembert_checker::Fault>(())
+/// ```
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Claim {
@@ -104,7 +115,7 @@ pub struct FunctionClaim {
     pub planned: Option<SearchRecord>,
 }
 
-/// A search that a plan keeps beside its program, so that nobody searches again.
+/// A search that a plan keeps beside its program, so that it is not repeated.
 #[derive(Clone, Debug, Deserialize, Eq, Hash, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct SearchRecord {
@@ -213,7 +224,7 @@ impl Claim {
     /// Reads the constants.
     ///
     /// # Errors
-    /// The first that is none.
+    /// The first text that is not a constant.
     #[cfg(feature = "certify")]
     pub fn constants(&self, work: &Work) -> Result<Vec<Exact>, Fault> {
         /// The most angles that constants have sines of.

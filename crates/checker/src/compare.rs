@@ -39,9 +39,9 @@ pub(crate) fn compare(
 ) -> Result<(), String> {
     let counts = |steps: usize, results: usize| format!("{steps} operations and {results} results");
     let text_counts = counts(text.steps.len(), text.outputs.len());
-    let other = counts(exact.steps.len(), exact.outputs.len());
-    if text_counts != other {
-        return Err(format!("{text_counts}, not {other} as claimed"));
+    let exact_counts = counts(exact.steps.len(), exact.outputs.len());
+    if text_counts != exact_counts {
+        return Err(format!("{text_counts}, not {exact_counts} as claimed"));
     }
     let same = |(operand, other): (&Operand<f64>, &Operand<Exact>)| match (operand, other) {
         (Operand::Constant(literal), Operand::Constant(other)) => {

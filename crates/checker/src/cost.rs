@@ -186,7 +186,7 @@ impl Subject<'_> {
             let heights = samples.look(drawn.each_ref(), &divides)?;
             worst.extend(heights.into_iter().zip(drawn));
         }
-        // Climbs lead to states that nobody drew.
+        // Climbs lead to states that were not drawn.
         let (drawn, near) = (samples.states, samples.near.clone());
         if is_measured {
             self.steps_are_seen(&over_box, &has_quotients, &samples.steps)?;
@@ -239,7 +239,7 @@ impl Subject<'_> {
                 )));
             }
             let unbounded = samples.unbounded[field];
-            // In f64 what divides is never so near to where it divides by zero.
+            // In f64 a result that divides must not be so near to a division by zero.
             let is_far = unbounded > 0 || !(rounding < MOST.max(self.worst));
             if !is_bounded && !head.is_single && is_far {
                 let (most, of) = (MOST.max(self.worst), "of its largest value");

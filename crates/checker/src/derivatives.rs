@@ -56,8 +56,8 @@ impl Derivatives<'_> {
         let mut rounded = Vec::new();
         let steps = self.text.steps.iter().zip(&self.program.steps);
         for (step, ((operation, [a, b]), (_, [one, other]))) in steps.enumerate() {
-            let [x, y] =
-                [(a, one), (b, other)].map(|(text, operand)| self.known(text, operand, &known));
+            let [x, y] = [(a, one), (b, other)]
+                .map(|(text, operand)| self.operand_bound(text, operand, &known));
             let inherited = match operation {
                 '+' | '-' => x.error + y.error,
                 _ => x.size * y.error + y.size * x.error + x.error * y.error,
@@ -82,7 +82,7 @@ impl Derivatives<'_> {
         results.iter().map(bound).collect()
     }
 
-    fn known(
+    fn operand_bound(
         &self,
         text: &Operand<f64>,
         operand: &Operand<Exact>,
@@ -119,7 +119,7 @@ impl Derivatives<'_> {
         let (_, output) = &self.text.outputs[result];
         let (_, exact) = &self.program.outputs[result];
         let Operand::Step(top) = output else {
-            return Ok(self.known(output, exact, known).error);
+            return Ok(self.operand_bound(output, exact, known).error);
         };
         let mut slopes = vec![Polynomial::default(); top + 1];
         let mut offs = vec![0.0; top + 1];
@@ -138,8 +138,8 @@ impl Derivatives<'_> {
             sum += (most + off) * rounded[step];
             let (operation, [a, b]) = &self.text.steps[step];
             let [one, other] = &self.program.steps[step].1;
-            let [x, y] =
-                [(a, one), (b, other)].map(|(text, operand)| self.known(text, operand, known));
+            let [x, y] = [(a, one), (b, other)]
+                .map(|(text, operand)| self.operand_bound(text, operand, known));
             // The other factor of the left operand is the float, of the right one the exact value.
             let sides = [(a, x, other, y, y.error), (b, y, one, x, 0.0)];
             for (side, (text, bound, factor, other, error)) in sides.into_iter().enumerate() {
@@ -175,7 +175,7 @@ impl Derivatives<'_> {
             }
         }
         for (leaf, slope, off) in &leaves {
-            let error = self.known(leaf, exact, known).error;
+            let error = self.operand_bound(leaf, exact, known).error;
             sum += (self.size(slope)? + off) * error;
         }
         let sum = sum * (1.0 + 1e-9);

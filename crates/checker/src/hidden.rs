@@ -1,5 +1,5 @@
 //! Conditions on a function that divides, whose rounding has no bound over the box: a number that
-//! is added and taken away again, large where nobody looks, is not in its program.
+//! is added and taken away again, large at states that are not tried, is not in its program.
 //!
 //! - No step is in vain: at random residues another value of it gives another result. Of K in
 //!   (x + K) − K any value gives the same.
@@ -52,7 +52,7 @@ pub(crate) fn check(
             "changes no result with its like in other lanes",
         ));
     }
-    // No derivative is no proof: at an extremum there is none either.
+    // A zero derivative is no proof: it is zero at an extremum, too.
     let mut idle: Vec<usize> = one.intersection(&other).copied().collect();
     idle.sort_unstable();
     for step in idle {
@@ -71,7 +71,7 @@ pub(crate) fn check(
         return Err(lost());
     };
     let values = [&one, &other].map(|state| program.step_residues(point, state));
-    let [Some(first), Some(second)] = values else {
+    let [Some(first_values), Some(second_values)] = values else {
         return Err(lost());
     };
     let mut known = HashMap::new();
@@ -102,7 +102,7 @@ pub(crate) fn check(
             is_new([a, b], usize::MAX);
         }
     }
-    for (step, (a, b)) in first.into_iter().zip(second).enumerate() {
+    for (step, (a, b)) in first_values.into_iter().zip(second_values).enumerate() {
         // A product that is not rounded hides nothing, and may stand once for each of its sums.
         if program.steps[step].0 == '×' {
             continue;
@@ -128,12 +128,12 @@ pub(crate) fn refused(step: usize, why: &str) -> Fault {
 fn state(point: &Point, setting: &Setting, load: usize) -> Option<State> {
     let mut state = State::draw(point, setting).ok()?;
     let place = argument("load")?;
-    state.given[place] = (0..load).map(|_| point.residue()).collect();
+    state.arguments[place] = (0..load).map(|_| point.residue()).collect();
     Some(state)
 }
 
-/// Lists the steps without which a random combination of the results is the same, and those without
-/// which and their like in other lanes it is.
+/// Lists the steps that do not change a random combination of the results, and those that do not
+/// change it together with their like in other lanes.
 fn vain(
     program: &Program<Exact>,
     loops: &[[usize; 3]],
@@ -181,7 +181,7 @@ fn vain(
     let value = |number: Number| number.value(point.prime);
     for &[first, rows, lanes] in loops {
         for step in first..first + rows {
-            // Slopes by what a lane has as the first one of its value.
+            // Adds up the slopes of this and later lanes with the same value, up to its sign.
             let like = |lane: usize| (step + lane * rows..first + rows * lanes).step_by(rows);
             for lane in 0..lanes {
                 let lane_step = step + lane * rows;

@@ -8,7 +8,7 @@ use crate::payload::BodyRange;
 use crate::program::{ARGUMENTS, LOAD, Operand, Program, Step, argument};
 use crate::read;
 use crate::rounding::{Ranges, Rounding, Value};
-use crate::written::at;
+use crate::written::evaluate;
 
 impl Setting<'_> {
     /// Returns the box of a function's states, with that of its load and the load's entries; of a
@@ -49,7 +49,7 @@ pub(crate) fn load_of_point(
     let mut arguments = vec![Vec::new(); ARGUMENTS.len()];
     let numbers = numbers.into_iter().map(Interval::point);
     arguments[argument("payload").unwrap_or_default()] = numbers.collect();
-    let values = at(load, &arguments);
+    let values = evaluate(load, &arguments);
     values.ok_or_else(|| Fault::Claim("`load` reads what is not a payload".into()))
 }
 

@@ -69,8 +69,8 @@ fn pair(joint: usize, sign: Option<f64>, work: &Work) -> Result<[Polynomial; 2],
     let sin_b = if sign < 0.0 { sin_b.negated() } else { sin_b };
     let across = cos.times(&sin_b, work)?.negated();
     let along = sin.times(&sin_b, work)?;
-    let sum = sin.times(&cos_b, work)?.plus(&across);
-    Ok([sum, cos.times(&cos_b, work)?.plus(&along)])
+    let sine = sin.times(&cos_b, work)?.plus(&across);
+    Ok([sine, cos.times(&cos_b, work)?.plus(&along)])
 }
 
 impl Ring {

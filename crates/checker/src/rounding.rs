@@ -36,7 +36,7 @@ impl Value {
     }
 
     /// Returns all numbers that the exact value, the float and those between may be.
-    fn all(self) -> Interval {
+    fn hull(self) -> Interval {
         self.exact + Interval::around(0.0, self.error)
     }
 }
@@ -174,7 +174,7 @@ impl<'f> Rounding<'f> {
             }
             sum += slope.magnitude() * inputs.values[step].rounded;
             let (operation, operands) = &self.function.program.steps[step];
-            let interval = |operand: &Operand<f64>| self.operand(operand, inputs).all();
+            let interval = |operand: &Operand<f64>| self.operand(operand, inputs).hull();
             let [a, b] = operands.each_ref().map(interval);
             let parts = match operation {
                 '+' => [slope, slope],
@@ -198,7 +198,7 @@ impl<'f> Rounding<'f> {
         }
         for (leaf, slope) in leaves {
             let error = self.operand(leaf, inputs).error;
-            // Nothing times what is not known is nothing.
+            // Zero times an unknown number counts as zero.
             if error != 0.0 {
                 sum += slope.magnitude() * error;
             }
@@ -303,7 +303,7 @@ fn entry(ranges: &Ranges, place: usize, index: usize) -> Option<Interval> {
 }
 
 fn inherited(a: Value, b: Value) -> f64 {
-    // Nothing times what is not known is nothing: so it is in products of zero.
+    // Zero times an unknown number counts as zero, as in products with zero.
     let part = |error: f64, size: f64| if error == 0.0 { 0.0 } else { error * size };
     let [x, y] = [a, b].map(|factor| factor.exact.magnitude());
     part(a.error, y) + part(b.error, x) + part(a.error, b.error)

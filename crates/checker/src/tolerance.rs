@@ -23,7 +23,7 @@ use crate::read;
 use crate::ring::Ring;
 use crate::rounding::{Ranges, Rounding};
 use crate::work::Work;
-use crate::written::{PolynomialProgram, at};
+use crate::written::{PolynomialProgram, evaluate};
 
 /// The share by which a box may be another than the file's: decimals were rounded to doubles.
 pub(crate) const BOX_SLACK: f64 = 1e-9;
@@ -111,12 +111,12 @@ impl VariantSubject<'_> {
     pub(crate) fn bounded(&self) -> Result<Vec<ResultBound>, Fault> {
         let count = self.emitted.outputs.len();
         let are_alike = self.exact.outputs.len() == count;
-        unless(are_alike, "two programs of other results")?;
+        ensure(are_alike, "two programs of other results")?;
         let fields = self.results();
-        unless(fields.len() == count, "results that are not the function's")?;
+        ensure(fields.len() == count, "results that are not the function's")?;
         let mut loading = self.setting.loading.iter();
         let is_of_payload = loading.all(|place| argument("payload") == Some(*place));
-        unless(
+        ensure(
             is_of_payload,
             "a tolerance where bodies or drives are arguments",
         )?;
@@ -142,7 +142,7 @@ impl VariantSubject<'_> {
         let bounds = rounding.bounds(ranges, Some(&sizes)).results;
         let mut costs: Vec<f64> = bounds.iter().map(|bound| bound.error).collect();
         // Where intervals leave little of the tolerance.
-        let allowed = |k: usize| self.held(&fields[k].1) * scales[k];
+        let allowed = |k: usize| self.tolerance_of(&fields[k].1) * scales[k];
         let is_dear = |k: &usize| costs[*k] > SHARE * allowed(*k);
         let dear: Vec<usize> = (0..count).filter(is_dear).collect();
         if !dear.is_empty() {
@@ -174,9 +174,9 @@ impl VariantSubject<'_> {
             // Of a result that is not always zero there is a state where it is not.
             let is_zero = exact[k].terms.is_empty() && exact[k].rest == 0.0;
             let why = "T of zero of a result that is not always zero";
-            unless(scale > 0.0 || is_zero, why)?;
+            ensure(scale > 0.0 || is_zero, why)?;
             let tolerated = match scale > 0.0 {
-                true => below(self.held(&joints) * scale),
+                true => below(self.tolerance_of(&joints) * scale),
                 false => ZERO * largest,
             };
             let difference = emitted[k].plus(&exact[k].negated());
@@ -223,7 +223,7 @@ impl VariantSubject<'_> {
     }
 
     /// Returns the tolerance of a result: of several joints, and of none, the strictest.
-    fn held(&self, joints: &[usize]) -> f64 {
+    fn tolerance_of(&self, joints: &[usize]) -> f64 {
         let mut lists = [joints, &self.setting.rows].into_iter();
         let held = lists.find(|list| !list.is_empty());
         let is_held = |joint: &usize| held.is_none_or(|list| list.contains(joint));
@@ -273,7 +273,7 @@ impl VariantSubject<'_> {
         let BodyRange { mass, radius } = self.setting.body().map_err(of_robot)?.unwrap_or_default();
         let places = &self.function.arguments;
         let wrong = "`reached`: expected a state of the box for each result";
-        unless(states.len() == self.exact.outputs.len(), wrong)?;
+        ensure(states.len() == self.exact.outputs.len(), wrong)?;
         let of_state = |place: &usize| *place < 3 || Some(*place) == argument(GRAVITY);
         let places: Vec<usize> = places.iter().copied().filter(of_state).collect();
         let count = |place: &usize| self.setting.entries(*place);
@@ -302,8 +302,8 @@ impl VariantSubject<'_> {
                     arguments[argument(LOAD).unwrap_or_default()] = load;
                 }
             }
-            unless(is_inside, wrong)?;
-            let values = at(self.exact, &arguments).unwrap_or_default();
+            ensure(is_inside, wrong)?;
+            let values = evaluate(self.exact, &arguments).unwrap_or_default();
             let interval = values.get(result).ok_or(Fault::Claim(wrong.into()))?;
             Ok(interval.low.max(-interval.high).max(0.0))
         };
@@ -321,7 +321,7 @@ impl Setting<'_> {
             name => name == GRAVITY && gravity.is_some(),
         };
         let are_bounded = places.iter().all(is_bounded);
-        unless(are_bounded, "an argument that no box bounds")?;
+        ensure(are_bounded, "an argument that no box bounds")?;
         let of_robot = |why: String| Fault::Robot("limits".into(), why);
         let mut ranges: Ranges = vec![Vec::new(); ARGUMENTS.len()];
         if let (Some(place), Some(most)) = (argument(GRAVITY), gravity) {
@@ -358,7 +358,7 @@ impl Setting<'_> {
             self.turns_by(joint) && range.iter().any(|end| end.abs() >= FARTHEST)
         };
         let is_near = !ranges[0].iter().enumerate().any(is_far);
-        unless(is_near, "the sine of an angle beyond 1000 rad")?;
+        ensure(is_near, "the sine of an angle beyond 1000 rad")?;
         Ok(ranges)
     }
 }
@@ -369,7 +369,7 @@ fn is_within(value: f64, [low, high]: [f64; 2]) -> bool {
     low - slack <= value && value <= high + slack
 }
 
-fn unless(holds: bool, why: &str) -> Result<(), Fault> {
+fn ensure(holds: bool, why: &str) -> Result<(), Fault> {
     let fault = || Fault::Claim(format!("tolerance: {why}"));
     holds.then_some(()).ok_or_else(fault)
 }

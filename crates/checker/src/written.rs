@@ -11,7 +11,10 @@ use crate::work::Work;
 /// The most terms that are alive at once: 32 bytes each.
 const MOST_ALIVE: usize = 1 << 23;
 
-pub(crate) fn at(program: &Program<Exact>, arguments: &[Vec<Interval>]) -> Option<Vec<Interval>> {
+pub(crate) fn evaluate(
+    program: &Program<Exact>,
+    arguments: &[Vec<Interval>],
+) -> Option<Vec<Interval>> {
     let leaf = |operand: &Operand<Exact>| match operand {
         Operand::Constant(constant) => {
             let [value, radius] = constant.double()?;

@@ -38,7 +38,7 @@ fn torques_are_those_of_lagranges_equation() {
         let point = Point::new(&[name]);
         let arm = Arm::read(&setting, &point).unwrap();
         let state = State::draw(&point, &setting).unwrap();
-        let [qd, qdd] = ["qd", "qdd"].map(|key| &state.given[argument(key).unwrap()]);
+        let [qd, qdd] = ["qd", "qdd"].map(|key| &state.arguments[argument(key).unwrap()]);
         let n = qd.len();
         let d = value(&arm, &state, "inertia");
         let slope = |joint: usize| {

@@ -91,8 +91,8 @@ fn row(result: &ResultBound, robot: &Robot, base: usize) -> Vec<Cell> {
 fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     let name = args.file.display();
     let stamp = Stamp::read(source);
-    let named = stamp.iter().find_map(|(stamp, _)| stamp.asked.get("scene"));
-    let scene = args.scene.as_deref().or(named);
+    let stamp_scene = stamp.iter().find_map(|(stamp, _)| stamp.asked.get("scene"));
+    let scene = args.scene.as_deref().or(stamp_scene);
     let place = claim_of(&args.file);
     if !place.exists() {
         return Err(Failure::Input(format!(

@@ -8,7 +8,7 @@
 use dalembert_codegen::ScalarType;
 
 use crate::drawing::paper::Paper;
-use crate::ladder::called;
+use crate::ladder::called_sine_cost;
 
 /// One variant, as the chart shows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +59,7 @@ pub fn svg(title: &str, relative_to: &str, dots: &[Dot]) -> String {
     let across = Across::around(bound.chain(observed.iter().copied()));
     let up = Up::around(dots.iter().map(|dot| dot.cost));
     paper.text("i t", [LEFT, 20.0], title);
-    let [double, single] = ScalarType::ALL.map(called);
+    let [double, single] = ScalarType::ALL.map(called_sine_cost);
     let cost = format!(
         "operations; a called sine and its cosine count as {double}, in f32 as {single}, as libm computes them"
     );
@@ -221,7 +221,7 @@ mod tests {
     use dalembert_stamp::{Comment, sealed};
 
     use super::{Dot, svg};
-    use crate::ladder::called;
+    use crate::ladder::called_sine_cost;
 
     fn dots(csv: &str) -> Vec<Dot> {
         let mut rows = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
@@ -232,7 +232,7 @@ mod tests {
             let kind = usize::from(cell("scalar") == "f32");
             let is_called = cell("sincos_by") == "libm";
             let sines = match is_called {
-                true => number("sincos") * called(ScalarType::ALL[kind]) as f64,
+                true => number("sincos") * called_sine_cost(ScalarType::ALL[kind]) as f64,
                 false => number("trig_mul") + number("trig_add"),
             };
             Dot {

@@ -96,8 +96,8 @@ pub(crate) fn run(args: &ImportArgs, context: &Context) -> Outcome {
     };
     say(args, context, &made, &source);
     let mut done = Done::from(match made.as_slice() {
-        [import] if !args.all => one(import, path, &source),
-        _ => all(&made, shared, path, &source),
+        [import] if !args.all => report_of_arm(import, path, &source),
+        _ => report_of_arms(&made, shared, path, &source),
     });
     done.is_aside = true;
     for made in made {
@@ -146,7 +146,7 @@ fn say(args: &ImportArgs, context: &Context, made: &[Import], source: &Text) {
     }
 }
 
-fn one(made: &Import, path: &Path, source: &Text) -> Report {
+fn report_of_arm(made: &Import, path: &Path, source: &Text) -> Report {
     let mut report = values(made, path, source);
     let joints = counted(made.robot.joints.len(), "joint");
     report.line(format!("{}: {joints}", made.robot.name));
@@ -182,7 +182,12 @@ fn one(made: &Import, path: &Path, source: &Text) -> Report {
     report
 }
 
-fn all(made: &[Import], shared: Vec<SharedJoints>, path: &Path, source: &Text) -> Report {
+fn report_of_arms(
+    made: &[Import],
+    shared: Vec<SharedJoints>,
+    path: &Path,
+    source: &Text,
+) -> Report {
     let mut report = Report::default();
     let arms = made.iter().map(|made| json!(values(made, path, source)));
     report.value("arms", arms.collect::<Value>());

@@ -53,7 +53,7 @@ impl Point {
     pub fn cost(&self) -> usize {
         let counts = self.counts();
         let sines = match self.variant.sines.is_empty() {
-            true => counts.sincos * called(self.variant.scalar),
+            true => counts.sincos * called_sine_cost(self.variant.scalar),
             false => counts.trig_mul + counts.trig_add,
         };
         counts.operations() + sines
@@ -63,7 +63,7 @@ impl Point {
 /// Returns the operations that a called sine with its cosine counts as: those of libm 0.2.16 where
 /// it subtracts multiples of π/2 once. Its sine, its cosine and the subtraction are 12 + 12 + 3
 /// multiplications and 8 + 11 + 6 additions; in f32 8 + 7 + 3 and 4 + 4 + 4.
-pub fn called(scalar: ScalarType) -> usize {
+pub fn called_sine_cost(scalar: ScalarType) -> usize {
     match scalar {
         ScalarType::F64 => 52,
         ScalarType::F32 => 30,

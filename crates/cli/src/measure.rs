@@ -110,8 +110,8 @@ impl Samples {
 
 impl Bench {
     /// Prepares the measurement of a robot's functions.
-    pub fn new(robot: Setup) -> Bench {
-        let sizes = robot
+    pub fn new(setup: Setup) -> Bench {
+        let sizes = setup
             .robot()
             .joints
             .iter()
@@ -119,10 +119,10 @@ impl Bench {
             .map(|size| f64::nearest_rational(size).abs());
         let largest = sizes.fold(1.0, f64::max);
         Bench {
-            reference: Reference::new(&robot),
+            reference: Reference::new(&setup),
             // Some thousand products, each off by half of it, times the robot's parameters.
             underflow: 4096.0 * largest,
-            runtime: Runtime::in_scene(robot),
+            runtime: Runtime::in_scene(setup),
         }
     }
 

@@ -41,7 +41,7 @@ struct New {
 }
 
 pub(crate) fn run(args: &RenewArgs, context: &Context) -> Outcome {
-    let files = found(&args.files)?;
+    let files = stamped_files(&args.files)?;
     let (mut texts, mut failed) = (Vec::new(), Vec::new());
     for file in &files {
         match renewed(context, file) {
@@ -95,9 +95,9 @@ pub(crate) fn run(args: &RenewArgs, context: &Context) -> Outcome {
     Ok(done)
 }
 
-fn found(named: &[PathBuf]) -> Result<Vec<StampedFile>, Failure> {
+fn stamped_files(paths: &[PathBuf]) -> Result<Vec<StampedFile>, Failure> {
     let mut files = Vec::new();
-    for path in named {
+    for path in paths {
         let file = stamped(path, text(path, MAX_BYTES)?).ok_or_else(|| {
             Failure::Input(format!(
                 "error: `{}` lacks the first lines of a file that this version of dalembert generates\n  = help: \
@@ -107,7 +107,7 @@ fn found(named: &[PathBuf]) -> Result<Vec<StampedFile>, Failure> {
         });
         files.push(file?);
     }
-    if named.is_empty() {
+    if paths.is_empty() {
         walk(Path::new("."), &mut files)?;
         if files.is_empty() {
             return Err(Failure::Input(

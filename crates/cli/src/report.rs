@@ -311,7 +311,7 @@ impl Display for Table {
                 };
             }
         }
-        // A head without titles is none, and so is one without rows.
+        // A head without titles, or without rows below it, is left out.
         let mut lines = lines.iter().map(|line| line.trim_end());
         let head = lines.next();
         let head = head.filter(|head| !head.is_empty() && !self.rows.is_empty());

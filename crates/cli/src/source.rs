@@ -99,7 +99,7 @@ pub fn say_notes(context: &Context, robot: &Robot) {
 /// The limit of acceleration where none is given, rad/s² or m/s².
 pub const ACCELERATION: i64 = 10;
 
-/// Returns the import options for the model at a path where nobody gives others.
+/// Returns the default import options for the model at a path.
 pub fn defaults(path: &Path) -> Options {
     let name = path.file_name().unwrap_or_default();
     Options {

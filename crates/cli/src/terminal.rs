@@ -74,7 +74,7 @@ const COLOURS: [(&str, &str); 6] = [
     (" --> ", "1;34"),
 ];
 
-/// Hides a control character, which would move the cursor of whoever reads a message.
+/// Hides a control character, which would move the cursor of a message's reader.
 pub fn printable(c: char) -> char {
     if c.is_control() { '\u{fffd}' } else { c }
 }

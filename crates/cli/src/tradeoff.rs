@@ -61,7 +61,7 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
     source.outputs = vec![Function::InverseDynamics];
     let (mut request, scene) = exact_request(args, &source)?;
     let tolerances = tolerances(args, context);
-    // Before the work: a folder that cannot be is no news an hour later.
+    // Before the work, so that a folder that cannot be made is reported at once.
     let mut files = Files::new(context, &[&args.robot]);
     let targets = args
         .output
@@ -83,7 +83,7 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
     let relative_to = relative_to(args, scene.as_ref());
     let climb = |exact: &Program| climb(args, &request, &setup, exact, relative_to, &tolerances);
     let mut points = climb(&exact)?;
-    // What a tolerance led to may be exact, and cheaper than what the exact search found.
+    // A program found under a tolerance may be exact, and cheaper than that of the exact search.
     if let Some(better) = better(&setup, &exact, &points) {
         points = climb(&better)?;
         exact = better;

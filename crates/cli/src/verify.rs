@@ -1,5 +1,5 @@
 //! `dalembert verify`: the exact proof, then what rounding costs the emitted text, run bit for bit:
-//! inside the limits, at states that somebody else computed, and at the extremes.
+//! inside the limits, at states that another program computed, and at the extremes.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -57,7 +57,7 @@ pub fn suspect(model: &Model, log: [&[f64]; 4]) -> Result<Option<Suspicion>, Err
     for (name, column) in ["q", "qd", "qdd", "tau"].into_iter().zip(log) {
         check(name, column, n * rows)?;
     }
-    let before = left(model, log, rows, None)?;
+    let before = unexplained_part(model, log, rows, None)?;
     let degrees = core::f64::consts::PI / 180.0;
     let pairs = (0..n).flat_map(|i| (0..i).map(move |j| (j, i)));
     let delays = (0..7).flat_map(|k| [1 << k, -(1 << k), 3 << k >> 1, -(3 << k >> 1)]);
@@ -68,7 +68,7 @@ pub fn suspect(model: &Model, log: [&[f64]; 4]) -> Result<Option<Suspicion>, Err
         .chain(pairs.map(|(i, j)| Change::Joints(i, j)));
     let (mut best, mut least) = (None, LESS * before);
     for change in changes.chain(delays.map(Change::Late)) {
-        let after = left(model, log, rows, Some(change))?;
+        let after = unexplained_part(model, log, rows, Some(change))?;
         if after < least {
             (best, least) = (Some(change), after);
         }
@@ -80,7 +80,7 @@ pub fn suspect(model: &Model, log: [&[f64]; 4]) -> Result<Option<Suspicion>, Err
     }))
 }
 
-fn left(
+fn unexplained_part(
     model: &Model,
     log: [&[f64]; 4],
     rows: usize,

@@ -1,6 +1,6 @@
 //! Base parameters as symbols: the moments of each link that torques feel.
 //!
-//! What no joint feels of a link moves to the link that carries it, from the tips inward (Gautier and
+//! Moments of a link that no joint feels move to its carrier, from the tips inward (Gautier and
 //! Khalil 1990): of a link that turns its mass, its first moment along the axis and YY, of one that
 //! slides its second moments. Seven numbers of a link stay, or four:
 //! MX, MY, XX (which is XX − YY), ZZ, XY, XZ, YZ; M, MX, MY, MZ. They are taken about a point of the

@@ -272,7 +272,7 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// Writes them.
+    /// Writes the formulas.
     pub fn build(mut self) -> Result<Formulas, Diagnostic> {
         let sources = std::mem::take(&mut self.sources);
         let chain = self.arm.chain(&self.arm.arm);

@@ -270,10 +270,10 @@ impl<'a> Finder<'a> {
             .coefficients(self.setup, &rotation, &rotation.chain)?;
         let rotations = entries(&rotation);
         let symbolic = entries(&in_parameters);
-        let entries = entries(&in_numbers);
-        let total = entries.len();
+        let numeric_entries = entries(&in_numbers);
+        let total = numeric_entries.len();
         let mut zeros = Vec::new();
-        for (place, (entry, _)) in entries
+        for (place, (entry, _)) in numeric_entries
             .into_iter()
             .enumerate()
             .filter(|(_, (_, x))| x.is_zero())
@@ -382,8 +382,8 @@ impl<'a> Finder<'a> {
                     bodies: None,
                     seed,
                 });
-                let entries = coefficients.iter().flat_map(entries);
-                entries
+                let field_entries = coefficients.iter().flat_map(entries);
+                field_entries
                     .filter(|(_, x)| is_zero(x))
                     .map(|(entry, _)| entry)
                     .collect()
@@ -406,8 +406,8 @@ impl<'a> Finder<'a> {
                 bodies: Some(&bodies),
                 seed: SEEDS[1],
             });
-            let mut entries = coefficients.iter().flat_map(entries);
-            entries.any(|(other, x)| other == *entry && is_zero(x))
+            let mut field_entries = coefficients.iter().flat_map(entries);
+            field_entries.any(|(other, x)| other == *entry && is_zero(x))
         };
         holds(&self.facts).then(|| fewest(&self.facts, holds))
     }

@@ -44,7 +44,7 @@ impl<S: Scalar> Coefficients<S> {
             Quantity::Gravity,
             composite.gravity(CompositeOrder::Outward),
         )?;
-        // What is lost is lost here, before the most work.
+        // A lost number shows here, before most of the work.
         let inertia = composite
             .inertia(CompositeOrder::Inward)
             .into_iter()

@@ -171,7 +171,7 @@ impl Polynomial {
         self.is_lost
     }
 
-    /// Lists the terms; none of one that is lost.
+    /// Lists the terms; empty for a lost polynomial.
     pub fn terms(&self) -> &[(Monomial, Number)] {
         &self.terms
     }

@@ -38,7 +38,7 @@ pub(crate) fn within(value: &Rational, unit: Rational, digits: usize) -> Option<
         let part = &pi / Rational::from_integer(parts.into());
         let n = (value / &part).round();
         let off = (value - &n * &part).abs();
-        // Nothing has no digits that could tell how near it was meant.
+        // Zero has no digits that show how precisely it was meant.
         let by_digits = !n.is_zero() && digits >= telling && off <= loose;
         let taken = off <= power(close) || by_digits;
         taken.then(|| Angle::PiTimes(n / Rational::from_integer(parts.into())))
@@ -53,11 +53,11 @@ pub(crate) fn digits(text: &str) -> (Rational, usize) {
     };
     let after = mantissa.split_once('.').map_or(0, |(_, after)| after.len());
     let numerals = mantissa.chars().filter(char::is_ascii_digit);
-    let digits = numerals.skip_while(|digit| *digit == '0').count();
+    let count = numerals.skip_while(|digit| *digit == '0').count();
     let exponent: i32 = exponent;
     let unit = exponent.saturating_sub(i32::try_from(after).unwrap_or(i32::MAX));
     // Limits the exponent, so that the power stays small.
-    (power(unit.clamp(-1000, 1000)), digits)
+    (power(unit.clamp(-1000, 1000)), count)
 }
 
 pub(crate) fn power(exponent: i32) -> Rational {

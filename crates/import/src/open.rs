@@ -107,7 +107,7 @@ pub fn read_robot(source: Text, options: &Options) -> Result<OpenRobot, Diagnost
         .as_ref()
         .map_or(source.as_str(), |imported| &imported.text)
         .to_owned();
-    // What was imported was read once already.
+    // An imported robot file was already read once.
     let mut reading = read::parse(&robot_file).map_err(|errors| errors.in_file(source.name()))?;
     reading.notes = Diagnostics(reading.notes).in_file(source.name()).0;
     Ok(OpenRobot {

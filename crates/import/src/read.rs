@@ -100,7 +100,7 @@ impl<'p, 't> Reader<'p, 't> {
         }
     }
 
-    /// Says the unknown names of a class; what it leaves out is said at the elements that have it.
+    /// Reports the unknown names of a class; names left out are reported at the elements with them.
     pub(crate) fn check_class(&mut self, root: &Element, class: &Element) {
         let scratch = Problems::of(self.problems.text);
         let original = std::mem::replace(self.problems, scratch);

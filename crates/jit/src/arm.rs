@@ -17,7 +17,7 @@ use dalembert_stamp::{Comment, Stamp};
 use crate::cache::{self, CachedFunction, Entry, Folder};
 use crate::compile::Signature;
 use crate::error::Error;
-use crate::make::{claimed, made, read_robot};
+use crate::make::{claimed, make_entry, read_robot};
 use crate::native::Native;
 use crate::request::Load;
 
@@ -125,7 +125,7 @@ impl Arm {
         if let Some(arm) = kept.and_then(again) {
             return Ok(arm);
         }
-        let mut entry = made(source, plan, load, folder.as_ref())?;
+        let mut entry = make_entry(source, plan, load, folder.as_ref())?;
         entry.notes.extend(note);
         if let Some(folder) = &folder
             && !entry.ended

@@ -1,9 +1,9 @@
 //! A folder of what was generated before.
 //!
 //! A file's name is the hash of what it was made from, its first line the hash of the rest:
-//! an entry that was damaged, or cut off, is none. A writer writes into a file of its own
-//! and renames it, so that readers see one whole entry or another, whoever else writes.
-//! What cannot be written is not kept, and nobody is told: it is made anew the next time.
+//! an entry that was damaged, or cut off, is ignored. A writer writes into a file of its own
+//! and renames it, so that readers see one whole entry or another, even if others write.
+//! A write that fails is not reported: the entry is made anew the next time.
 //!
 //! An entry is run without another proof. So a folder, or a file in it, that another user may
 //! write or owns is not read, and nothing is kept there; notes of the arm tell it.
@@ -25,7 +25,7 @@ use crate::request::{Cache, Load};
 /// Changes when entries of before mean something else, or the generator's sources change.
 const GENERATOR: &str = concat!("entry 2 of ", env!("DALEMBERT_SOURCES"));
 
-/// Larger files are none of ours.
+/// Larger files are not of this cache.
 const MAX_BYTES: u64 = 1 << 28;
 
 /// The parts of a loaded arm that are kept.
@@ -256,7 +256,7 @@ fn user_folder() -> Option<PathBuf> {
     set("DALEMBERT_CACHE").or_else(|| caches().map(|caches| caches.join("dalembert")))
 }
 
-/// Tells whether a folder or file is the user's, or the system's, and nobody else may write it.
+/// Tells whether a folder or file is the user's, or the system's, and others may not write it.
 #[cfg(unix)]
 fn is_private(about: &Metadata) -> bool {
     use std::os::unix::fs::MetadataExt;

@@ -22,7 +22,7 @@
 //! whose text is run on values of the code that is made, and so compiled in. Only the bits
 //! of a NaN are left open, as they are in Rust.
 //!
-//! Before anybody gets a function, it is compared with the exact interpreter of its
+//! Before a function is returned, it is compared with the exact interpreter of its
 //! program at [`STATES`] states drawn from a hash, infinities and NaN among them; one
 //! bit that differs is an error.
 //!

@@ -16,7 +16,7 @@ pub(crate) fn read_robot(source: &str, name: &str) -> Result<Reading, Error> {
     read::parse(source).map_err(|errors| errors.in_file(name).into())
 }
 
-pub(crate) fn made(
+pub(crate) fn make_entry(
     source: &Text,
     plan: Option<Plan>,
     load: &Load,

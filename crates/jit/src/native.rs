@@ -31,7 +31,7 @@ struct InMemory {
 }
 
 // SAFETY: the module is not touched between its making and its end, and the address is of
-// memory that nobody writes: both may be anywhere.
+// memory that is never written: both may be used by any thread.
 unsafe impl Send for InMemory {}
 // SAFETY: as above; shared, only the address is read, and the code has no state.
 unsafe impl Sync for InMemory {}
@@ -52,7 +52,7 @@ impl Drop for InMemory {
     fn drop(&mut self) {
         // SAFETY: taken once, here, and not read afterwards.
         let module = unsafe { ManuallyDrop::take(&mut self.module) };
-        // SAFETY: whoever runs the code borrows `self`: nobody does, and nobody has its address.
+        // SAFETY: every call borrows `self`: none is running, and the address is kept nowhere.
         unsafe { module.free_memory() };
     }
 }

@@ -101,7 +101,7 @@ pub(crate) fn emit(
     run(emitter, &code.dag, |input| inputs.input(*input))
 }
 
-/// A sine or cosine that is not wanted is the angle, which nobody reads.
+/// In place of a sine or cosine that is not wanted stands the angle, which is never read.
 fn polynomials(
     emitter: &Emitter<'_>,
     kernel: &Kernel,

@@ -11,7 +11,7 @@ use core::ops::Range;
 use crate::read::closest;
 use crate::robot::RobotWarning;
 
-/// More columns of a line are not printed.
+/// The most columns of a line that are printed.
 const MAX_WIDTH: usize = 120;
 
 /// The weight of a diagnostic.
@@ -21,7 +21,7 @@ pub enum Severity {
     Note,
     /// It is probably a mistake.
     Warning,
-    /// Nothing is made while it is there.
+    /// It prevents any output.
     Error,
 }
 
@@ -54,7 +54,7 @@ pub enum Place {
 /// Bytes of a file, with the line that they begin in.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Excerpt {
-    /// The file's name, as messages call it; empty until somebody gives it.
+    /// The file's name, as messages call it; empty until it is set.
     pub file: String,
     /// Bytes of the source.
     pub span: Range<usize>,
@@ -156,7 +156,7 @@ impl Diagnostic {
         Diagnostic::error(message).with_help(help)
     }
 
-    /// Gives the likely fix; an empty text is none.
+    /// Sets the likely fix; an empty text means none.
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Diagnostic {
         self.help = Some(help.into()).filter(|help| !help.is_empty());
@@ -170,7 +170,7 @@ impl Diagnostic {
         self
     }
 
-    /// Puts the name of what it is about before the message.
+    /// Puts the name of its subject before the message.
     #[must_use]
     pub fn within(mut self, part: impl fmt::Display) -> Diagnostic {
         self.message = format!("{part}: {}", self.message);
@@ -283,7 +283,7 @@ impl core::error::Error for Diagnostic {}
 pub struct Diagnostics(pub Vec<Diagnostic>);
 
 impl Diagnostics {
-    /// Names the file that excerpts without a name are of.
+    /// Sets the file name of excerpts that have none.
     #[must_use]
     pub fn in_file(self, name: &str) -> Diagnostics {
         let named = self.0.into_iter().map(|error| error.in_file(name));

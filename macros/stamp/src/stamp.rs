@@ -262,7 +262,7 @@ impl Stamp {
         let options = crate::OPTIONS.map(|(option, _)| option);
         for option in options.into_iter().filter(|option| *option != "outputs") {
             let (value, wanted) = (stamp.asked.get(option), asked.get(option));
-            // Who does not say in which scalar takes the scene's, and any search serves.
+            // Without a scalar the scene's is taken; any effort and any plan will do.
             let is_open = wanted.is_none() && ["scalar", "effort", "plan"].contains(&option);
             if value != wanted && !is_open {
                 return Err(Stale::Option(option, value.map(str::to_owned)));

@@ -176,7 +176,7 @@ impl BaseParameters {
             .map(|&c| candidates[c].clone())
             .collect();
         let mut combinations = vec![Vec::new(); columns.len()];
-        let over = &reduced.coefficients;
+        let coefficients = &reduced.coefficients;
         let of_bodies: Vec<Parameter> = Parameter::of_bodies(robot).collect();
         let on_base = chain.base_probes.iter().map(|probe| (None, probe));
         let on_links = chain
@@ -192,7 +192,7 @@ impl BaseParameters {
                 let parameter = of_bodies[probe.column];
                 let parts = parts(&chain, link, body).ok_or_else(|| large(parameter))?;
                 let mut sums = vec![Exact::zero(); columns.len()];
-                for ((place, moment), over) in places.iter().zip(over) {
+                for ((place, moment), over) in places.iter().zip(coefficients) {
                     let part = moment.read(parts.at(*place));
                     for (pivot, factor) in over.iter().filter(|_| !part.is_zero()) {
                         sums[*pivot] = sums[*pivot].add(&part.mul(factor));
@@ -204,7 +204,7 @@ impl BaseParameters {
                 }
             }
         }
-        for (drive, over) in drives.iter().zip(&over[places.len()..]) {
+        for (drive, over) in drives.iter().zip(&coefficients[places.len()..]) {
             for (pivot, factor) in over {
                 combinations[*pivot].push((Parameter::of_drive(robot, drive), factor.clone()));
             }

@@ -70,13 +70,13 @@ impl<'t> TermFit<'t> {
         self.sizes[term] > 1e-9 * largest(&self.sizes)
     }
 
-    pub(super) fn solve(&self, of: &[usize], enough: f64) -> Solution {
+    pub(super) fn solve(&self, terms: &[usize], enough: f64) -> Solution {
         let blocks = self.products.len();
         let mut weights = vec![1.0 / blocks as f64; blocks];
         let mut best: Option<Solution> = None;
         for _ in 0..ROUGH {
-            let solution = self.weighed(of, &weights);
-            let errors = self.errors(of, &solution.factors);
+            let solution = self.weighed(terms, &weights);
+            let errors = self.errors(terms, &solution.factors);
             let error = largest(&errors);
             if best.as_ref().is_none_or(|best| error < best.error) {
                 best = Some(Solution { error, ..solution });
@@ -90,11 +90,11 @@ impl<'t> TermFit<'t> {
             let sum: f64 = weights.iter().sum();
             weights.iter_mut().for_each(|weight| *weight /= sum);
         }
-        best.unwrap_or_else(|| self.weighed(of, &weights))
+        best.unwrap_or_else(|| self.weighed(terms, &weights))
     }
 
     pub(super) fn refine(&self, from: Solution, enough: f64) -> Solution {
-        let of = &from.terms.clone();
+        let terms = &from.terms.clone();
         let mut weights = vec![1.0; self.products.len()];
         let mut best = from;
         let mut now = best.factors.clone();
@@ -102,7 +102,7 @@ impl<'t> TermFit<'t> {
             if best.error <= enough {
                 break;
             }
-            let residual = self.residual(of, &now);
+            let residual = self.residual(terms, &now);
             let errors = self.of_blocks(&residual);
             let error = largest(&errors).max(f64::MIN_POSITIVE);
             for (weight, block_error) in weights.iter_mut().zip(&errors) {
@@ -119,8 +119,8 @@ impl<'t> TermFit<'t> {
                         .map(move |x| weight * block_error.max(1e-12) / x.abs().max(floor))
                 })
                 .collect();
-            now = self.least_squares(of, &rows);
-            let error = largest(&self.errors(of, &now));
+            now = self.least_squares(terms, &rows);
+            let error = largest(&self.errors(terms, &now));
             if error < best.error {
                 best = Solution {
                     factors: now.clone(),
@@ -132,9 +132,9 @@ impl<'t> TermFit<'t> {
         best
     }
 
-    fn residual(&self, of: &[usize], factors: &[f64]) -> Vec<f64> {
+    fn residual(&self, terms: &[usize], factors: &[f64]) -> Vec<f64> {
         let mut left = self.terms.whole.clone();
-        for (&term, factor) in of.iter().zip(factors) {
+        for (&term, factor) in terms.iter().zip(factors) {
             let column = &self.terms.all[term].column;
             for (left, x) in left.iter_mut().zip(column) {
                 *left -= factor * x;
@@ -147,33 +147,33 @@ impl<'t> TermFit<'t> {
         self.terms.samples.blocks(residual)
     }
 
-    fn errors(&self, of: &[usize], factors: &[f64]) -> Vec<f64> {
-        self.of_blocks(&self.residual(of, factors))
+    fn errors(&self, terms: &[usize], factors: &[f64]) -> Vec<f64> {
+        self.of_blocks(&self.residual(terms, factors))
     }
 
-    fn least_squares(&self, of: &[usize], rows: &[f64]) -> Vec<f64> {
-        let scaled: Vec<Vec<f64>> = of
+    fn least_squares(&self, terms: &[usize], rows: &[f64]) -> Vec<f64> {
+        let scaled: Vec<Vec<f64>> = terms
             .iter()
             .map(|&term| {
                 let pairs = self.terms.all[term].column.iter().zip(rows);
                 pairs.map(|(x, weight)| x * weight).collect()
             })
             .collect();
-        let factor = Factor::new(of.len(), |a, b| {
-            dot(&scaled[b], &self.terms.all[of[a]].column)
+        let factor = Factor::new(terms.len(), |a, b| {
+            dot(&scaled[b], &self.terms.all[terms[a]].column)
         });
         let right = scaled.iter().map(|column| dot(column, &self.terms.whole));
         factor.solve(right.collect())
     }
 
-    fn weighed(&self, of: &[usize], weights: &[f64]) -> Solution {
-        let (n, whole) = (of.len(), self.terms.all.len());
+    fn weighed(&self, terms: &[usize], weights: &[f64]) -> Solution {
+        let (n, whole) = (terms.len(), self.terms.all.len());
         let mut gram = vec![0.0; n * (n + 1) / 2];
         let mut right = vec![0.0; n];
         for (products, &weight) in self.products.iter().zip(weights) {
             let mut next = gram.iter_mut();
-            for (a, &row) in of.iter().enumerate() {
-                for &column in &of[..=a] {
+            for (a, &row) in terms.iter().enumerate() {
+                for &column in &terms[..=a] {
                     if let Some(sum) = next.next() {
                         *sum += weight * products[at(row, column)];
                     }
@@ -190,7 +190,7 @@ impl<'t> TermFit<'t> {
             .map(|(k, x)| x * x / inverse[k][k])
             .collect();
         Solution {
-            terms: of.to_vec(),
+            terms: terms.to_vec(),
             factors,
             error: f64::INFINITY,
             saliency,

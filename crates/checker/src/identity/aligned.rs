@@ -257,13 +257,13 @@ pub fn check(file: &File, aligned: &File, scene: Option<&str>) -> Result<(), Str
     if holder(file, scene_payload)? != holder(aligned, moved)? {
         return Err("the rows have the payload on another link than the scene".into());
     }
-    let (file_parts, other) = (
+    let (file_parts, row_parts) = (
         parts(file, scene_payload, true)?,
         parts(aligned, moved, false)?,
     );
     let double =
         |number: &FixedPoint| (&number.0 >> (BITS - 64)).to_f64().unwrap_or(0.0) / 2f64.powi(64);
-    for (file_part, other) in file_parts.iter().zip(&other) {
+    for (file_part, other) in file_parts.iter().zip(&row_parts) {
         // Not of the claim, whose origins may stand anywhere along the axes.
         let slack: BigInt = &file_part.scale / BigInt::from(10).pow(DIGITS) + 1;
         let mut pairs = file_part.values.iter().zip(&other.values);

@@ -31,7 +31,7 @@ pub struct Joint {
     /// The link's frame in `link_poses`.
     pub(super) shown: Pose,
     pub(super) body: Body,
-    pub(super) given: (Body, Pose),
+    pub(super) centred: (Body, Pose),
     /// Viscous friction, N·m·s/rad or N·s/m.
     pub viscous: Number,
     /// Coulomb friction, N·m or N.
@@ -44,7 +44,7 @@ impl Joint {
     pub(super) fn motion(&self, state: &State) -> Pose {
         let (leader, factor) = self.leader;
         let (turns, offset, length) = self.line;
-        let slide = state.given[0][leader] * factor + length;
+        let slide = state.arguments[0][leader] * factor + length;
         let pair = turned(times(state.pairs[leader], turns), offset);
         Pose::moved(self.axis, self.turns, pair, slide)
     }
@@ -81,8 +81,11 @@ pub struct Arm {
 /// The joint that moves a row and how many times as far, and what is added.
 type FollowerLine = ((usize, Number), (i64, [Number; 2], Number));
 
-fn turned([sin, cos]: [Number; 2], [other, by]: [Number; 2]) -> [Number; 2] {
-    [sin * by + cos * other, cos * by - sin * other]
+fn turned([sin, cos]: [Number; 2], [other_sin, other_cos]: [Number; 2]) -> [Number; 2] {
+    [
+        sin * other_cos + cos * other_sin,
+        cos * other_cos - sin * other_sin,
+    ]
 }
 
 fn times([sin, cos]: [Number; 2], count: i64) -> [Number; 2] {
@@ -307,7 +310,7 @@ impl Arm {
                 link: frame,
                 shown,
                 body: body.moved(&centred_body.1),
-                given: centred_body,
+                centred: centred_body,
                 viscous,
                 coulomb,
                 armature,
@@ -393,7 +396,7 @@ impl Arm {
             let centre = scaled(under, link.body.first);
             let mut about = link.body.moved(&Pose::shift(opposite(centre)));
             about.first = Vector::default();
-            link.given = (about, Pose::shift(centre));
+            link.centred = (about, Pose::shift(centre));
         }
     }
 

@@ -120,14 +120,14 @@ fn at_point(
     let place = |name: &str| argument(name).unwrap_or_default();
     let takes = |name: &str| function.arguments.contains(&place(name));
     if takes("g") {
-        arm.gravity.copy_from_slice(&state.given[place("g")]);
+        arm.gravity.copy_from_slice(&state.arguments[place("g")]);
     }
     if takes("load") {
         let computed = statement.load.and_then(|load| load.residues(point, &state));
-        state.given[place("load")] = computed.ok_or("nothing computes its `load`")?;
-        arm = arm.given(setting, point, &state)?;
+        state.arguments[place("load")] = computed.ok_or("nothing computes its `load`")?;
+        arm = arm.with_load(setting, point, &state)?;
     }
-    let mut found = statement
+    let mut actual = statement
         .program
         .residues(point, &state)
         .ok_or("the program reads what is not there")?;
@@ -143,14 +143,14 @@ fn at_point(
             let rows = setting.rows.len().max(1);
             let range = expected.len()..expected.len() + rows * base.combinations.len();
             let sizes = [rows, values.len() / rows];
-            let columns = found.get(range.clone());
+            let columns = actual.get(range.clone());
             let spread = columns
                 .and_then(|numbers| spread(numbers, &base.combinations, point, sizes))
                 .ok_or("the base parameters do not fit the results")?;
             if !are_independent(&base.combinations, point) {
                 return Err("the base parameters do not stand for themselves".into());
             }
-            found.splice(range, spread);
+            actual.splice(range, spread);
         }
         expected.extend(values);
     }
@@ -168,16 +168,16 @@ fn at_point(
             })
             .collect::<Option<Vec<Number>>>();
         expected.extend(sums.ok_or("the base parameters do not fit the robot")?);
-        found.extend(base.values.iter().map(|exact| point.constant(exact)));
+        actual.extend(base.values.iter().map(|exact| point.constant(exact)));
     }
-    if found.len() != expected.len() {
-        return Err(format!("{} results, not {}", found.len(), expected.len()));
+    if actual.len() != expected.len() {
+        return Err(format!("{} results, not {}", actual.len(), expected.len()));
     }
     let is_other = |(number, other): (&Number, &Number)| {
         let residue = number.value(point.prime);
         residue.is_none() || residue != other.value(point.prime)
     };
-    match found.iter().zip(&expected).position(is_other) {
+    match actual.iter().zip(&expected).position(is_other) {
         Some(place) => Err(format!("result {} is not that of the robot", place + 1)),
         None => Ok(()),
     }

@@ -181,7 +181,7 @@ fn body(numbers: &[Number]) -> Result<(Body, Pose), String> {
 
 impl Arm {
     /// Returns the arm with what `load` is of.
-    pub(super) fn given(
+    pub(super) fn with_load(
         mut self,
         setting: &Setting,
         point: &Point,
@@ -191,7 +191,7 @@ impl Arm {
         let mut places = setting.loading.clone();
         places.sort_by_key(|place| ARGUMENTS[*place].0 == "payload");
         for place in places {
-            let entries = &state.given[place];
+            let entries = &state.arguments[place];
             match ARGUMENTS[place].0 {
                 "bodies" => {
                     let stays = |place| setting.zeros.get(place) == Some(&true);
@@ -230,7 +230,7 @@ impl Arm {
                 let joint = self.joints.get_mut(row).ok_or("a link that is not there")?;
                 let at = joint.shown.then(&centre);
                 joint.body = body.moved(&at);
-                joint.given = (body, at);
+                joint.centred = (body, at);
             }
         }
         Ok(())

@@ -252,7 +252,7 @@ impl Div for Number {
     }
 }
 
-/// Numbers that follow from a statement: whoever changes a digit of it gets others.
+/// Numbers that follow from a statement: a change of any digit gives others.
 pub struct Draws {
     seed: [u8; 32],
     count: u64,

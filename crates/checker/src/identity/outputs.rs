@@ -81,7 +81,7 @@ impl<'a> At<'a> {
     }
 
     pub(super) fn given(&self, name: &str) -> &'a [Number] {
-        argument(name).map_or(&[], |place| &self.state.given[place])
+        argument(name).map_or(&[], |place| &self.state.arguments[place])
     }
 
     pub(super) fn zeros(&self) -> Vec<Number> {
@@ -412,7 +412,7 @@ impl<'a> At<'a> {
     fn with_tensors_or_masses(&self, has_tensors: bool) -> Arm {
         let mut arm = self.arm.clone();
         for joint in &mut arm.joints {
-            let (mut body, centre) = joint.given;
+            let (mut body, centre) = joint.centred;
             match has_tensors {
                 true => body.mass = 0.into(),
                 false => body.tensor = Default::default(),
@@ -423,17 +423,17 @@ impl<'a> At<'a> {
         arm
     }
 
-    fn value(&self, is: &str) -> Vec<Number> {
+    fn value(&self, name: &str) -> Vec<Number> {
         let (n, qd) = (self.count(), self.given("qd"));
-        match is {
+        match name {
             "tau" => self.torques(self.given("qdd")),
             "c" => self.gravity(),
             "d" => self.inertia().concat(),
             "h" => self.coriolis(qd),
             "d_rot" | "d_tran" | "h_rot" | "h_tran" => {
-                let arm = self.with_tensors_or_masses(is.ends_with("rot"));
+                let arm = self.with_tensors_or_masses(name.ends_with("rot"));
                 let at = At::new(&arm, self.state, self.view);
-                match is.starts_with('d') {
+                match name.starts_with('d') {
                     true => at.inertia().concat(),
                     false => at.coriolis(qd),
                 }
@@ -539,7 +539,7 @@ impl<'a> At<'a> {
             }
             "y" | "y_base" => {
                 let mut columns = self.columns(|at| at.torques(at.given("qdd")));
-                if is == "y" {
+                if name == "y" {
                     let drives = 2 * self.arm.joints.len();
                     columns.truncate(columns.len() - drives);
                 }
@@ -582,7 +582,7 @@ pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
         arm_at_state.of_points(|_| Matrix::new())?;
     }
     let n = arm.movers.len();
-    let mut words = field.is.split('_');
+    let mut words = field.quantity.split('_');
     let first = words.next()?;
     let of = first.trim_start_matches('d').trim_start_matches('2');
     let by = words
@@ -610,6 +610,6 @@ pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
                 entries
             })
         }
-        _ => arm_at_state.value(field.is),
+        _ => arm_at_state.value(field.quantity),
     })
 }

@@ -9,7 +9,7 @@ use crate::program::{Operand, Program};
 pub(crate) fn leaf(operand: &Operand<Exact>, point: &Point, state: &State) -> Option<Number> {
     match operand {
         Operand::Constant(constant) => Some(point.constant(constant)),
-        Operand::Entry(argument, index) => state.given.get(*argument)?.get(*index).copied(),
+        Operand::Entry(argument, index) => state.arguments.get(*argument)?.get(*index).copied(),
         Operand::Sine(joint, is_sine) => Some(state.pairs.get(*joint)?[usize::from(!is_sine)]),
         Operand::Speed(joint) => state.speeds.get(*joint).copied(),
         Operand::Step(_) => None,

@@ -201,7 +201,7 @@ impl Setting<'_> {
             joints: self.joints(),
             coordinates: self.base() + self.joints(),
             bodies: self.links() + usize::from(self.floats),
-            given: self.bodies.len(),
+            argument_bodies: self.bodies.len(),
             table: self.links(),
         }
     }
@@ -449,7 +449,7 @@ impl Setting<'_> {
         limit.as_ref()
     }
 
-    /// Returns true for an operand that the scene fixes: whoever calls a function may give another
+    /// Returns true for an operand that the scene fixes: the caller of a function may give another
     /// number for it.
     pub fn is_fixed<C>(&self, operand: &Operand<C>) -> bool {
         match operand {
@@ -496,16 +496,19 @@ impl Setting<'_> {
     /// Returns true if rates of some joint have no limit.
     pub fn is_unlimited(&self) -> bool {
         let bounds = &self.scene.r#box;
-        let [rates, more] = [bounds.velocity.is_none(), bounds.acceleration.is_none()];
+        let [lacks_velocity, lacks_acceleration] =
+            [bounds.velocity.is_none(), bounds.acceleration.is_none()];
         let base = self.file.floating.as_ref().filter(|_| self.floats);
         let base = base.map(|base| &base.limits);
         let is_free = base.is_some_and(|limits| {
-            rates && limits.velocity.is_none() || more && limits.acceleration.is_none()
+            lacks_velocity && limits.velocity.is_none()
+                || lacks_acceleration && limits.acceleration.is_none()
         });
         let mut rows = self.movers.iter().map(|&row| &self.file.joint[row].limits);
         is_free
             || rows.any(|limits| {
-                rates && limits.velocity.is_none() || more && limits.acceleration.is_none()
+                lacks_velocity && limits.velocity.is_none()
+                    || lacks_acceleration && limits.acceleration.is_none()
             })
     }
 }

@@ -11,7 +11,7 @@ use crate::program::{ARGUMENTS, Operand};
 #[derive(Clone, Debug)]
 pub struct State {
     /// The entries of each argument, in the order of [`ARGUMENTS`].
-    pub given: Vec<Vec<Number>>,
+    pub arguments: Vec<Vec<Number>>,
     /// Sine and cosine of each joint's angle.
     pub pairs: Vec<[Number; 2]>,
     /// 1/√(q̇² + w²) of each coordinate with Coulomb friction.
@@ -27,7 +27,7 @@ impl State {
         let (sizes, base) = (setting.sizes(), setting.base());
         let list = |axis: char| (0..length(axis, sizes)).map(|_| point.residue()).collect();
         let mut state = State {
-            given: ARGUMENTS.iter().map(|argument| list(argument.1)).collect(),
+            arguments: ARGUMENTS.iter().map(|argument| list(argument.1)).collect(),
             pairs: (0..sizes.joints).map(|_| point.pair()).collect(),
             speeds: vec![0.into(); sizes.coordinates],
         };
@@ -38,7 +38,7 @@ impl State {
             if let Some(width) = setting.width(joint)? {
                 let (u, half, width) = (point.residue(), point.half(), point.number(&width));
                 let rest = width * width / u;
-                state.given[1][base + joint] = (u - rest) * half;
+                state.arguments[1][base + joint] = (u - rest) * half;
                 let root = match is_fixed(Operand::Speed(base + joint)) {
                     true => width,
                     false => (u + rest) * half,
@@ -52,10 +52,10 @@ impl State {
                 Some(_) if setting.turns_by(joint) => {
                     state.pairs[joint] = point.angle(&angle_of(*lock)?);
                 }
-                Some(_) => state.given[0][joint] = point.number(&number_of(*lock)?),
+                Some(_) => state.arguments[0][joint] = point.number(&number_of(*lock)?),
             }
         }
-        for (place, list) in state.given.iter_mut().enumerate().skip(1) {
+        for (place, list) in state.arguments.iter_mut().enumerate().skip(1) {
             for (joint, entry) in list.iter_mut().enumerate() {
                 if is_fixed(Operand::Entry(place, joint)) {
                     *entry = 0.into();
@@ -68,8 +68,8 @@ impl State {
     /// Returns the state in which an entry of an argument has a slope of one in direction 1 or 2.
     pub fn moving(&self, argument: usize, index: usize, direction: usize) -> State {
         let (mut state, step) = (self.clone(), Number::step(direction));
-        let entry = self.given[argument][index];
-        state.given[argument][index] = entry + step;
+        let entry = self.arguments[argument][index];
+        state.arguments[argument][index] = entry + step;
         // f(x + ε) is f(x) + f′(x) ε, also where x moves already.
         if argument == 0 {
             let [sin, cos] = self.pairs[index];

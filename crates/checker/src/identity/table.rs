@@ -65,7 +65,7 @@ const MOVES: &str = "jacobian jacobian_rate contact_wrench mobility operational_
 pub struct Field {
     /// The name of the field of the struct.
     pub name: String,
-    pub(super) is: &'static str,
+    pub(super) quantity: &'static str,
     /// The lengths of its axes, a character each.
     pub axes: &'static str,
     pub(super) view: View,
@@ -102,7 +102,7 @@ pub struct Sizes {
     /// The links, and a base that floats.
     pub bodies: usize,
     /// The links whose bodies are arguments.
-    pub given: usize,
+    pub argument_bodies: usize,
     /// The rows of the table.
     pub table: usize,
 }
@@ -114,7 +114,7 @@ pub fn length(axis: char, sizes: Sizes) -> usize {
         'n' => sizes.coordinates,
         'l' => 10 * sizes.bodies,
         'p' => 10,
-        'k' => 10 * sizes.given,
+        'k' => 10 * sizes.argument_bodies,
         't' => sizes.table,
         digit => digit.to_digit(10).unwrap_or(0) as usize,
     }
@@ -127,7 +127,7 @@ impl Field {
         let (name, is) = names.split_once('=').unwrap_or((names, names));
         Some(Field {
             name: name.to_owned(),
-            is,
+            quantity: is,
             axes,
             view: View::default(),
         })
@@ -158,14 +158,14 @@ impl Field {
         frame_view.rows.is_sorted_by(|a, b| a < b).then_some(())?;
         // A pose has no axes of motion, and of what acts at a frame all six components are given.
         let has_rows = self.moves();
-        let is_pose = self.is == "pose" && frame_view.axes.is_empty();
-        let is_held = self.is_held() && frame_view.axes.is_empty();
+        let is_pose = self.quantity == "pose" && frame_view.axes.is_empty();
+        let is_held = self.is_of_contact() && frame_view.axes.is_empty();
         let is_whole = frame_view.rows.is_empty() && (self.acts() || is_pose || is_held);
         (has_rows || is_whole).then_some(())?;
         let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
         let is_name = |name: &str| !name.is_empty() && name.chars().all(is_letter);
         let mut names = frame_view.frame.split(',');
-        let is_one = !frame_view.frame.contains(',') || self.is_held();
+        let is_one = !frame_view.frame.contains(',') || self.is_of_contact();
         (is_one && names.all(is_name)).then_some(())?;
         self.name = format!("{}_{}", self.name, view.replace([':', ','], "_"));
         self.view = frame_view;
@@ -173,36 +173,38 @@ impl Field {
     }
 
     fn moves(&self) -> bool {
-        MOVES.split_whitespace().any(|word| word == self.is)
+        MOVES.split_whitespace().any(|word| word == self.quantity)
     }
 
     fn acts(&self) -> bool {
-        ["tau_wrench", "qdd_wrench"].contains(&self.is)
+        ["tau_wrench", "qdd_wrench"].contains(&self.quantity)
     }
 
     /// Returns how many points are in contact.
     pub(super) fn points(&self) -> usize {
-        match self.is_held() {
+        match self.is_of_contact() {
             true => self.view.frame.split(',').count(),
             false => 0,
         }
     }
 
-    fn is_held(&self) -> bool {
-        ["contact_jacobians", "contact_bias", "qdd_held", "forces"].contains(&self.is)
+    fn is_of_contact(&self) -> bool {
+        ["contact_jacobians", "contact_bias", "qdd_held", "forces"].contains(&self.quantity)
     }
 
     /// Returns true if it is of the hand, or of frames that have names.
     pub(super) fn is_of_frame(&self) -> bool {
-        self.moves() || self.acts() || self.is_held() || self.is == "pose"
+        self.moves() || self.acts() || self.is_of_contact() || self.quantity == "pose"
     }
 
-    /// Returns true if it is by the inverse of a matrix: of others, no state is without.
+    /// Returns true if it takes the inverse of a matrix; all others exist at every state.
     pub(crate) fn divides(&self) -> bool {
         const INVERSES: &str = "qdd d_inv dqdd_dq dqdd_dqd qdd_wrench contact_wrench mobility \
             operational_inertia consistent_inverse operational_bias null_space tau_free \
             base_acceleration qdd_held forces d2qdd_dq_dq d2qdd_dq_dqd d2qdd_dqd_dqd d2qdd_dtau_dq";
-        INVERSES.split_whitespace().any(|word| word == self.is)
+        INVERSES
+            .split_whitespace()
+            .any(|word| word == self.quantity)
     }
 
     /// Returns true if it is of a fixed base alone, or of one that floats alone.
@@ -213,13 +215,14 @@ impl Field {
         } else {
             FIXED
         };
-        !floats && self.is.starts_with("d2") || words.split(' ').any(|word| word == self.is)
+        !floats && self.quantity.starts_with("d2")
+            || words.split(' ').any(|word| word == self.quantity)
     }
 
     /// A torque of each joint, D of each two, or a coefficient of each three.
     pub(crate) fn is_measured(&self) -> bool {
         let known = "tau c h h_rot h_tran d d_rot d_tran symbols";
-        known.split(' ').any(|word| word == self.is)
+        known.split(' ').any(|word| word == self.quantity)
     }
 
     /// Returns the lengths of its axes, `base` being the number of base parameters.
@@ -229,7 +232,7 @@ impl Field {
             'j' => setting.joint_rows().len(),
             'b' => base,
             'k' => setting.blocks().len(),
-            '3' if self.is_held() => 3 * self.points(),
+            '3' if self.is_of_contact() => 3 * self.points(),
             '6' if !self.view.rows.is_empty() => self.view.rows.len(),
             axis => length(axis, setting.sizes()),
         };
@@ -311,7 +314,12 @@ impl Function {
             return Err(format!("no result of it takes `{name}`"));
         }
         let is_same = |function: &Function| {
-            let words = |fields: &[Field]| fields.iter().map(|field| field.is).collect::<Vec<_>>();
+            let words = |fields: &[Field]| {
+                fields
+                    .iter()
+                    .map(|field| field.quantity)
+                    .collect::<Vec<_>>()
+            };
             let has_frame = fields.iter().any(|field| !field.view.frame.is_empty());
             has_frame && words(&fields) == words(&function.fields)
         };
@@ -338,7 +346,7 @@ impl Function {
     /// some.
     pub fn parameters(&self) -> Option<&'static str> {
         let mut fields = self.fields.iter();
-        fields.find_map(|field| match field.is {
+        fields.find_map(|field| match field.quantity {
             "y_base" => Some("BASE_PARAMETERS"),
             "y_passivity" => Some("PASSIVITY_PARAMETERS"),
             _ => None,

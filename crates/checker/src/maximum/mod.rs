@@ -62,7 +62,7 @@ pub fn length(polynomial: &Polynomial, ring: &Ring) -> f64 {
 pub struct Decision {
     /// `true` if the bound is shown.
     pub is_shown: bool,
-    /// `true` if it is not refuted either: the multiplications did not do.
+    /// `true` if it is not refuted either: there were too few multiplications.
     pub is_open: bool,
     /// The size that is reached at these angles, one a joint: zero where none had to be looked at.
     pub reached: f64,

@@ -388,7 +388,7 @@ impl<'r> Reader<'r> {
         Ok(())
     }
 
-    /// Roots are correctly rounded, whoever computes them.
+    /// Roots are correctly rounded by every library.
     pub(super) fn speed(&mut self, name: &'r str, libraries: &[&str]) -> Read<()> {
         if self.literal()?.to_bits() != 1f64.to_bits() {
             return self.refuse("1 expected over a root");

@@ -72,7 +72,7 @@ impl Row {
         };
         let verdict = match &worst {
             Ok(worst) if is_good(worst) => Verdict::Good,
-            // Where robots are, no result is beyond any range.
+            // Inside the limits no result may be out of range.
             Ok(worst) if !worst.overflows || case == INSIDE => Verdict::Failed,
             Ok(_) | Err(_) => Verdict::OutOfRange,
         };

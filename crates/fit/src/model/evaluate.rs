@@ -89,12 +89,14 @@ impl Model {
             }
             if (n..2 * n).contains(&along) {
                 let joint = along - n;
-                let width = self.widths[joint];
-                let r = per_speed(&qd[joint], &(width * width), |x| libm::sqrt(*x));
+                let friction_width = self.widths[joint];
+                let r = per_speed(&qd[joint], &(friction_width * friction_width), |x| {
+                    libm::sqrt(*x)
+                });
                 let of = |column: &Column| *column == Column::Coulomb(joint);
                 if let Some(column) = self.columns[base..].iter().position(of) {
                     let weight = weights[joint * self.columns.len() + base + column];
-                    total += weight * width * width * r * r * r;
+                    total += weight * friction_width * friction_width * r * r * r;
                 }
             }
             gradient.push(total);

@@ -15,12 +15,12 @@ impl Builder<'_> {
         let mut legend = Legend::default();
         let mut codes: BTreeSet<String> = BTreeSet::new();
         for line in sections.iter().flat_map(|section| &section.lines) {
-            see(&line.sum, &mut codes);
+            collect_codes(&line.sum, &mut codes);
         }
         let names = self.names(self.constants_table());
         for (place, form) in self.shared.forms.iter().enumerate() {
             let sum = names.form(form);
-            see(&sum, &mut codes);
+            collect_codes(&sum, &mut codes);
             legend.constants.push(SymbolEntry {
                 symbol: SharedConstants::symbol(place),
                 sum,
@@ -37,7 +37,7 @@ impl Builder<'_> {
             for (definition, (_, value)) in table.definitions.iter().zip(&table.parameters) {
                 if codes.contains(&definition.symbol.code) && !is_of_file(&definition.symbol) {
                     let sum = of_file.form(&form_of(&definition.value));
-                    see(&sum, &mut codes);
+                    collect_codes(&sum, &mut codes);
                     legend.parameters.push(SymbolEntry {
                         symbol: definition.symbol.clone(),
                         sum,
@@ -82,13 +82,13 @@ impl Builder<'_> {
 }
 
 /// Notes the symbols of a sum, by their identifiers.
-fn see(sum: &[Term], codes: &mut BTreeSet<String>) {
+fn collect_codes(sum: &[Term], codes: &mut BTreeSet<String>) {
     for factor in sum.iter().flat_map(|term| &term.factors) {
         match factor {
             Factor::Symbol(symbol, _) => {
                 codes.insert(symbol.code.clone());
             }
-            Factor::Sum(sum) => see(sum, codes),
+            Factor::Sum(sum) => collect_codes(sum, codes),
             Factor::Number(_) | Factor::Exact(_) | Factor::Wave(..) => {}
         }
     }

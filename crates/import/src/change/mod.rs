@@ -125,10 +125,10 @@ impl Change {
             torques.push(part.axis * if part.slides { force } else { moment });
             // From this joint's frame into that of the body it hangs on.
             if let Some(parent) = part.parent {
-                let (_, onto, turning) = &mut loads[parent];
+                let (_, parent_force, parent_moment) = &mut loads[parent];
                 let carried = part.turn * force;
-                *turning = *turning + part.turn * moment + lever * carried;
-                *onto = *onto + carried;
+                *parent_moment = *parent_moment + part.turn * moment + lever * carried;
+                *parent_force = *parent_force + carried;
             }
         }
         torques.reverse();

@@ -1,5 +1,5 @@
 //! The keywords of both formats, as tables: each is read, left out with a message, or irrelevant
-//! for the dynamics. A name in none of the three is unknown, and said.
+//! for the dynamics. Any other name is unknown, and reported.
 //!
 //! A row is for elements by `parent/tag`, where frames and the world count as bodies; `*` stands for
 //! all names in an element, and `<name>` for an element that has a value as an attribute has.
@@ -78,7 +78,7 @@ impl Row {
         column.map(|index| VERDICTS[index])
     }
 
-    /// True if the element has an effect by none of its names.
+    /// True if no name of the element has an effect.
     pub(crate) fn is_irrelevant(&self) -> bool {
         self.names == [vec![], vec![], vec!["*"]]
     }

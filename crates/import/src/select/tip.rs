@@ -90,11 +90,11 @@ impl Select<'_, '_, '_> {
                 }
             }
         }
-        let carries: BTreeSet<usize> = moving
+        let carriers: BTreeSet<usize> = moving
             .iter()
             .flat_map(|joint| self.way(self.model.ends[*joint][0]))
             .collect();
-        moving.retain(|joint| !carries.contains(joint));
+        moving.retain(|joint| !carriers.contains(joint));
         moving.sort_unstable();
         let ends: Vec<usize> = moving
             .iter()
@@ -117,12 +117,12 @@ impl Select<'_, '_, '_> {
     pub(crate) fn tips(&mut self, base: usize) -> Option<Vec<usize>> {
         let heights = self.heights(base);
         let (tips, _) = self.chain_ends(base, &heights, true);
-        let mut last = BTreeSet::new();
+        let mut end_links = BTreeSet::new();
         let mut tips: Vec<usize> = tips
             .into_iter()
             .filter(|tip| {
                 let link = self.moved_with(*tip, base);
-                link != base && last.insert(link)
+                link != base && end_links.insert(link)
             })
             .collect();
         tips.sort_unstable();
@@ -146,7 +146,7 @@ impl Select<'_, '_, '_> {
         let mut tips = Vec::new();
         let mut palms = Vec::new();
         let mut open = vec![(base, 0)];
-        while let Some((link, moved)) = open.pop() {
+        while let Some((link, depth)) = open.pop() {
             let fixed = self.fixed_to(link);
             let hanging = fixed.iter().flat_map(|link| self.hanging(*link));
             let joints: Vec<usize> = hanging.filter(|joint| !self.stays(*joint)).collect();
@@ -167,7 +167,7 @@ impl Select<'_, '_, '_> {
             let main: Vec<usize> = joints.iter().copied().filter(is_longest).collect();
             let are_fingers = main.len() > 1 || self.is_finger(main[0]);
             let is_palm = main.len() > 2 || longest <= FINGER && are_fingers;
-            if moved >= ARM && is_palm {
+            if depth >= ARM && is_palm {
                 palms.push(self.model.ends[main[0]][0]);
                 let is_hand = |link: &&usize| has_one_of(&self.model.links[**link].name, &HANDS);
                 tips.extend(leaves.filter(is_hand));
@@ -175,7 +175,7 @@ impl Select<'_, '_, '_> {
                 // A head is no arm; of what is short everywhere, the longest.
                 let least = if every_arm { ARM.min(longest) } else { longest };
                 let next = joints.into_iter().filter(|joint| left(*joint) >= least);
-                open.extend(next.map(|joint| (self.model.ends[joint][1], moved + 1)));
+                open.extend(next.map(|joint| (self.model.ends[joint][1], depth + 1)));
             }
         }
         let holds = !palms.is_empty();

@@ -33,8 +33,8 @@ pub fn forward_dynamics<S: Divide>(
     moves: &[bool],
 ) -> Vec<S> {
     let frames: Vec<StepFrame<'_, S>> = arm.steps(at).map(StepFrame::new).collect();
-    let rest = (Twist::rest(), Twist::rest());
-    let moving = arm.outward(&rest, |i, (before, _)| {
+    let at_rest = (Twist::rest(), Twist::rest());
+    let moving = arm.outward(&at_rest, |i, (before, _)| {
         let joint_twist = frames[i].along(&qd[i]);
         let moved = |before: Twist<S>| (before.with(&joint_twist), before.cross(&joint_twist));
         frames[i].outward(before, moved)
@@ -57,10 +57,10 @@ pub fn forward_dynamics<S: Divide>(
             true => over(&S::one(), &pivot),
             false => S::zero(),
         };
-        let given_inertia = whole.without(&push, &inverse);
-        let moved = whole_bias.with(&given_inertia.times(&drift));
-        let given_bias = moved.with(&push.scaled(&times(&rest, &inverse)));
-        let sent = frame.back_in(Convention::Modified, given_inertia, given_bias);
+        let apparent_inertia = whole.without(&push, &inverse);
+        let moved = whole_bias.with(&apparent_inertia.times(&drift));
+        let apparent_bias = moved.with(&push.scaled(&times(&rest, &inverse)));
+        let sent = frame.back_in(Convention::Modified, apparent_inertia, apparent_bias);
         let joint = JointPass {
             push,
             rest,

@@ -163,37 +163,38 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         };
         self.arm.outward(&at_rest, |s, before: &LoadSums<S>| {
             let link = &self.arm.links[s];
-            let mut sums = before.clone();
+            let mut load_sums = before.clone();
             let rate = scaled(&qd[s], &self.axes[s]);
             if link.kind == JointKind::Revolute {
-                sums.alpha = sum(&sums.alpha, &cross(&sums.omega, &rate));
-                sums.omega = sum(&sums.omega, &rate);
+                load_sums.alpha = sum(&load_sums.alpha, &cross(&load_sums.omega, &rate));
+                load_sums.omega = sum(&load_sums.omega, &rate);
             } else {
                 let sliding = scaled(&twice(&qd[s]), &self.axes[s]);
-                sums.acceleration = sum(&sums.acceleration, &cross(&sums.omega, &sliding));
+                load_sums.acceleration =
+                    sum(&load_sums.acceleration, &cross(&load_sums.omega, &sliding));
             }
             let lever = &self.levers[s];
             accelerations.push(match self.arm.convention {
                 Convention::Standard => {
                     // c̄_s = r_s − p_{s−1}
                     let centre = sum(lever, &self.coms[s]);
-                    let acceleration = sum(&sums.acceleration, &sums.of(&centre));
+                    let acceleration = sum(&load_sums.acceleration, &load_sums.of(&centre));
                     if s + 1 < n {
-                        sums.acceleration = sum(&sums.acceleration, &sums.of(lever));
+                        load_sums.acceleration = sum(&load_sums.acceleration, &load_sums.of(lever));
                     }
                     acceleration
                 }
                 Convention::Modified => {
-                    sums.acceleration = sum(&sums.acceleration, &before.of(lever));
-                    sum(&sums.acceleration, &sums.of(&self.coms[s]))
+                    load_sums.acceleration = sum(&load_sums.acceleration, &before.of(lever));
+                    sum(&load_sums.acceleration, &load_sums.of(&self.coms[s]))
                 }
             });
 
             let pose = &self.poses[s + 1];
-            let [omega, alpha] = [&sums.omega, &sums.alpha].map(|v| pose.rotate_back(v));
+            let [omega, alpha] = [&load_sums.omega, &load_sums.alpha].map(|v| pose.rotate_back(v));
             let spin = cross(&omega, &tensor_times(&link.inertia, &omega));
             moments.push(sum(&tensor_times(&link.inertia, &alpha), &spin));
-            sums
+            load_sums
         });
         let rotation = joint_sums(&self.local, &moments);
         [rotation, joint_sums(&self.momentum, &accelerations)]

@@ -51,7 +51,7 @@ fn rates_of<S: Scalar>(multiplier: &[S], matrix: &[Vec<Dual<S>>]) -> Vec<S> {
 }
 
 fn by_composites<S: Scalar>(arm: &Arm<S>, at: &At<S>, inputs: [&[S]; 3]) -> SecondDerivatives<S> {
-    // With what is constant about a joint in its position, which `at` has whole.
+    // The constants of a joint go into its position: `at` has both as one value.
     let mut arm = arm.clone();
     let links = arm.links.iter_mut().zip(at);
     let position: Vec<JointPosition<S>> = links

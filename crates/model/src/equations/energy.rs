@@ -173,20 +173,21 @@ fn first_moment<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vector<S> {
     let steps: Vec<Step<S>> = arm.steps(at).collect();
     let (mut moment, mut mass) = (zero_vector(), S::zero());
     arm.inward(|i, arrived: Vec<(usize, (Vector<S>, S))>| {
-        let (mut own_moment, mut own_mass) = (zero_vector(), S::zero());
+        let (mut subtree_moment, mut subtree_mass) = (zero_vector(), S::zero());
         for (_, (moment, mass)) in &arrived {
-            (own_moment, own_mass) = (sum(&own_moment, moment), plus(&own_mass, mass));
+            (subtree_moment, subtree_mass) =
+                (sum(&subtree_moment, moment), plus(&subtree_mass, mass));
         }
         let (step, link) = (&steps[i], &arm.links[i]);
-        own_moment = sum(&own_moment, &scaled(&link.mass, &link.com));
-        own_mass = plus(&own_mass, &link.mass);
-        let (lever, turned) = (step.lever(), step.to_previous(&own_moment));
-        own_moment = sum(&turned, &scaled(&own_mass, &lever));
+        subtree_moment = sum(&subtree_moment, &scaled(&link.mass, &link.com));
+        subtree_mass = plus(&subtree_mass, &link.mass);
+        let (lever, turned) = (step.lever(), step.to_previous(&subtree_moment));
+        subtree_moment = sum(&turned, &scaled(&subtree_mass, &lever));
         if arm.carrier(i).is_none() {
-            moment = sum(&moment, &own_moment);
-            mass = plus(&mass, &own_mass);
+            moment = sum(&moment, &subtree_moment);
+            mass = plus(&mass, &subtree_mass);
         }
-        ((own_moment, own_mass), ())
+        ((subtree_moment, subtree_mass), ())
     });
     match &arm.base {
         None => moment,

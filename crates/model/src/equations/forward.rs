@@ -132,7 +132,7 @@ impl Formulation {
                 link.friction.coulomb = None;
             }
             let grown = with_rates(qd, growth);
-            // Coulomb friction takes of the torques what it takes, and by its own slope.
+            // Coulomb friction reduces the torques by its value, and their rates by its own slope.
             let left: Vec<Dual<S>> = tau
                 .iter()
                 .zip(&rubbed)

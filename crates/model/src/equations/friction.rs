@@ -89,14 +89,14 @@ impl<S: Scalar> Friction<S> {
 impl<S: Clone> Friction<S> {
     /// Takes this r of a velocity, if it is known, where there is Coulomb friction.
     pub fn take_speed(&mut self, per_speed: Option<&S>) {
-        if let (Some(coulomb), Some(speed)) = (&mut self.coulomb, per_speed) {
-            coulomb.per_speed = speed.clone();
+        if let (Some(coulomb), Some(reciprocal)) = (&mut self.coulomb, per_speed) {
+            coulomb.per_speed = reciprocal.clone();
         }
     }
 }
 
 impl<S: Divide> Friction<S> {
-    /// Returns r at a velocity; none where there is no Coulomb friction that reads it.
+    /// Returns r at a velocity; `None` without Coulomb friction.
     pub fn per_speed(&self, qd: &S, sqrt: impl Fn(&S) -> S) -> Option<S> {
         let Coulomb { width, .. } = self.coulomb.as_ref()?;
         Some(per_speed(qd, &width.mul(width), sqrt))

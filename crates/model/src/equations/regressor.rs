@@ -167,8 +167,8 @@ impl Formulation {
 }
 
 /// An arm's link has a mass, a centre of mass and a tensor about that: a first moment without a
-/// mass is none. With (m, s, Σ) = (1, s, Σ) − (1 − m, 0, 0) a body is the difference of two that
-/// are, the first with its centre at s.
+/// mass is not a link. With (m, s, Σ) = (1, s, Σ) − (1 − m, 0, 0) a body is the difference of two
+/// links, the first with its centre at s.
 fn by_differences<S: Scalar>(
     arm: &Arm<S>,
     columns: &[Column<S>],

@@ -19,8 +19,8 @@ const SIMPLE: u64 = 90;
 /// The digits that everything else is rounded to.
 const DIGITS: i64 = 20;
 
-/// Returns 2⁻²⁰⁰: what is closer to a number than this, in units of the size of what it was
-/// computed from, is that number.
+/// Returns 2⁻²⁰⁰: a result closer to a number than this, in units of the size of its
+/// inputs, is that number.
 pub fn near() -> Rational {
     Rational::new(BigInt::one(), BigInt::one() << 200u32)
 }
@@ -122,7 +122,7 @@ fn arc(sin: &Wide, cos: &Wide) -> Rational {
     let (Some(sin), Some(cos)) = (sin.over(&size), cos.over(&size)) else {
         return Rational::zero();
     };
-    // What is nothing beside the other has no sign: −π is π.
+    // A sine that is negligible beside the cosine has no sign: −π is π.
     let is_level = sin.to_rational().abs() <= near();
     let sin = if is_level { Wide::zero() } else { sin };
     let [y, x] = [&sin, &cos].map(|part| f64::nearest_rational(&part.to_rational()));

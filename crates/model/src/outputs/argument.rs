@@ -31,7 +31,7 @@ pub enum Argument {
     Wrench,
     /// λ², which keeps an inverse finite where the arm is singular.
     Damping,
-    /// λ: by how much each torque, or acceleration, counts in what is differentiated twice.
+    /// λ: the weight of each torque, or acceleration, in the sum that is differentiated twice.
     Multiplier,
     /// The mass, the centre of mass and the inertia of links, ten numbers each.
     Bodies,

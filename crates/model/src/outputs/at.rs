@@ -2,8 +2,8 @@
 //!
 //! A text is an output's name, `@` and a frame's, or those of several in contact with `,` between,
 //! then words with `:` before each: the [`Axes`], and the [`Rows`] if not all six are wanted. In generated code the signs are `_`,
-//! `jacobian_camera_local_linear`. The frame is a part of what the output is, so whoever asks an
-//! output for its name, its shape or its formula need not know that it has one.
+//! `jacobian_camera_local_linear`. The frame is a part of the output's identity, so code that asks
+//! for its name, its shape or its formula need not know that it has one.
 
 use alloc::boxed::Box;
 use alloc::format;

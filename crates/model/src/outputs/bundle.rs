@@ -1,8 +1,8 @@
 //! Several outputs as one function, by a name that the user gives it:
 //! `servo = inverse_dynamics + jacobian`.
 //!
-//! A bundle says of itself what a file of this folder says of its function, so whoever asks what a
-//! function returns, reads or is called need not know which of the two it is.
+//! A bundle describes itself as a file of this folder describes its function, so code that asks
+//! what a function returns, reads or is called need not know which of the two it is.
 //! [`Function::ManipulatorEquation`] is one that is always there.
 
 use alloc::boxed::Box;
@@ -51,10 +51,10 @@ impl Function {
     ) -> Result<Function, Diagnostic> {
         check_name(name)?;
         let parts: Vec<Function> = parts.into_iter().flat_map(Function::parts).collect();
-        let is_none = |part: &&Function| {
+        let is_unknown = |part: &&Function| {
             !matches!(part, Function::At(_)) && Function::from_name(part.name()) != Some(**part)
         };
-        if let Some(part) = parts.iter().find(is_none) {
+        if let Some(part) = parts.iter().find(is_unknown) {
             return Err(unknown_output(part.name()));
         }
         if parts.len() < 2 {

@@ -30,9 +30,9 @@ pub(super) struct Definition {
     pub results: &'static [Quantity],
     /// The struct it returns, if it returns several quantities.
     pub structure: Option<&'static str>,
-    /// True if it is generated where nobody says which functions are wanted.
+    /// True if it is generated where a request names no functions.
     pub by_default: bool,
-    /// The functions whose results these are; none if it is no bundle of others.
+    /// The functions whose results these are; empty unless it is a bundle.
     pub parts: &'static [Function],
 }
 
@@ -95,7 +95,7 @@ pub enum RegressorColumns {
 }
 
 impl Function {
-    /// Returns the functions that are generated where nobody says which are wanted.
+    /// Returns the functions that are generated where a request names none.
     pub fn by_default() -> Vec<Function> {
         let wanted = |function: &Function| function.definition().by_default;
         Function::ALL.into_iter().filter(wanted).collect()

@@ -261,10 +261,13 @@ impl Quantity {
                 Axis::Coordinates => 0,
                 _ => sizes.floating,
             };
-            let coordinates: Vec<usize> = coordinates(axis, place, rows, sizes).collect();
-            match coordinates.is_empty() {
+            let coordinate_rows: Vec<usize> = coordinates(axis, place, rows, sizes).collect();
+            match coordinate_rows.is_empty() {
                 true => vec![place + 1],
-                false => coordinates.into_iter().map(|row| row - base + 1).collect(),
+                false => coordinate_rows
+                    .into_iter()
+                    .map(|row| row - base + 1)
+                    .collect(),
             }
         };
         let is_long =

@@ -160,8 +160,8 @@ impl Joint {
     }
 }
 
-/// Returns where a frame is in another one, in which that which it is given in has this pose;
-/// without a placement it is that.
+/// Returns the placement of a frame in another one, in which its reference frame has this pose;
+/// without a placement it is the reference frame itself.
 fn placed_in(back: &Columns<Wide>, placement: Option<&Placement>, size: &Rational) -> Placement {
     let pose = match placement {
         None => back.clone(),

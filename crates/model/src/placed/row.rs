@@ -76,12 +76,11 @@ pub(super) fn to_link(here: &Columns<Wide>) -> Row {
     let d = dot(&opposite(&here.origin), u);
     let identity = Columns::identity();
     let theta = turn(here, &identity.axes[0]);
-    let along_own = Angle::recovered(
+    let tilt = Angle::recovered(
         &length(&cross(u, &identity.axes[2])),
         &dot(u, &identity.axes[2]),
     );
-    let keeps =
-        along_own.quarter_turns().is_some_and(|n| n % 2 == 0) && theta.quarter_turns().is_some();
+    let keeps = tilt.quarter_turns().is_some_and(|n| n % 2 == 0) && theta.quarter_turns().is_some();
     let (theta, x) = match keeps {
         true => (theta, identity.axes[0]),
         false => (Angle::default(), here.axes[0]),

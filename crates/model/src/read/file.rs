@@ -243,7 +243,7 @@ fn rows(cx: &mut Context, robot: &mut Robot, read: Vec<joint::Read>) -> Vec<Diag
     let mut placed: Vec<Placed> = Vec::with_capacity(read.len());
     for (index, joint) in read.into_iter().enumerate() {
         match joint.placed {
-            Some(placement) => placed.push(placement),
+            Some(placed_joint) => placed.push(placed_joint),
             None if is_placed => {
                 let message = format!("joint {} is not placed, and {why}", index + 1);
                 cx.sink.error(joint.span, message, help);

@@ -28,7 +28,7 @@ pub(super) fn admits(source: &str, sink: &mut Sink) -> bool {
     let mut tokens = Tokenizer::new(source);
     let (mut depth, mut parts, mut keys) = (0usize, 0usize, 0usize);
     let mut line_starts = true;
-    // What is no token is the parser's to report: it stops there as well.
+    // An invalid token is left to the parser, which stops there as well.
     while let Ok(Some((span, token))) = tokens.step() {
         match token {
             Token::LeftBracket | Token::LeftBrace => {

@@ -100,7 +100,7 @@ fn angle(cx: &mut Context, keys: &mut Table, key: &'static str) -> Angle {
 /// The constant part of the joint's variable, d or theta, is called `offset`.
 fn variable(cx: &mut Context, keys: &mut Table, kind: Option<JointKind>) -> (Rational, Angle) {
     let (d, theta) = (number(cx, keys, "d"), angle(cx, keys, "theta"));
-    let (key, kind, is_zero, constants) = match kind {
+    let (key, kind_word, is_zero, constants) = match kind {
         Some(JointKind::Revolute) => {
             let offset = angle(cx, keys, "offset");
             ("theta", "revolute", theta.is_zero(), (d, offset))
@@ -116,7 +116,7 @@ fn variable(cx: &mut Context, keys: &mut Table, kind: Option<JointKind>) -> (Rat
         }
     };
     if let (false, Some(value)) = (is_zero, keys.get(key)) {
-        let message = format!("`{key}` of a {kind} joint is its variable, so it must be 0");
+        let message = format!("`{key}` of a {kind_word} joint is its variable, so it must be 0");
         let help = "a constant that is added to it is called `offset`";
         cx.refuse::<()>(value, message, help);
     }

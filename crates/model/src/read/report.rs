@@ -88,9 +88,10 @@ impl Sink {
             |diagnostic: &Diagnostic| diagnostic.excerpt().map(|excerpt| excerpt.span.start);
         self.diagnostics.sort_by_key(start);
         let allowed = self.allowed;
-        let known =
+        let is_allowed =
             |diagnostic: &Diagnostic| diagnostic.warning.is_some_and(|d| allowed.contains(&d));
-        self.diagnostics.retain(|diagnostic| !known(diagnostic));
+        self.diagnostics
+            .retain(|diagnostic| !is_allowed(diagnostic));
         let (mut errors, notes): (Vec<_>, Vec<_>) =
             self.diagnostics.into_iter().partition(Diagnostic::is_error);
         let more = errors.len().saturating_sub(MAX_LISTED);

@@ -25,7 +25,7 @@ pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
     let zeros = foreign::leading_zeros(whole);
     let earlier = |byte: usize| format!("it is first defined on line {}", sink.line(byte));
     let (message, help) = match &error.kind {
-        // What is no number may be an angle without its quotes: -pi/2, 90deg.
+        // A text that is not a number may be an angle without its quotes: -pi/2, 90deg.
         ErrorKind::InvalidNumber | ErrorKind::UnquotedString if Angle::parse(word).is_ok() => (
             format!("{} is not a number", quote(word)),
             format!("write \"{word}\", in quotes"),

@@ -107,7 +107,7 @@ impl Position {
         }
     }
 
-    /// Returns the sum; `None` of what is a part of π and what is not, and of angles and lengths.
+    /// Returns the sum; `None` for a multiple of π and other radians, or for an angle and a length.
     pub fn plus(&self, other: &Position) -> Option<Position> {
         use Position::{Angle as Turn, Length};
         match (self, other) {

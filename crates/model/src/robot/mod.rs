@@ -85,7 +85,29 @@ impl JointKind {
     ];
 }
 
-/// A serial arm, or a tree of links, whose base may float.
+/// A serial arm, or a tree of links, whose base may float: a row for each joint and the link that it
+/// moves. Numbers are exact, in SI units. A robot file becomes one by `read::parse`;
+/// [`Robot::validate`] says what is wrong with one that is made in code.
+///
+/// ```
+/// use dalembert_model::number::Rational;
+/// use dalembert_model::read::parse;
+///
+/// let text = "
+///     name = \"slide\"
+///     convention = \"standard\"
+///     gravity = [0, 0, -9.81]
+///     [[joint]]
+///     kind = \"prismatic\"
+///     mass = 2.5
+///     com = [0, 0, 0]
+///     inertia = [0.1, 0.1, 0.1, 0, 0, 0]
+/// ";
+/// let robot = parse(text)?.robot;
+/// assert_eq!(robot.joints[0].mass, Rational::new(5.into(), 2.into()));
+/// assert!(robot.validate().is_empty());
+/// # Ok::<(), dalembert_model::read::Diagnostics>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Robot {
     /// Its name; the generated module is called after it.

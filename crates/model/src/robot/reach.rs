@@ -26,15 +26,17 @@ pub(crate) fn reach(robot: &Robot, placed: &[Placement]) -> Rational {
         lengths.max().unwrap_or_default()
     };
     let rows = robot.rows();
-    let mut reached: Vec<Rational> = Vec::with_capacity(rows.len());
+    let mut distances: Vec<Rational> = Vec::with_capacity(rows.len());
     for (row, joint) in rows.iter().enumerate() {
         let placement = joint.place.as_ref().map(|place| &place.placement);
         let step = placement
             .or(placed.get(row))
             .map(|placement| largest(&placement.xyz));
         let link_length = joint.a.abs() + joint.d.abs() + travel(joint) + step.unwrap_or_default();
-        let before = joint.carrier(row).and_then(|carrier| reached.get(carrier));
-        reached.push(before.cloned().unwrap_or_default() + link_length);
+        let before = joint
+            .carrier(row)
+            .and_then(|carrier| distances.get(carrier));
+        distances.push(before.cloned().unwrap_or_default() + link_length);
     }
     let tool: Rational = robot
         .tool
@@ -42,7 +44,7 @@ pub(crate) fn reach(robot: &Robot, placed: &[Placement]) -> Rational {
         .map(|placement| largest(&placement.xyz))
         .sum();
     let bodies = rows.iter().map(|joint| largest(&joint.com));
-    let furthest = reached.into_iter().max().unwrap_or_default();
+    let furthest = distances.into_iter().max().unwrap_or_default();
     furthest + tool + bodies.max().unwrap_or_default()
 }
 

@@ -1,8 +1,8 @@
 //! Sizes that no arm has in SI units: what was probably meant.
 //!
 //! They are taken as they stand. A crane is longer than ten metres and an
-//! excavator heavier than a tonne, but who types a data sheet's millimetres
-//! or degrees learns it here and not from the torques.
+//! excavator heavier than a tonne, but a user who types a data sheet's millimetres
+//! or degrees learns of it here and not from the torques.
 
 use alloc::borrow::ToOwned;
 use alloc::format;
@@ -181,7 +181,7 @@ impl Findings {
     }
 
     fn doubtful_angle(&mut self, place: &str, what: &str, angle: &Angle) {
-        // Whoever writes 5*pi/2 or "450deg" knows the unit.
+        // A value written as 5*pi/2 or "450deg" has an intended unit.
         let Angle::Radians(value) = angle else {
             return;
         };

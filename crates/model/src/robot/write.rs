@@ -19,7 +19,7 @@ use crate::number::Rational;
 /// Numbers that have no decimal, like 1/3, become strings, `"1/3"`, which the
 /// reader takes too. Reading the text gives the same robot with angles in
 /// [canonical](crate::number::Angle::canonical) form, but one of radians that
-/// [counts as](crate::number::Snapped::Taken) a multiple of π/2 becomes that.
+/// [counts as](crate::number::SnappedAngle::Taken) a multiple of π/2 becomes that.
 pub fn write(robot: &Robot) -> String {
     let mut text = String::new();
     let convention = word(&Convention::WORDS, &robot.convention);

@@ -71,7 +71,7 @@ pub trait Divide: Scalar {
     /// Returns `self / other`
     fn div(&self, other: &Self) -> Self;
 
-    /// Returns `false` of a divisor by which there is no quotient.
+    /// Returns `false` for a divisor that gives no quotient.
     fn divides(&self) -> bool {
         true
     }

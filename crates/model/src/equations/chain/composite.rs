@@ -193,13 +193,13 @@ impl<'a, S: Scalar> Composite<'a, S> {
         let base = chain.base_motion([qd, qdd], gravity);
         let mut motions: Vec<LinkMotion<S>> = Vec::with_capacity(n);
         let mut wrenches = Vec::with_capacity(n);
-        let mut static_loads = Vec::with_capacity(n);
+        let mut still_loads = Vec::with_capacity(n);
         for (i, link) in chain.links.iter().enumerate() {
             let before = link.parent.map_or(&base, |parent| &motions[parent]);
             let still = before.next(link, &self.at[i], &S::zero(), &S::zero(), spin);
             let body = &self.bodies[i];
             let at_rest = still.wrench(body, MomentForm::SecondMoments);
-            static_loads.push(chain.load(i, &at_rest));
+            still_loads.push(chain.load(i, &at_rest));
             // Σ_k (2 − δ_km) Δ_k q̇_k for k ≤ m.
             let mut turn = still.omega.clone().map(|x| twice(&x));
             if link.kind == JointKind::Revolute {
@@ -215,7 +215,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
             motions.push(before.next(link, &self.at[i], &rates[i], &accelerations[i], spin));
         }
         let own_wrench = |i: usize| wrenches[i].clone();
-        let loads = chain.loads(self.at, own_wrench, exerted, |i| static_loads[i].clone());
+        let loads = chain.loads(self.at, own_wrench, exerted, |i| still_loads[i].clone());
         chain.with_base(loads, |body| {
             let whole = self.base.as_ref().unwrap_or(body);
             base.wrench(whole, MomentForm::SecondMoments)

@@ -121,8 +121,8 @@ impl<S: Scalar> Chain<S> {
         for (i, (q, place)) in position.iter().zip(places).enumerate() {
             let before = self.turning(i).and_then(|link| turns[link]);
             let link = &mut chain.links[i];
-            if let Some((start, placement)) = before
-                && let Some(turn) = between(start, placement.index, placement)
+            if let Some((carrier_target, carrier_place)) = before
+                && let Some(turn) = between(carrier_target, carrier_place.index, carrier_place)
             {
                 link.offset = turn.turn_in(ABOUT_Z, link.offset.clone());
                 if link.kind == JointKind::Prismatic {
@@ -144,7 +144,9 @@ impl<S: Scalar> Chain<S> {
                 link.turn_bodies(&turn);
             }
             let from = match before {
-                Some((start, placement)) if placement.group == place.group => start,
+                Some((carrier_target, carrier_place)) if carrier_place.group == place.group => {
+                    carrier_target
+                }
                 _ => 0,
             };
             let turn = between(from, target, place).unwrap_or_else(SinCosPair::straight);

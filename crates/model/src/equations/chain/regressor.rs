@@ -88,9 +88,9 @@ pub(super) fn probes<S: Scalar>(
 ) -> impl Iterator<Item = Probe<S>> {
     let numbered_columns = columns.iter().enumerate();
     let joint_columns = numbered_columns.filter(move |(_, column)| column.joint == joint);
-    joint_columns.map(move |(column, source)| Probe {
+    joint_columns.map(move |(column, probed_column)| Probe {
         column,
-        of: source.of.through(|body| body.carried(turned, moved)),
+        of: probed_column.of.through(|body| body.carried(turned, moved)),
     })
 }
 

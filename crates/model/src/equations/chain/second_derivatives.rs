@@ -97,18 +97,18 @@ impl<S: Scalar> Composite<'_, S> {
 
 impl<S: Scalar> SecondDerivatives<S> {
     fn enter(&mut self, [i, k]: [usize; 2], earlier: &EarlierBends<S>, later: &LaterBends<S>) {
-        let [twist, virtually, first, second] = earlier;
+        let [twist, virtual_twist, first, second] = earlier;
         let [force, momentum, damping, push] = &later.wrenches;
         let [couple, swing] = &later.vectors;
-        let powers = plus(&force.along(virtually), &momentum.along(second));
+        let powers = plus(&force.along(virtual_twist), &momentum.along(second));
         let position = plus(&powers, &dot(couple, &first.turn));
         self.position[i][k] = position.clone();
         self.position[k][i] = position;
         let velocity = dot(swing, &twist.turn);
         self.velocity[i][k] = velocity.clone();
         self.velocity[k][i] = velocity;
-        self.mixed[i][k] = plus(&damping.along(virtually), &dot(swing, &first.turn));
-        self.driven[k][i] = push.along(virtually);
+        self.mixed[i][k] = plus(&damping.along(virtual_twist), &dot(swing, &first.turn));
+        self.driven[k][i] = push.along(virtual_twist);
         self.mixed[k][i] = plus(&twice(&momentum.along(first)), &dot(couple, &twist.turn));
         self.driven[i][k] = momentum.along(twist);
     }
@@ -117,18 +117,18 @@ impl<S: Scalar> SecondDerivatives<S> {
 fn later<S: Scalar>(
     body: &MomentBody<S>,
     joint: &JointSlopes<S>,
-    [twist, virtually, first, _]: &EarlierBends<S>,
+    [twist, virtual_twist, first, _]: &EarlierBends<S>,
     flow: &Flow<S>,
     couple: &Vector<S>,
     swing: Vector<S>,
 ) -> LaterBends<S> {
     let turned = flow.wrench().turned(twist);
-    let within = difference(&joint.flow.across(virtually), &flow.across(first));
+    let within = difference(&joint.flow.across(virtual_twist), &flow.across(first));
     let changed = sum(&cross(&twist.turn, couple), &within);
     JointEffect {
         wrenches: [
             joint.position.1.clone(),
-            turned.with(&inertial(body, virtually)),
+            turned.with(&inertial(body, virtual_twist)),
             joint.velocity.1.clone(),
             joint.push.clone(),
         ],

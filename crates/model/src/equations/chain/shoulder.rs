@@ -165,20 +165,24 @@ impl<S: Divide> Composite<'_, S> {
             }) = joint
             {
                 let [x, y] = [0, 1].map(|axis| times(&shares[axis], &omega[axis]));
-                let spin = minus(&minus(acceleration, &x), &y);
-                hinge_accelerations[i] = minus(&spin, &times(&shares[2], &omega[2]));
+                let turn_acceleration = minus(&minus(acceleration, &x), &y);
+                hinge_accelerations[i] = minus(&turn_acceleration, &times(&shares[2], &omega[2]));
                 omega[2] = match chain.links[i].armature.is_zero() {
-                    true => spin,
+                    true => turn_acceleration,
                     false => plus(&omega[2], &hinge_accelerations[i]),
                 };
             }
         }
         let omega = chain.links[first].inward(&self.at[first], &omega);
         let known = omega.into_iter().chain(rest.iter().cloned()).collect();
-        let unknowns = beyond.substituted(known);
-        let mut accelerations = placed(hinge_accelerations, &joints, unknowns[3..].iter().cloned());
+        let all_accelerations = beyond.substituted(known);
+        let mut accelerations = placed(
+            hinge_accelerations,
+            &joints,
+            all_accelerations[3..].iter().cloned(),
+        );
         if is_taken_back {
-            accelerations[first] = minus(&accelerations[first], &unknowns[2]);
+            accelerations[first] = minus(&accelerations[first], &all_accelerations[2]);
         }
         accelerations
     }

@@ -165,8 +165,8 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         let still = dot(&link.axis_before(), &tip.omega_dot);
         let brought = plus(&still, &product(&self.brought(), &rest));
         let mut qdd = sums(&rest, reference);
-        let acceleration = times(&left, &self.inverse);
-        qdd.push(minus(&acceleration, &times(&self.share, &brought)));
+        let free_acceleration = times(&left, &self.inverse);
+        qdd.push(minus(&free_acceleration, &times(&self.share, &brought)));
         qdd
     }
 

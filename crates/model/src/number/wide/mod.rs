@@ -244,7 +244,7 @@ impl Scalar for Wide {
         }
     }
     fn is_zero(&self) -> bool {
-        // The highest bit of what is not is one.
+        // The highest bit of a nonzero value is one.
         self.significand[LIMBS - 1] == 0
     }
 }
