@@ -153,7 +153,7 @@ fn a_plan_says_where_limbs_begin() {
 fn a_fixed_base_has_no_blocks() {
     let error = Case::refused("two_arms", "", "inertia_blocks");
     assert!(
-        error.contains("is not there where the base is fixed"),
+        error.contains("is not available where the base is fixed"),
         "{error}"
     );
 }

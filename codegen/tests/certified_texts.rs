@@ -232,7 +232,7 @@ NONE := nothing is claimed of `gravity`
 /constants | ["1e999999999"] | is not a constant
 /constants | ["nan"] | is not a constant
 /constants | ["1*sin(1)^65"] | is not a constant
-/constants | [] | is not of a program
+/constants | [] | is not valid in a program
 /functions | [] | NONE
 /functions/0/function | "inertia" | NONE
 /functions/0/scene | "other" | NONE
@@ -242,11 +242,11 @@ NONE := nothing is claimed of `gravity`
 /functions/0/results | ["gravity.c@eye"] | there is no result `gravity.c@eye`
 /functions/0/results | ["gravity.g"] | there is no result `gravity.g`
 /functions/0/arguments | ["qdd"] | no result of it takes `qdd`
-/functions/0/arguments | [] | is not of a program
+/functions/0/arguments | [] | is not valid in a program
 /functions/0/arguments | ["x"] | there is no argument `x`
-/functions/0/steps | "t1+t1" | `t1+t1` is not of a program
-/functions/0/steps | "s1*qd[0]" | is not of a program
-/functions/0/steps | "s1*#0" | is not of a program
+/functions/0/steps | "t1+t1" | `t1+t1` is not valid in a program
+/functions/0/steps | "s1*qd[0]" | is not valid in a program
+/functions/0/steps | "s1*#0" | is not valid in a program
 /functions/0/returns | "t1" | operations and
 "#;
 
@@ -508,7 +508,7 @@ int p_in_box( → int P_in_box(
     let mut other = header.with(&text);
     other.claim = claim;
     let why = other.refusal().unwrap();
-    assert!(why.contains("nothing that is generated"), "{why}");
+    assert!(why.contains("not generated code"), "{why}");
 }
 
 /// Names are shortened, but not to the name of a function of another frame.
@@ -546,7 +546,7 @@ fn files_of_attacks() {
         (
             &rust,
             "trait1.rs.txt",
-            "nothing that is generated: `#[derive(Clone, Copy, Debug, Default",
+            "not generated code: `#[derive(Clone, Copy, Debug, Default",
         ),
         (&rust, "n1.rs.txt", ""),
         (&c, "hide.h", ""),

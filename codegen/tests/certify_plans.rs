@@ -127,5 +127,5 @@ fn variants_that_are_other_functions() {
     // No bound is known of a quotient.
     let divided = with_steps(&plan, &[], &["qd[1]/qd[2]".into()]);
     let error = Plan::parse(&divided).unwrap_err().to_string();
-    assert!(error.contains("a quotient, of which no bound"), "{error}");
+    assert!(error.contains("a quotient, for which no bound"), "{error}");
 }

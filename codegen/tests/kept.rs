@@ -92,7 +92,7 @@ fn arguments_are_told_apart() {
     for (words, said) in [
         ("\"load\", \"load\"", "expected arguments of the function"),
         ("\"load\", \"wind\"", "expected arguments of the function"),
-        ("\"q\", \"load\"", "is not of a program"),
+        ("\"q\", \"load\"", "is not valid in a program"),
     ] {
         let list = "[\"q\",\"g\",\"load\"]";
         assert!(text.contains(list));

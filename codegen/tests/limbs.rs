@@ -277,8 +277,11 @@ fn limbs_are_apart_where_that_is_asked_for_or_lanes_are_of_states() {
         assert_eq!(loops(&case.generated()), [Vec::<usize>::new()], "{asked}");
     }
     for (asked, words) in [
-        ("batch: on", "a batch has vectors of states"),
-        ("language: cuda", "on a GPU vectors are of states"),
+        ("batch: on", "a batch has vectors over states, not limbs"),
+        (
+            "language: cuda",
+            "on a GPU the vectors are over states, not limbs",
+        ),
         ("formulation: newton_euler", "a formulation alone"),
     ] {
         let case = Case::read(

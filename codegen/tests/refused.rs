@@ -13,7 +13,7 @@ RUBBED := NEAR; box = { position = [[-1, 1], [-1, 1], [-1, 1]], velocity = [1, 1
 COARSE := NEAR; box = { acceleration = [1, 1, 1, 1] }
 planar2r | | reaction_wrenches; parameters: payload | `reaction_wrenches` depends on numbers of bodies that have no effect on joint torques
 planar2r | | inverse_dynamics; parameters: payload; formulation: lagrange_euler | the formulation `lagrange_euler` has no regrouped parameters
-planar2r | gravity = [0, -2, 0] | gravity; parameters: gravity | the scene `test` says what gravity is
+planar2r | gravity = [0, -2, 0] | gravity; parameters: gravity | the scene `test` sets gravity
 planar2r | | inverse_dynamics; sincos: polynomial; sincos_error: 1e-10 | f32 polynomials reach … for q1 in [-π, π], not 1e-10: use `sincos_error: … `scalar: f64` or `sincos: libm`
 planar2r | ROUGH | inverse_dynamics; parameters: gravity | a box has none for `g`: leave `gravity` out of the parameters
 planar2r | ROUGH | forward_dynamics | `forward_dynamics` … give the tolerance to `inverse_dynamics`

@@ -426,7 +426,10 @@ fn an_inertia_that_no_body_has_is_named() {
         let case = case(scene);
         let why = generate(case.robot(), &case.request).unwrap_err();
         let said = why.to_string();
-        assert!(said.contains("an inertia that no body has"), "{said}");
+        assert!(
+            said.contains("an inertia that no rigid body can have"),
+            "{said}"
+        );
         let GenerateError::Tolerance(_, Miss::Indefinite, why) = why else {
             panic!("{said}")
         };

@@ -137,7 +137,7 @@ impl Invocation {
                     let module = clause.iter().find(|tree| is_word(tree, "mod", "pub"));
                     let help = "write a second `dynamics!` for the next";
                     let at = module.unwrap_or(first);
-                    errors.say(at, "an invocation has one robot", help);
+                    errors.say(at, "an invocation takes only one robot", help);
                     return;
                 }
                 [TokenTree::Ident(key), colon, value @ ..]

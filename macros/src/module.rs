@@ -209,7 +209,7 @@ fn generated(
             let is_text = *stale == Stale::Text;
             let force = if is_text { " --force" } else { "" };
             eprintln!(
-                "note: {}: the module is generated while compiling; `dalembert renew {file}{force}` makes the file new",
+                "note: {}: the module is generated while compiling; `dalembert renew {file}{force}` updates the file",
                 stale.message(&file, &shown)
             );
         }

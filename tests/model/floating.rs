@@ -60,7 +60,7 @@ const ROWS: &[(&str, &str, usize, &str, &str)] = &[
     ("kind = \"floating\"\n", "kind = \"floating\"\naxis = [0, 0, 1]\n", 8, "`axis` of a base that floats", "leave it out"),
     ("kind = \"floating\"\n", "kind = \"floating\"\nviscous = 1\n", 8, "`viscous` of a base that floats", "no friction holds it"),
     ("kind = \"floating\"\n", "kind = \"floating\"\nparent = \"base\"\n", 8, "`parent` of a base that floats", "leave it out"),
-    ("kind = \"prismatic\"", "kind = \"floating\"", 45, "a joint that floats is the first", "before the others"),
+    ("kind = \"prismatic\"", "kind = \"floating\"", 45, "only the first joint can float", "before the others"),
     ("velocity = [2, 2, 1, 4, 4, 4]", "velocity = 2", 11, "expected an array of 6", "of (v, ω) in the base's axes"),
     ("velocity = [2, 2, 1, 4, 4, 4]", "velocity = [2, 2, 1, 4, 4, -4]", 11, "velocity is negative", "zero or more"),
     ("velocity = [2, 2, 1, 4, 4, 4]", "position = [0, 1]", 11, "`position` of a base that floats", "has no effect"),

@@ -38,7 +38,7 @@ const ROWS: &[Row] = &[
     ("name = \"arm\"", "name = \"3r\"", "cannot name a Rust module", "\"robot_3r\""),
     ("name = \"waist\"", "name = \"w\\u202Eaist\"", "turns the direction of text", "write \"waist\""),
     ("name = \"waist\"", "name = \"\\u2066\"", "turns the direction of text", "leave the name out"),
-    ("name = \"arm\"", "name = \"loop\"", "a word of the Rust language", "\"loop_robot\""),
+    ("name = \"arm\"", "name = \"loop\"", "a Rust keyword", "\"loop_robot\""),
     ("name = \"arm\"", "name = \"bras_mécanique\"", "cannot name", "\"bras_m_canique\""),
     ("name = \"arm\"", "nmae = \"arm\"", "the robot has no `name`", ""),
     ("convention = \"standard\"", "convention = \"standrad\"", "expected \"standard\" or \"modified\"", "did you mean \"standard\""),

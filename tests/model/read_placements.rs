@@ -113,7 +113,7 @@ const REFUSED: &str = r#"
 [[frame]]\nname = "camera"\nlink = [1] | expected a link | or the name of its joint
 [[frame]]\nname = "Tool-0"\nlink = 1 | "Tool-0" cannot name a frame | write "tool_0"
 [[frame]]\nname = "tip_batch"\nlink = 1 | "tip_batch" cannot name a frame | small letters
-[[frame]]\nname = "hand"\nlink = 1 | `hand` is the name of the robot's own hand | otherwise
+[[frame]]\nname = "hand"\nlink = 1 | `hand` is the name of the robot's own hand | another name
 NAMED\nlink = 1\nNAMED\nlink = 2 | frame 1 is called "a" already | a name of its own
 NAMED | frame 1 has no `link` | link = 3
 [[frame]]\nlink = 1 | frame 1 has no `name` | jacobian_camera

@@ -182,8 +182,8 @@ fn followers_read_back() {
 }
 
 const UNFOLLOWED: &str = r#"
-joint = 2 | a joint that follows itself
-joint = "c" | one of both joints turns, and the other slides
+joint = 2 | the joint follows itself
+joint = "c" | one of the two joints turns and the other slides
 joint = "d" | there is no link `d`
 joint = 1, multiplier = 0 | a multiplier of 0: the joint never moves
 joint = 1, multiplier = -0.5 | let that joint mimic this one, with multiplier = -2

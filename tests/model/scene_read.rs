@@ -125,7 +125,7 @@ joints = [1, 4] | counted from 1 to 3
 joints = ["wirst"] | did you mean `wrist`?
 joints = [0] | there is no joint `0`
 joints = [1, "waist"] | in the list already
-joints = [] | one joint at least
+joints = [] | at least one joint
 lock = { 1 = 0 }\nbox = { position = [[1, 2], [0, 0.1], [0, 1]] } | is locked outside its
 lock = { 9 = 0 } | there is no joint `9`
 lock = { tree = 0 } | joints are counted from 1 to 3: waist, boom, wrist

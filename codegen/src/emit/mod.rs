@@ -31,7 +31,7 @@ pub struct GeneratedFunction {
     pub parameters: Option<ParametersKey>,
     /// `true` if it is the plan's, and nothing was searched for.
     pub planned: bool,
-    /// The final program with exact constants: what is emitted.
+    /// The final program, with exact constants; [`GeneratedFunction::code`] rounds them.
     pub program: Program,
     /// The program before its operations were reordered or products fused: a plan keeps it.
     pub found: Option<Program>,

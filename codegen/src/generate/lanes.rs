@@ -14,13 +14,13 @@ pub(super) fn refusal(job: &Job<'_>) -> Option<[&'static str; 2]> {
     let request = job.request;
     if request.language == Language::Cuda {
         return Some([
-            "on a GPU vectors are of states",
+            "on a GPU the vectors are over states, not limbs",
             "leave `limbs` out, or generate Rust or C",
         ]);
     }
     if request.batch {
         return Some([
-            "a batch has vectors of states",
+            "a batch has vectors over states, not limbs",
             "leave `batch` or `limbs` out, or generate two files",
         ]);
     }
@@ -32,7 +32,7 @@ pub(super) fn refusal(job: &Job<'_>) -> Option<[&'static str; 2]> {
     }
     if request.start != Start::Auto {
         return Some([
-            "a formulation alone is taken as it stands",
+            "a formulation alone is used unchanged, without lanes",
             "leave `formulation` or `limbs` out",
         ]);
     }

@@ -21,7 +21,7 @@ pub(super) fn check(robot: &Robot, request: &Request, functions: &[Function]) ->
     let Some(name) = header::misnamed(&name, functions, request) else {
         return Ok(());
     };
-    let message = format!("`{name}` is not a valid C identifier, or there are two of it");
+    let message = format!("`{name}` is not a valid C identifier, or is defined twice");
     let help =
         "names have at most 31 letters, digits and `_`: set the option `name` to a short one";
     Err(GenerateError::refused(None, message, help))

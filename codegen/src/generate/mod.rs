@@ -334,9 +334,9 @@ fn no_hand(robot: &Robot, function: Function, names: &[&str]) -> GenerateError {
     let text = function.text();
     let tips = robot.tips().len();
     let message = match robot.floating {
-        Some(_) => format!("`{text}` is of the hand, and the base of this robot floats"),
+        Some(_) => format!("`{text}` needs a hand, but the base of this robot floats"),
         None => {
-            format!("`{text}` is of the hand, and the links of this robot have {tips} ends")
+            format!("`{text}` needs a single hand, but the links of this robot have {tips} ends")
         }
     };
     let name = text.split('@').next().unwrap_or_default();

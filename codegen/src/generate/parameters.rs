@@ -52,7 +52,7 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
         && setup.has(RuntimeParameter::Gravity)
     {
         let message = format!(
-            "the scene `{}` says what gravity is, so it is no argument",
+            "the scene `{}` sets gravity, so it cannot be an argument",
             scene.name
         );
         let help = "leave it out of the scene or of the parameters";

@@ -71,8 +71,8 @@ pub fn admitted(
     if request.sincos_error.is_some()
         && let Some(program) = programs.first()
     {
-        let message = "a scene's tolerance decides how exact its sines are";
-        let why = Diagnostic::error(message).with_help("give no error for them");
+        let message = "a scene's tolerance sets the error of its sines";
+        let why = Diagnostic::error(message).with_help("leave `sincos_error` out");
         return Err(GenerateError::SinCos(program.function, why));
     }
     let mut budgets = Vec::new();

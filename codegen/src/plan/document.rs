@@ -245,7 +245,7 @@ fn program(empty: &Program, read: &Straight<Exact>) -> Result<Program, Diagnosti
         Input::Entry(argument, index) => index < argument.length(sizes),
     };
     if let Some(input) = program.dag.inputs().find(|input| !is_own(input)) {
-        let why = format!("`{}` is no input of it", input.name());
+        let why = format!("`{}` is not one of its inputs", input.name());
         return Err(Diagnostic::error(why));
     }
     let (expected, found) = (program.function.outputs(sizes), program.dag.outputs.len());
@@ -259,7 +259,7 @@ fn program(empty: &Program, read: &Straight<Exact>) -> Result<Program, Diagnosti
 fn edited(empty: &Program, emitted: &Straight<Exact>) -> Result<Program, Diagnostic> {
     let program = program(empty, emitted)?;
     match program.divides() {
-        true => Err(Diagnostic::error("a quotient, of which no bound is known")),
+        true => Err(Diagnostic::error("a quotient, for which no bound is known")),
         false => Ok(program),
     }
 }

@@ -22,7 +22,8 @@ pub use machine::Library;
 pub use scalar_type::{Literal, ScalarType};
 pub use steps::{Operand, Output, Step, Steps};
 
-/// Straight-line code with exact constants: what is proved and emitted.
+/// A straight-line program with exact constants, which proofs are about. [`Code`] is the same with
+/// the constants rounded, as they are printed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
     /// The function that the program computes.

@@ -48,7 +48,7 @@ impl ScalarType {
             ScalarType::F64 => f64::nearest(value),
             ScalarType::F32 => f64::from(f32::nearest(value)),
         };
-        // A sum of sines that is zero ends between −0.0 and 0.0.
+        // −0.0, which a sum of sines may end at, becomes 0.0.
         rounded + 0.0
     }
 

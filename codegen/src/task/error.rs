@@ -95,7 +95,7 @@ impl GenerateError {
         let takes_slopes = function.arguments().contains(&Argument::Multiplier);
         let (message, help) = match takes_slopes {
             true => (
-                format!("`{function}` is not there where joints follow others (`mimic`)"),
+                format!("`{function}` is not available where joints follow others (`mimic`)"),
                 "first derivatives are",
             ),
             false => (
@@ -115,24 +115,26 @@ impl GenerateError {
         let (why, help) = match takes_slopes {
             true => (
                 "second derivatives by the turns of a base do not commute",
-                "first derivatives are there",
+                "first derivatives are available",
             ),
             false => (
-                "its symbols are of joints' own rates, and the velocity of a base is none",
-                "`coriolis_matrix` is there: C q̇ = h, and Ḋ - 2C is skew",
+                "its symbols are of joints' own rates, and the velocity of a base is not one",
+                "`coriolis_matrix` is available: C q̇ = h, and Ḋ - 2C is skew",
             ),
         };
-        let message = format!("`{function}` is not there where the base floats: {why}");
+        let message = format!("`{function}` is not available where the base floats: {why}");
         GenerateError::refused(function, message, help)
     }
 
     pub(crate) fn is_fixed(function: Function, scene: Option<&Scene>) -> GenerateError {
         let message =
-            format!("`{function}` is not there where the base is fixed: something holds it");
+            format!("`{function}` is not available where the base is fixed: something holds it");
         let help = match scene {
             Some(scene) if scene.lock_base => format!("scene `{}` locks the base", scene.name),
-            _ => "a base floats whose first `[[joint]]` is of kind `floating`; `import --floating`"
-                .to_owned(),
+            _ => {
+                "a base floats if the first `[[joint]]` is of kind `floating`; `import --floating`"
+                    .to_owned()
+            }
         };
         GenerateError::refused(function, message, help)
     }

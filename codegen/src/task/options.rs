@@ -326,7 +326,7 @@ impl Request {
             .filter(|option| option.1 && !takes_bodies)
         {
             let help = "add `parameters: bodies`, or leave this out";
-            let message = "it is about bodies that are arguments, and none are";
+            let message = "it applies to bodies that are arguments, but none are";
             report(option, "", Diagnostic::error(message).with_help(help));
         }
         let scene = draft.scene.as_deref().map(|name| find(scenes, name));

@@ -167,10 +167,13 @@ impl<'a> Budget<'a> {
         let wider = scalar.of("", ", or choose a wider scalar");
         // Bounds of rounding are of numbers that the scalar holds.
         if let Some(first) = overflows(&emitted, scalar, &self.limits).first() {
-            return Err(self.missed(Miss::Overflow, Diagnostic::error(format!(
-                "inside the box {first} in {scalar}, and no error is bounded of what overflows: \
+            return Err(self.missed(
+                Miss::Overflow,
+                Diagnostic::error(format!(
+                    "inside the box {first} in {scalar}, and an overflow has no error bound: \
                  bound the box, choose other units{wider}"
-            ))));
+                )),
+            ));
         }
         let draft = Variant {
             scalar,

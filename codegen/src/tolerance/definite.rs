@@ -78,7 +78,7 @@ pub(super) fn indefinite(program: &Program, limits: &InputBox) -> Diagnostic {
         Some(row) => format!(
             "D is not positive definite: at some position of the box a motion of {} and \
              those after it has a negative kinetic energy, so a link that they move has an inertia \
-             that no body has: correct its `inertia`, `mass` or `com`",
+             that no rigid body can have: correct its `inertia`, `mass` or `com`",
             match program.rows[row].checked_sub(program.floating) {
                 Some(joint) => format!("joint {}", joint + 1),
                 None => "the base".to_owned(),

@@ -74,7 +74,7 @@ pub(super) fn not_shown(variant: &Variant, fault: &Fault) -> Diagnostic {
     ))
 }
 
-const DIVIDES: &str = "it divides by what depends on the state";
+const DIVIDES: &str = "it divides by a value that depends on the state";
 
 fn no_bound(why: &str) -> Diagnostic {
     Diagnostic::error(format!(

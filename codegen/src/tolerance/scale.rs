@@ -32,7 +32,7 @@ pub(crate) fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, Dia
             Some(value) if value > 0.0 => Ok(value),
             Some(_) => Err(Diagnostic::error(format!(
                 "the limit `{}` of {} is 0: errors relative to the actuators need \
-                 one above 0; give that, or make them relative to the range",
+                 a limit above 0: set it, or make them relative to the range",
                 limit.key(),
                 joint.map_or_else(
                     || robot.coordinate_label(coordinate),

@@ -220,7 +220,7 @@ impl Generator {
     fn generated(&self, _: &Path) -> Result<Vec<Text>, BuildError> {
         let robot = self.robot.display();
         Err(one(format!(
-            "`OUT_DIR` has no code of `{robot}`, and what generates it is the feature `search`\n  = help: \
+            "`OUT_DIR` has no code of `{robot}`, and generating it needs the feature `search`\n  = help: \
              turn it on, or check the file in and call `write_to`"
         )))
     }

@@ -108,7 +108,7 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
         .iter()
         .any(|function| function.planned.is_some())
     {
-        let why = "a plan for searches, and not what is claimed of a file";
+        let why = "this is a search plan, not the claim of a file";
         return Err(Fault::Claim(why.into()));
     }
     let of_robot = |why: String| Fault::Robot("file".into(), why);
@@ -347,7 +347,7 @@ impl<'w> Whole<'w> {
         let other = claimed.exact(&self.constants)?;
         let exact = other.as_ref().unwrap_or(&emitted);
         if exact.outputs.len() != emitted.outputs.len() {
-            return Err(refused("two programs of other results".into()));
+            return Err(refused("its two programs have different results".into()));
         }
         let mut programs = [&emitted, exact].into_iter();
         let is_fixed = |operand: &Operand<Exact>| self.setting.is_fixed(operand);
@@ -547,7 +547,7 @@ impl<'w> Whole<'w> {
             let square = self.setting.square_of_width(coordinate);
             if !square.is_some_and(|exact| exact.is_nearest(literal, is_single)) {
                 let joint = (coordinate + 1).saturating_sub(self.setting.base());
-                return Err(format!("another width of friction of joint {joint}"));
+                return Err(format!("wrong friction width of joint {joint}"));
             }
         }
         Ok(())

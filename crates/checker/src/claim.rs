@@ -335,7 +335,7 @@ impl FunctionClaim {
 
     fn refused(&self, word: &str) -> Fault {
         let name = &self.function;
-        Fault::Claim(format!("`{name}`: `{word:.40}` is not of a program"))
+        Fault::Claim(format!("`{name}`: `{word:.40}` is not valid in a program"))
     }
 
     fn operand<C: Clone>(&self, word: &str, count: usize, constants: &[C]) -> Option<Operand<C>> {

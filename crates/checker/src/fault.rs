@@ -35,7 +35,7 @@ impl fmt::Display for Fault {
                 "this is too general to be written out: a power beyond c^7, q\u{307}^3 and q\u{308}^1, \
                  or more than 262144 terms",
             ),
-            Fault::Work => f.write_str("more work than is done for one file"),
+            Fault::Work => f.write_str("this takes more work than is allowed for one file"),
         }
     }
 }

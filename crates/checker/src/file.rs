@@ -115,7 +115,7 @@ pub fn functions(source: &str) -> Result<Vec<Item<'_>>, Fault> {
 }
 
 pub(crate) fn fault((number, line): (usize, &str)) -> Fault {
-    Fault::Text(number, format!("nothing that is generated: `{line}`"))
+    Fault::Text(number, format!("not generated code: `{line}`"))
 }
 
 pub(crate) fn between<'t>(text: &'t str, before: &str, behind: &str) -> Option<&'t str> {

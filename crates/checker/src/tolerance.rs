@@ -111,7 +111,7 @@ impl VariantSubject<'_> {
     pub(crate) fn bounded(&self) -> Result<Vec<ResultBound>, Fault> {
         let count = self.emitted.outputs.len();
         let are_alike = self.exact.outputs.len() == count;
-        ensure(are_alike, "two programs of other results")?;
+        ensure(are_alike, "its two programs have different results")?;
         let fields = self.results();
         ensure(fields.len() == count, "results that are not the function's")?;
         let mut loading = self.setting.loading.iter();

@@ -112,7 +112,7 @@ impl<'w> PolynomialProgram<'w> {
             Operand::Step(step) => self.steps[*step].clone(),
             leaf => self.leaf(leaf),
         };
-        let why = "tolerance: it reads an angle as a number, or what is no state";
+        let why = "tolerance: it reads an angle as a number, or an operand outside the state";
         value.ok_or_else(|| Fault::Claim(why.into()))
     }
 

@@ -43,7 +43,7 @@ still_bad r2_conf still result 1 is not that of the robot
 locked_bad r2_conf locked it reads a joint that is locked, or a rate
 pend_bad pend_bad pick it reads an angle as a number
 # A root of a joint without friction, which the identity takes to be zero.
-rubbed rubbed free another width of friction of joint 1
+rubbed rubbed free wrong friction width of joint 1
 # Texts that are not of the grammar.
 t1 r2l pick line 3: not of the grammar: `libm` expected
 t5 r2l pick `libm` expected, not `0.0`
@@ -80,7 +80,7 @@ f_box_reversed_far.rs planar2r it does not follow from the functions and the rob
 nm.h planar2r the guard `#ifndef _MATH_H` is not NAME_H
 p2t.h planar2r `#include <math.h>`
 # Lines that move the cursor.
-p2.rs planar2r nothing that is generated
+p2.rs planar2r not generated code
 ";
 
 #[test]

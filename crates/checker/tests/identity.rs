@@ -16,9 +16,9 @@ const ROBOTS: &str = r#"
 mass = 1 | mass = nan | `nan` is not a number
 "revolute" | "continuous" | joint 1: expected `kind`
 a = 1 | &; coulomb = 0.3 | joint 1: `coulomb` without a `coulomb_width`
-a = 1 | &; mimic = { joint = "elbow", multiplier = 0.5 } | of an angle is no whole number
+a = 1 | &; mimic = { joint = "elbow", multiplier = 0.5 } | of an angle is not an integer
 a = 1 | &; mimic = { joint = "wrist" } | there is no joint `wrist`
-a = 1 | &; mimic = { joint = 1 } | joint 1: joints follow each other in a circle
+a = 1 | &; mimic = { joint = 1 } | joint 1: joints follow each other in a cycle
 a = 1 | &; coulomb = 1; mimic = { joint = 2 } | joint 1: `coulomb` of a joint that follows another
 a = 1 | &; mimic = { joint = 2, factor = 1 } | unknown field `factor`
 a = 1 | &; theta = 0.1 | joint 1: `theta` of a revolute joint
@@ -50,7 +50,10 @@ fn joints_that_the_equations_lack_are_refused() {
     assert!(why.contains("`beta` is of standard rows alone"), "{why}");
     let placed = file("crates/model/tests/data/puma560_placed.toml");
     let why = read(&placed.replacen("axis = [0, 0, 1]", "axis = [0, 0, 2]", 1)).unwrap_err();
-    assert!(why.contains("joint 1: `axis` is no unit vector"), "{why}");
+    assert!(
+        why.contains("joint 1: `axis` is not a unit vector"),
+        "{why}"
+    );
     assert_eq!(read(&placed), Ok(()));
 }
 

@@ -96,7 +96,7 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     let place = claim_of(&args.file);
     if !place.exists() {
         return Err(Failure::Input(format!(
-            "error: there is no `{0}`, which says what `{name}` is to be compared with\n  = help: \
+            "error: there is no `{0}`, the claim that `{name}` is compared with\n  = help: \
              `dalembert generate {1} -o {name}` writes it beside the code",
             place.display(),
             args.robot.display()
@@ -267,7 +267,7 @@ fn origin(args: &CertifyArgs, source: &str, robot: &Source) -> Result<Option<Str
             false => format!("give {chain}: the file was generated with that"),
         };
         return Err(Failure::Input(format!(
-            "error: `{}` is of another chain of `{}`\n  = help: {help}",
+            "error: `{}` was generated for another chain of `{}`\n  = help: {help}",
             file.display(),
             robot.path.display()
         )));

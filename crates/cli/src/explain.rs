@@ -187,7 +187,7 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
     let input = input_hash(&source.robot);
     if request.plan.take_if(|plan| plan.input != input).is_some() {
         context.say(
-            "warning: the plan beside the robot file no longer fits it: a search takes its place",
+            "warning: the plan beside the robot file no longer fits it: a new search replaces it",
         );
     }
     let explained = explain(&source.robot, &request)?;

@@ -111,7 +111,7 @@ impl<'c> Files<'c> {
     /// Adds a file in a folder; missing folders are made when the file is written.
     pub fn add_in(&mut self, into: &Path, name: &str) -> Result<Target, Failure> {
         if into == Path::new(STANDARD) {
-            let why = "it is standard output, and a folder is needed";
+            let why = "it is standard output; expected a folder";
             return Err(refused(into, why));
         }
         let path = into.join(name);

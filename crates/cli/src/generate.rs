@@ -57,7 +57,7 @@ pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
         let kept = keep(&source.robot, &request, &generated, kept);
         for (function, scalar) in kept.functions {
             context.say(&format!(
-                "the plan's program for `{function}` in {scalar} stays: the search, ended early, found none that is cheaper"
+                "the plan's program for `{function}` in {scalar} stays: the search ended early and found no cheaper one"
             ));
         }
         let is_first = !plan_file::path(&source.path).exists();
@@ -99,7 +99,7 @@ fn targets(
     let path = plan_file::path(&source.path);
     if args.save_plan && source.is_model {
         return Err(Failure::Input(format!(
-            "error: --save-plan: a plan stands beside a robot file\n  = help: `dalembert import {0} -o {1}` \
+            "error: --save-plan: a plan belongs to a robot file\n  = help: `dalembert import {0} -o {1}` \
              makes one",
             source.path.display(),
             source.path.with_extension("toml").display()
@@ -133,7 +133,7 @@ fn code(
     }
     let Some(path) = args.output.as_deref().filter(|_| first.file().is_some()) else {
         return Err(Failure::Input(
-            "error: each scalar has a file of its own in Rust\n  = help: ask for one scalar, or give -o the \
+            "error: each scalar needs its own Rust file\n  = help: ask for one scalar, or give -o the \
              name of a file: the f32 code goes to one that ends in _f32"
                 .into(),
         ));

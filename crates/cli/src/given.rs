@@ -153,7 +153,7 @@ fn state(keys: &BTreeMap<String, Numbers>, robot: &Robot) -> (GivenState, Vec<St
         let meant = closest(key, &words)
             .map_or_else(String::new, |word| format!("did you mean `{word}`? "));
         wrong.push(format!(
-            "`{shown}` is no key of a state\n  = help: {meant}a state has `q`, `qd`, `qdd` and any of {}",
+            "`{shown}` is not a state key\n  = help: {meant}a state has `q`, `qd`, `qdd` and any of {}",
             results().map(|(key, _)| format!("`{key}`")).collect::<Vec<_>>().join(", ")
         ));
     }

@@ -140,7 +140,7 @@ fn exact_request(
 ) -> Result<(Request, Option<Scene>), Failure> {
     let mut request = source.request(&args.options.0, &ScalarType::ALL)?;
     if args.options.0.items("outputs").len() > 1 {
-        let why = "error: --outputs: one function is traded at a time\n  = help: name one";
+        let why = "error: --outputs: expected one function at a time\n  = help: name one";
         return Err(Failure::Input(why.into()));
     }
     request.functions.truncate(1);

@@ -30,7 +30,7 @@ pub struct VerifyArgs {
     /// with q, qd, qdd and any of tau, D, h, c
     #[arg(long, value_name = "FILE.json", conflicts_with = "scene")]
     given: Option<PathBuf>,
-    /// Measure `inverse_dynamics` also where robots are not: huge angles and speeds, other masses and
+    /// Measure `inverse_dynamics` also at extremes: huge angles and speeds, other masses and
     /// lengths; and functions that invert D where it is nearest to singular; both if they are asked for
     #[arg(long, conflicts_with = "scene")]
     extremes: bool,
@@ -234,7 +234,7 @@ fn rounding(states: usize, rows: &[Row], done: &mut Done) {
     if failed > 0 {
         let total = rows.len();
         done.failed.push(format!(
-            "error: rounding costs more than the bound in {failed} of {total} rows"
+            "error: the rounding error exceeds the bound in {failed} of {total} rows"
         ));
     }
 }
@@ -266,7 +266,7 @@ fn sines(generated: &GeneratedCode, states: &[JointState], done: &mut Done) {
     let title = "polynomials against libm's sine and cosine, absolute";
     done.report.table("sines", title, table);
     if failed > 0 {
-        let why = "error: a polynomial is further from its sine than was proved";
+        let why = "error: the error of a polynomial exceeds its proved bound";
         done.failed.push(why.into());
     }
 }

@@ -230,7 +230,7 @@ impl Accumulator {
         let short = Error::Bytes("they end too early");
         let (version, rest) = rest.split_first_chunk().ok_or(short.clone())?;
         if u16::from_le_bytes(*version) != VERSION {
-            return Err(Error::Bytes("they are of another version than 1"));
+            return Err(Error::Bytes("their version is not 1"));
         }
         let (fingerprint, rest) = rest.split_first_chunk::<32>().ok_or(short.clone())?;
         if fingerprint != model.fingerprint() {

@@ -72,7 +72,7 @@ pub fn excite(
     ensure(is_period, "`period` has to be a positive number of seconds")?;
     ensure(
         model.robot().floating.is_none(),
-        "a base that floats follows no trajectory: log it as it moves",
+        "a base that floats cannot follow a trajectory: log it as it moves",
     )?;
     let has_harmonics = (2..=50).contains(&effort.harmonics);
     ensure(has_harmonics, "an effort has 2 to 50 harmonics")?;

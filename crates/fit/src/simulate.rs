@@ -26,7 +26,7 @@ pub struct LogSettings {
 impl LogSettings {
     fn check(&self, joints: usize) -> Result<(), Error> {
         check("noise", &self.noise, joints)?;
-        let expected = "a recording has a positive period and a resolution that is not negative";
+        let expected = "a recording needs a positive period and a resolution of zero or more";
         ensure(self.period > 0.0 && self.resolution >= 0.0, expected)
     }
 

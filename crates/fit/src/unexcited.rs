@@ -64,7 +64,7 @@ impl fmt::Display for Motion {
             }
             Motion::Base => f.write_str("move and turn the base, in different poses"),
             Motion::All => f.write_str("move all joints at the same time, fast"),
-            Motion::None => f.write_str("no motion within the joints' limits tells it"),
+            Motion::None => f.write_str("no motion within the joints' limits identifies it"),
         }
     }
 }

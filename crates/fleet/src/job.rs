@@ -37,7 +37,7 @@ pub struct LogArgs {
     pub robot: RobotArgs,
     #[command(flatten)]
     pub mapping: Mapping,
-    /// Leave out files that are bad; without it they are named and nothing is computed
+    /// Leave out unusable files; otherwise they are listed and nothing is computed
     #[arg(long)]
     pub skip_bad: bool,
     /// The most memory that reading takes, as 512M or 4G
@@ -50,7 +50,7 @@ pub struct LogArgs {
     /// [default: the system's for temporary files]
     #[arg(long, value_name = "FOLDER")]
     pub work: Option<PathBuf>,
-    /// Tell how far it is, also where standard error is no terminal
+    /// Show the progress even if standard error is not a terminal
     #[arg(long)]
     pub progress: bool,
     /// The scheduler of a cluster
@@ -61,7 +61,7 @@ pub struct LogArgs {
 
 /// Reads a size, as 512M or 4G.
 pub fn bytes(text: &str) -> Result<u64, String> {
-    let bad = || format!("`{text}` is no size: 512M or 4G was expected");
+    let bad = || format!("`{text}` is not a size: expected 512M or 4G");
     let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
     let unit = text[digits.len()..].to_ascii_uppercase();
     let unit = match unit.trim_end_matches("IB") {
@@ -197,7 +197,7 @@ impl Job {
     /// Says of what a cluster does not compute that this machine does.
     pub fn tell_local(&self, what: &str) {
         if self.engine.is_cluster() {
-            eprintln!("{what}: rows in order, computed by this machine and not by the cluster");
+            eprintln!("{what}: rows in order are computed by this machine and not by the cluster");
         }
     }
 
@@ -214,7 +214,7 @@ impl Job {
         match bad {
             0 => Ok(good),
             _ if !self.skip_bad => Err(Error::new(format!(
-                "{bad} of {total} files cannot be used, see above: mend them, or leave them out by \
+                "{bad} of {total} files cannot be used, see above: fix them, or skip them with \
                  --skip-bad"
             ))),
             _ if good.is_empty() => Err(Error::new("no file can be used")),

@@ -48,7 +48,7 @@ pub fn expand(patterns: &[String]) -> Result<Vec<PathBuf>, Error> {
         }
         if paths.len() == before {
             return Err(Error::new(format!(
-                "no file is called `{pattern}`: quote patterns as 'logs/**/*.parquet'"
+                "no file matches `{pattern}`: quote patterns as 'logs/**/*.parquet'"
             )));
         }
     }

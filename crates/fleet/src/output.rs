@@ -26,7 +26,7 @@ impl Unfinished {
             .ok_or_else(|| Error::new("it is a folder").at(name.display()))?;
         let is_lost = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.is_dir();
         if let Some(folder) = name.parent().filter(is_lost) {
-            return Err(Error::new("there is no such folder").at(folder.display()));
+            return Err(Error::new("the folder does not exist").at(folder.display()));
         }
         let mut part = file.to_os_string();
         let number = NEXT.fetch_add(1, Ordering::Relaxed);

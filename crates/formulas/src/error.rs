@@ -5,10 +5,7 @@ use dalembert_codegen::Diagnostic;
 use crate::ring::{MAX_JOINTS, MAX_LENGTHS, MAX_TERMS};
 
 pub(crate) fn floating() -> Diagnostic {
-    Diagnostic::error(
-        "formulas are written for a robot that stands on its base, and this base floats",
-    )
-    .with_help(
+    Diagnostic::error("formulas need a robot with a fixed base, and this base floats").with_help(
         "import it without --floating, or hold the base in a scene: lock = { base = \"level\" }",
     )
 }
@@ -31,7 +28,7 @@ pub(crate) fn many_lengths(lengths: usize) -> Diagnostic {
 pub(crate) fn far_follower(joint: usize) -> Diagnostic {
     Diagnostic::error(format!(
         "the joints that follow joint {} turn more than 6 times as far: their sines are of a \
-         degree that formulas do not hold",
+         degree that formulas do not support",
         joint + 1
     ))
 }

@@ -80,9 +80,9 @@ pub(crate) struct Joint {
     pub(crate) velocity: Option<Number>,
     pub(crate) acceleration: Option<Number>,
     pub(crate) damping: Option<Number>,
-    /// Coulomb friction, which is not modelled.
+    /// Coulomb friction, which is not imported.
     pub(crate) friction: Option<Number>,
-    /// A spring, which is not modelled.
+    /// A spring, which is not imported.
     pub(crate) spring: Option<Number>,
     pub(crate) armature: Rational,
     /// The inertia of each rotor, and its reduction.

@@ -287,7 +287,7 @@ impl<'p, 't> Reader<'p, 't> {
         names: impl Iterator<Item = (&'n String, &'n Span)>,
     ) {
         let mut name_set = BTreeSet::new();
-        let help = "names tell them apart: give it another";
+        let help = "each needs a name of its own: give it another";
         for (name, at) in names.filter(|(name, _)| !name_set.insert(*name)) {
             self.say("twice", at, &[&what, name, &help]);
         }

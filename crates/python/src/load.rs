@@ -135,7 +135,7 @@ impl<'py> Options<'_, 'py> {
         let result = value.extract();
         result.map(Some).map_err(|_| {
             let kind = value.get_type();
-            PyTypeError::new_err(format!("{name}: {value} is of another type, {kind}"))
+            PyTypeError::new_err(format!("{name}: {value} has the wrong type, {kind}"))
         })
     }
 }

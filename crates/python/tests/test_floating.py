@@ -121,7 +121,7 @@ def test_arguments_have_their_lengths(legs):
     n = len(legs.joints)
     with pytest.raises(ValueError, match=rf"argument `qd` has shape \({n},\), expected \({n + 6},\)"):
         legs.inverse_dynamics(np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(3))
-    with pytest.raises(ValueError, match="not there where the base floats|floats"):
+    with pytest.raises(ValueError, match="not available where the base floats|floats"):
         dalembert.load(FILE, outputs=["dynamic_coefficients"])
 
 

@@ -105,7 +105,7 @@ fn large(parameter: Parameter) -> Diagnostic {
         "the base parameters that {body} is part of have more than {MAX_TERMS} products of sines and \
          cosines of the table's angles"
     );
-    no_base(message, "give angles that are multiples of pi/2 as such")
+    no_base(message, "write multiples of pi/2 exactly, such as `pi/2`")
 }
 
 fn no_base(message: impl Into<String>, help: &str) -> Diagnostic {
@@ -161,7 +161,7 @@ impl BaseParameters {
             no_base(message, "change its last digit")
         };
         let irrational = || {
-            let message = "one base parameter depends on the others by a number that is no short \
+            let message = "a base parameter depends on the others by a number that is not a short \
                            fraction, as odd angles between slides and the first axis give";
             no_base(message, "")
         };

@@ -284,7 +284,7 @@ impl Arm {
             frame = at.then(&behind);
             let along = point.axis(row)?;
             if dot(along, along).value(point.prime) != Some(1) {
-                return Err(in_joint("`axis` is no unit vector in the digits given"));
+                return Err(in_joint("`axis` is not a unit vector in the digits given"));
             }
             let turns = row.turns();
             let (body, centre) =

@@ -138,16 +138,16 @@ impl File {
             times *= number(factor).ok_or_else(|| in_joint("`multiplier` is not a number"))?;
             let leader = self.row(&mimic.joint)?;
             if self.joint[leader].kind != self.joint[row].kind {
-                let why = "it turns and what it follows slides, or otherwise";
+                let why = "it turns and the joint that it follows slides, or vice versa";
                 return Err(in_joint(why));
             }
             let most = Rational::from_integer(MOST_TURNS.into());
             if self.joint[row].turns() && !(times.is_integer() && times.abs() <= most) {
-                return Err(in_joint("`multiplier` of an angle is no whole number"));
+                return Err(in_joint("`multiplier` of an angle is not an integer"));
             }
             at = leader;
         }
-        Err(in_joint("joints follow each other in a circle"))
+        Err(in_joint("joints follow each other in a cycle"))
     }
 }
 

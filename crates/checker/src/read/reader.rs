@@ -181,7 +181,7 @@ impl<'r> Reader<'r> {
             .collect();
         for &name in handed_on {
             let Some(value) = inside.remove(name) else {
-                return self.refuse("a part hands on what is not there");
+                return self.refuse("a part passes on an undefined value");
             };
             self.name(name, value);
         }

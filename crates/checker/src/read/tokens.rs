@@ -78,7 +78,7 @@ pub(crate) fn lines(source: &str, is_c: bool) -> Result<Vec<(usize, &str)>, Faul
             is_good &= lines.len() <= MOST_LINES;
         }
         if !is_good {
-            let why = format!("nothing that is generated: `{line}`");
+            let why = format!("not generated code: `{line}`");
             return Err(Fault::text(number, why));
         }
     }

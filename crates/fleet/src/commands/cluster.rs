@@ -19,7 +19,7 @@ use crate::progress::Going;
 pub(super) struct SchedulerArgs {
     #[command(flatten)]
     robot: RobotArgs,
-    /// The address to listen on; not secured: only where nobody else reaches it
+    /// The address to listen on; not secured: use it only on a trusted network
     #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:50050")]
     listen: SocketAddr,
 }
@@ -40,7 +40,7 @@ pub(super) struct ExecutorArgs {
     /// The most memory that queries take, as 512M or 4G
     #[arg(long, value_name = "SIZE", default_value = "1G", value_parser = bytes)]
     memory: u64,
-    /// Folder in which a folder for what stages pass on is created
+    /// Folder for the temporary data that stages exchange
     /// [default: the system's for temporary files]
     #[arg(long, value_name = "FOLDER")]
     work: Option<PathBuf>,

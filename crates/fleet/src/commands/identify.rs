@@ -21,7 +21,7 @@ use crate::progress::Going;
 pub(super) struct IdentifyArgs {
     #[command(flatten)]
     logs: LogArgs,
-    /// Robot file to write, with bodies that exist
+    /// Robot file to write, with physically consistent bodies
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -154,7 +154,7 @@ fn judged(model: &Model, total: &Accumulator, fit: &Fit, bodies: &Bodies) -> Res
                 "its sensor has an offset of {}, which no robot file has; subtract it in the log\n",
                 number(bodies.offset[i])
             ),
-            false => "no real bodies and drives have the free parameters\n".to_owned(),
+            false => "the free parameters belong to no real bodies and drives\n".to_owned(),
         };
     }
     if !bodies.stopped.is_empty() {

@@ -179,7 +179,7 @@ async fn watched(
         }
     }
     if rows.is_empty() {
-        let why = format!("no sum of residuals is over {bar:.0} times the noise");
+        let why = format!("no cumulative sum of residuals exceeds {bar:.0} times the noise");
         return Ok(format!("\nno contacts: {why}\n"));
     }
     let head = ["contact in", "from, s", "to, s", "joint", "largest, N·m"];

@@ -36,7 +36,7 @@ pub(super) struct SimulateArgs {
     /// States a second
     #[arg(long, value_name = "HZ", default_value_t = 1000.0)]
     rate: f64,
-    /// The seed of all that is random
+    /// The seed of the random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Noise of torques, as part of each joint's rms torque
@@ -54,7 +54,7 @@ pub(super) struct SimulateArgs {
     /// Collisions in each log
     #[arg(long, value_name = "COUNT", default_value_t = 0)]
     collisions: u32,
-    /// Leave velocities and accelerations away: they are differentiated when the log is read
+    /// Leave out velocities and accelerations: they are differentiated when the log is read
     #[arg(long)]
     encoders_only: bool,
     /// Compress logs by Zstandard instead of Snappy: smaller, and slower to read
@@ -63,7 +63,7 @@ pub(super) struct SimulateArgs {
     /// The arm follows its trajectory exactly instead of under computed torque: fast
     #[arg(long, conflicts_with = "payload")]
     exact: bool,
-    /// Tell how far it is, also where standard error is no terminal
+    /// Show the progress even if standard error is not a terminal
     #[arg(long)]
     progress: bool,
 }
@@ -82,7 +82,7 @@ struct Scene {
 pub(super) async fn run(args: SimulateArgs, going: &Going) -> Result<String, Error> {
     let is_noise = args.noise >= 0.0 && args.noise.is_finite();
     if args.files == 0 || args.seconds * args.rate < 1.0 || !is_noise {
-        let why = "there have to be files, states, and a noise that is not negative";
+        let why = "expected at least one file and one state, and a noise of 0 or more";
         return Err(Error::new(why));
     }
     let folder = args.output.clone();

@@ -310,6 +310,6 @@ fn missing(name: &str, quantity: &str, schema: &Schema) -> Error {
     let few = names[..names.len().min(12)].join(", ");
     let more = if names.len() > 12 { ", …" } else { "" };
     Error::new(format!(
-        "there is no column `{name}`; there are {few}{more}: say which it is by `--{quantity}`"
+        "there is no column `{name}`; there are {few}{more}: name it with `--{quantity}`"
     ))
 }

@@ -54,7 +54,7 @@ impl<'a> Messages<'a> {
                     continue;
                 }
                 return Err(Error::new(format!(
-                    "`{topic}` and `{}` both have states of joints: say which by `--topic`",
+                    "`{topic}` and `{}` both have joint states: choose one with `--topic`",
                     channel.topic
                 )));
             }
@@ -163,7 +163,7 @@ impl JointState {
             return match count == columns.joints {
                 true => Ok((0..count).collect()),
                 false => Err(Error::new(format!(
-                    "it is of {count} joints ({names}), and the robot has {}: name those of the robot by \
+                    "it is of {count} joints ({names}), and the robot has {}: name the robot joints with \
                      `--joint-names`",
                     columns.joints
                 ))),

@@ -114,9 +114,9 @@ fn flags_that_cannot_be_are_refused() {
     let nowhere = folder.file("nowhere/out.parquet");
     let constants = "3 torque constants, and the robot has 2 joints";
     for (more, part) in [
-        (&["-o", text(&nowhere)][..], "there is no such folder"),
+        (&["-o", text(&nowhere)][..], "the folder does not exist"),
         (&["-o", text(&folder.0)], "it is a folder"),
-        (&["--memory", "12Q"], "512M or 4G was expected"),
+        (&["--memory", "12Q"], "expected 512M or 4G"),
         (&["--memory", "1K"], "64M is the least"),
         (&["--torque-constants", "1,2,3"], constants),
         (
@@ -129,7 +129,7 @@ fn flags_that_cannot_be_are_refused() {
     }
     let none = folder.file("*.csv");
     let said = fails(&over("residual", &none, &arm, &[]));
-    says(&said, &["no file is called"]);
+    says(&said, &["no file matches"]);
     let said = fails(&["residual", text(&path), "--robot", "nobody.toml"]);
     says(&said, &["nobody.toml"]);
 }

@@ -31,7 +31,7 @@ impl Select<'_, '_, '_> {
             return self.first(&tips);
         }
         let message = match holds {
-            true => format!("{} links may be where the arm ends", moved.len()),
+            true => format!("{} links could be the end of the arm", moved.len()),
             false => format!("{} chains have {most} joints", moved.len()),
         };
         // One end of each chain: those that one joint moves differ in poses alone.

@@ -48,7 +48,7 @@ impl NumberError {
             NumberError::Malformed => "write a number like 0.5, -3 or 1.2e-4",
             NumberError::NotFinite => "write a finite number, or leave the key out",
             NumberError::Radix => "write it in decimal",
-            NumberError::TooLong => "17 digits tell any two doubles apart",
+            NumberError::TooLong => "17 digits are enough for any double",
             NumberError::OutOfRange => "zero, or a size from 1e-300 to 1e300",
             NumberError::NotExact => "such as `3/4` or `1/2*cos(1*pi/5)^2`",
             NumberError::ZeroDenominator => "write a fraction like \"1/3\"",

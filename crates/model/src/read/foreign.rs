@@ -53,7 +53,7 @@ pub(super) fn character(c: char) -> Option<(String, &'static str)> {
         let help = "write the quotation mark of the keyboard, `\"`";
         ("no quotation mark", help)
     } else if SPACES.contains(&c) {
-        let message = format!("the invisible character U+{code:04X} is no space of TOML");
+        let message = format!("the invisible character U+{code:04X} is not a space in TOML");
         return Some((message, "write an ordinary space"));
     } else {
         return None;

@@ -35,7 +35,7 @@ pub(super) fn read<'v>(cx: &mut Context, mut keys: Table<'v>) -> Read<'v> {
     let name = table.optional(cx, "name", Context::string);
     let kind = table.required(cx, "kind", KIND, |cx, value| {
         match value.as_str() == Some(FloatingBase::KIND) {
-            true => cx.refuse(value, "a joint that floats is the first", FIRST),
+            true => cx.refuse(value, "only the first joint can float", FIRST),
             false => cx.word(value, &JointKind::WORDS, ""),
         }
     });

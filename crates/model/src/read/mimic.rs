@@ -60,10 +60,10 @@ fn one<'v>(
     let most = Rational::from_integer(Follower::MAX_TURNS.into());
     let is_whole = |number: &Rational| number.is_integer() && number.abs() <= most;
     if leader == row {
-        return cx.refuse(value, "a joint that follows itself", HELP);
+        return cx.refuse(value, "the joint follows itself", HELP);
     }
     if joints[leader].kind != joint.kind {
-        let message = "one of both joints turns, and the other slides";
+        let message = "one of the two joints turns and the other slides";
         return cx.refuse(value, message, "a joint follows another of its own kind");
     }
     if multiplier.is_zero() {
@@ -71,7 +71,7 @@ fn one<'v>(
         return cx.refuse(
             value,
             message,
-            "one that stands still is a part of its link",
+            "leave it out: a joint that never moves is part of its link",
         );
     }
     if turns && !is_whole(&multiplier) {
@@ -88,7 +88,7 @@ fn one<'v>(
         return cx.refuse(value, message, &help);
     }
     if joint.has_coulomb() {
-        let help = "give it to the joint that leads, times the size of the multiplier";
+        let help = "give it to the leading joint, times the absolute value of the multiplier";
         return cx.refuse(value, "`coulomb` of a joint that follows another", help);
     }
     Some(Mimic {
@@ -117,7 +117,7 @@ pub(super) fn split(cx: &mut Context, robot: Robot, mimics: &[Option<Mimic>]) ->
                     true => "joints that follow each other in a circle",
                     false => "an offset in radians on one that is a part of π",
                 };
-                let help = "let each follow the one that leads them all";
+                let help = "let each joint follow the leading joint directly";
                 cx.refuse::<()>(mimic.value, message, help);
                 return robot;
             };

@@ -36,7 +36,7 @@ pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
         ),
         ErrorKind::InvalidNumber if zeros.is_some() => (
             format!(
-                "{} begins with a zero, which no number of TOML does",
+                "{} begins with a zero, which TOML does not allow",
                 quote(whole)
             ),
             format!("write {}", zeros.unwrap_or_default()),
@@ -73,7 +73,7 @@ pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
             "every joint starts with [[joint]]".to_string(),
         ),
         ErrorKind::DottedKeyInvalidType { first } => (
-            "the dotted key extends something that is no table".to_string(),
+            "the dotted key extends something that is not a table".to_string(),
             earlier(first.start),
         ),
         ErrorKind::UnterminatedString => (

@@ -294,7 +294,7 @@ impl Context {
     pub(super) fn outputs(&mut self, value: &Value, whose: &str) -> Option<Vec<Function>> {
         let items = self.list(value, "a list", "outputs = [\"inverse_dynamics\"]")?;
         if items.is_empty() {
-            let message = format!("{whose} wants one output at least");
+            let message = format!("{whose} needs at least one output");
             return self.refuse(value, message, "leave `outputs` out for the request's");
         }
         let words = Function::ALL.map(|function| (function.name(), function));

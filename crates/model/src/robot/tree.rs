@@ -140,7 +140,7 @@ impl Findings {
                     );
                 }
                 Some(carrier) if carrier == Parent::Row(row.wrapping_sub(1)) || row == 0 => {
-                    let message = "a parent that is the link before";
+                    let message = "the parent is the previous link";
                     self.error(parent, message, "leave it out: it is the default");
                 }
                 _ => {}
@@ -169,7 +169,7 @@ impl Findings {
                 );
             }
             if !is_tree || joint.has_row() {
-                let message = "a joint that is placed and has a row";
+                let message = "the joint has both a placement and a DH row";
                 let help = "joints are placed where links branch; elsewhere they have rows";
                 self.error(of_joint(row, "placement"), message, help);
             }

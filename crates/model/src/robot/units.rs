@@ -77,7 +77,7 @@ impl Findings {
             return;
         }
         let message = "gravity points upwards, along the base's z".to_owned();
-        let help = "it is the acceleration of what falls, [0, 0, -9.81] if z points up; of an arm \
+        let help = "the acceleration of a falling body, [0, 0, -9.81] if z points up; of an arm \
                     that hangs, say base = { rpy = [\"pi\", 0, 0] }";
         self.warning(RobotWarning::UpwardGravity, "gravity", message, help);
     }
@@ -143,7 +143,7 @@ impl Findings {
                 let key = rate.key();
                 let message = format!("the limit of {key} is 0: the joint never moves");
                 let help =
-                    "leave it out where it is not known; a scene locks a joint that stands still";
+                    "leave it out if it is not known; to hold a joint still, lock it in a scene";
                 self.warning(RobotWarning::ZeroLimit, &at(key), message, help);
             }
         }

@@ -61,7 +61,7 @@ impl Robot {
             findings.error("joint", message, "each joint is a [[joint]] table");
         }
         if !self.follow() {
-            let message = "rows that follow are not in order, or cannot follow as they are to";
+            let message = "the mimic joints are out of order or inconsistent";
             let help = "each follows a joint of its kind, one that turns by a whole multiple";
             findings.error("joint", message, help);
         }
@@ -125,7 +125,7 @@ impl Findings {
         } else if name.chars().count() > Robot::MAX_NAME {
             format!("the name has more than {} characters", Robot::MAX_NAME)
         } else if is_keyword(name) {
-            format!("{name:?} is a word of the Rust language")
+            format!("{name:?} is a Rust keyword")
         } else if !is_snake(name) {
             format!("{name:?} cannot name a Rust module")
         } else {
@@ -149,7 +149,7 @@ impl Findings {
             );
             self.error(place, message, "leave the name out if the joint has none");
         } else if name.chars().any(units::turns_text) {
-            let message = "a joint's name has no character that turns the direction of text";
+            let message = "a joint's name contains a character that turns the direction of text";
             self.error(place, message, &units::without_turns(name));
         } else if let Ok(number) = name.trim().parse::<i64>()
             && usize::try_from(number) != Ok(joint)
@@ -165,7 +165,7 @@ impl Findings {
     fn frames(&mut self, robot: &Robot) {
         if robot.frames.len() > Robot::MAX_FRAMES {
             let message = format!("a robot has {} frames at most", Robot::MAX_FRAMES);
-            self.error("frame", message, "leave out those that nothing asks for");
+            self.error("frame", message, "leave out the frames that are not used");
         }
         let mut names = BTreeMap::new();
         for (index, frame) in robot.frames.iter().enumerate() {
@@ -173,7 +173,7 @@ impl Findings {
             let (place, name) = (place.as_str(), frame.name.as_str());
             if name == HAND {
                 let message = format!("`{HAND}` is the name of the robot's own hand");
-                self.error(place, message, "call the frame otherwise");
+                self.error(place, message, "give the frame another name");
             } else if !is_frame_name(name) {
                 let message = format!("{name:?} cannot name a frame");
                 let help = match suggested_name(name).filter(|name| is_frame_name(name)) {
@@ -191,7 +191,7 @@ impl Findings {
             if frame.row.is_some_and(|row| row >= rows)
                 || frame.row.is_none() && robot.floating.is_none()
             {
-                let message = format!("frame {name:?} is fixed to no link of the robot");
+                let message = format!("frame {name:?} is fixed to a link that does not exist");
                 let help = format!("links are counted from 1 to {rows}");
                 self.error(place, message, &help);
             }
@@ -312,7 +312,7 @@ impl Findings {
         }
         let [low, high] = range;
         if !low.is_of(kind) || !high.is_of(kind) {
-            let message = "the limits are not of the joint's kind";
+            let message = "the limits have the wrong unit";
             let help = "angles for a revolute joint, lengths for a prismatic one";
             self.error(place, message, help);
         } else if !low.is_below(high) {

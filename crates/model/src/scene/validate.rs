@@ -91,7 +91,7 @@ impl<'a> Check<'a> {
     fn joints(&mut self) {
         if self.scene.rows(self.robot.joints.len()).is_empty() {
             let (key, message) = match self.scene.joints {
-                Some(_) => ("joints", "a scene wants the torque of one joint at least"),
+                Some(_) => ("joints", "a scene needs the torque of at least one joint"),
                 None => ("lock", "every joint is locked: nothing is left to compute"),
             };
             self.error(key, message, "joints = [1, 2, 3]");
@@ -115,7 +115,7 @@ impl<'a> Check<'a> {
             };
             if !at.is_of(joint.kind) {
                 let help = "an angle for a revolute joint, a length for a prismatic one";
-                self.error(place, "the position is not of the joint's kind", help);
+                self.error(place, "the position has the wrong unit", help);
                 continue;
             }
             let scene = self.scene;
@@ -133,9 +133,9 @@ impl<'a> Check<'a> {
                     let message = format!("{name} is locked outside its {whose}, {low} to {high}");
                     let help = match joint.kind {
                         JointKind::Revolute => {
-                            "lock it where it can be; a number is in rad, degrees are written as \"90deg\""
+                            "lock it in that range; a number is in rad, degrees are written as \"90deg\""
                         }
-                        JointKind::Prismatic => "lock it where it can be, in m",
+                        JointKind::Prismatic => "lock it in that range, in m",
                     };
                     self.error(&place, message, help);
                 }
@@ -150,13 +150,13 @@ impl<'a> Check<'a> {
         let rows = self.robot.rows().len();
         let message = match (self.scene.payload_link, self.robot.branches()) {
             (Some(Parent::Base), _) if self.base() == 0 => {
-                Some("a payload on the base, which does not move: no torque feels it")
+                Some("a payload on the base, which does not move: it has no effect")
             }
             (Some(Parent::Row(link)), _) if link >= rows => {
-                Some("the payload is on no link of the robot")
+                Some("the payload is on a link that does not exist")
             }
             (None, branches) if branches || self.robot.floating.is_some() => {
-                Some("a payload of a robot whose links branch, and no link that holds it")
+                Some("the links branch, and the payload names no link that holds it")
             }
             (Some(Parent::Row(link)), false)
                 if link + 1 != rows && self.robot.floating.is_none() =>

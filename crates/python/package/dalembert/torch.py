@@ -86,7 +86,7 @@ def _differentiated(arm: Arm, name: str) -> Callable[..., Any]:
         @staticmethod
         def backward(ctx: Any, *directions: Any) -> Any:
             if len(sizes) > 3:
-                raise RuntimeError(f"{name}: a base that floats has no second derivatives")
+                raise RuntimeError(f"{name}: no second derivatives for a base that floats")
             return Curvature.apply(*directions, *ctx.saved_tensors)
 
     class Curvature(torch.autograd.Function):  # type: ignore[misc, unused-ignore]

@@ -53,7 +53,7 @@ impl Check<'_> {
         let place = format!("box/position/#{}", index + 1);
         if !low.is_of(joint.kind) || !high.is_of(joint.kind) {
             let help = "angles for a revolute joint, lengths for a prismatic one";
-            return self.error(place, "the range is not of the joint's kind", help);
+            return self.error(place, "the range has the wrong unit", help);
         }
         if !low.is_below(high) {
             let message = "the range is empty: its lowest position is not below its highest";
@@ -70,7 +70,7 @@ impl Check<'_> {
         let limits = format!("{lowest} to {highest}");
         if high.is_below(lowest) || highest.is_below(low) {
             let message = format!("{name} is never in this range: its limits are {limits}");
-            let help = "a range has positions that the joint can take";
+            let help = "give a range within the joint's limits";
             self.error(place, message, help);
         } else if low.is_below(lowest) || highest.is_below(high) {
             let scene = &self.scene.name;

@@ -34,7 +34,7 @@ impl Check<'_> {
         for (index, value) in tolerance.value.iter().enumerate() {
             if !value.is_positive() {
                 let help = "without a tolerance the code is exact up to rounding";
-                self.error(self.of_value(index), "a tolerance is above zero", help);
+                self.error(self.of_value(index), "a tolerance must be above zero", help);
             }
         }
         if let Some(index) = tolerance
@@ -43,7 +43,7 @@ impl Check<'_> {
             .position(|value| *value >= Rational::one())
         {
             let message = "a tolerance of 1 or more allows an error as large as the output";
-            let help = "it is a part of what it is relative to: 0.01 for 1%";
+            let help = "it is a fraction of the reference: 0.01 for 1%";
             let (warning, place) = (RobotWarning::LooseTolerance, self.of_value(index));
             self.warn(warning, place, message.into(), help);
         }
