@@ -23,10 +23,11 @@ struct Process(Child);
 
 impl Process {
     fn start(arguments: &[&str]) -> Process {
-        let command = command(arguments)
+        let child = command(arguments)
             .stdout(Stdio::null())
-            .stderr(Stdio::null());
-        Process(command.spawn().unwrap())
+            .stderr(Stdio::null())
+            .spawn();
+        Process(child.unwrap())
     }
 
     fn kill(&mut self) {
@@ -212,10 +213,11 @@ fn executors_that_are_killed_change_no_table() {
     let here = succeeds(&base);
     let there = [&base[..], &["--scheduler", &cluster.address]].concat();
     let run = || {
-        let command = command(&there)
+        command(&there)
             .stdout(Stdio::piped())
-            .stderr(Stdio::piped());
-        command.spawn().unwrap()
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap()
     };
     let mut client = run();
     let (executor, work) = &mut cluster.executors[0];
