@@ -81,12 +81,9 @@ impl Dag {
     /// operations and as short chains as there can be. A sum with a negative literal takes none,
     /// whose sign a text could not tell from a difference's, nor is a product of two literals
     /// taken. A product stands right before its sum. Fused code stays as it is.
+    ///
+    /// `keep` drops products from the list of those that each sum takes.
     #[must_use]
-    pub fn fused(&self) -> Dag {
-        self.fused_where(|_| ())
-    }
-
-    /// Fuses the products alone that `keep` leaves in the list of those that each sum takes.
     pub(crate) fn fused_where(&self, keep: impl FnOnce(&mut [Option<Id>])) -> Dag {
         let mut taken = self.taken();
         keep(&mut taken);

@@ -22,10 +22,6 @@ impl SinCosUse {
         cos: true,
     };
 
-    pub fn count(self) -> usize {
-        usize::from(self.sin) + usize::from(self.cos)
-    }
-
     /// Returns the sine's item and the cosine's, from a list with the wanted ones alone.
     pub fn each<T>(self, wanted: impl IntoIterator<Item = T>) -> [Option<T>; 2] {
         let mut wanted = wanted.into_iter();
