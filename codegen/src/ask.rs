@@ -63,19 +63,19 @@ pub fn ask(
 
 /// Returns an error at the option that it is about.
 fn placed(error: &GenerateError, request: &Request) -> Diagnostic {
-    let (option, item) = match (error, error.function()) {
+    let place = match (error, error.function()) {
         (GenerateError::Parameter(..), _) => {
             let first = request.parameters.first();
             let name = first.map_or("", |parameter| parameter.name());
-            ("parameters", name.to_owned())
+            Place::Option("parameters", name.to_owned())
         }
         (GenerateError::SinCos(..), _) if request.sincos_error.is_some() => {
-            ("sincos_error", String::new())
+            Place::Option("sincos_error", String::new())
         }
         (_, Some(function)) if request.functions.contains(&function) => {
-            ("outputs", function.text())
+            Place::Option("outputs", function.text())
         }
-        _ => ("", String::new()),
+        _ => Place::None,
     };
-    Diagnostic::error(error.to_string()).at(Place::Option(option, item))
+    Diagnostic::error(error.to_string()).at(place)
 }

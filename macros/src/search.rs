@@ -36,9 +36,7 @@ pub(crate) fn texts(
         Err(problems) => {
             for problem in problems.0 {
                 let at = match &problem.place {
-                    Place::Option(option, item) if !option.is_empty() => {
-                        invocation.word(option, item, &problem.message)
-                    }
+                    Place::Option(option, item) => invocation.word(option, item, &problem.message),
                     _ => quote::ToTokens::to_token_stream(&invocation.robot),
                 };
                 errors.say(

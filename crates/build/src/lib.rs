@@ -241,7 +241,7 @@ impl Generator {
         })?;
         let made = ask(&file, &self.asked, language, &shown).map_err(|problems| {
             let of = |problem: &Diagnostic| match &problem.place {
-                Place::Option("", _) => format!("{shown}: {}", problem.message),
+                Place::None => format!("{shown}: {}", problem.message),
                 _ => problem.to_string(),
             };
             BuildError(problems.0.iter().map(of).collect())

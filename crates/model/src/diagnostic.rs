@@ -144,6 +144,14 @@ impl Diagnostic {
         Diagnostic::new(Severity::Error, message)
     }
 
+    /// Creates a warning about a robot, which this name silences, without a place or a fix.
+    pub fn robot_warning(name: RobotWarning, message: impl Into<String>) -> Diagnostic {
+        Diagnostic {
+            warning: Some(name),
+            ..Diagnostic::new(Severity::Warning, message)
+        }
+    }
+
     /// Creates the error of an unknown word: the word that was probably meant, or else all that are
     /// known, or if there are none, `otherwise`.
     #[cfg(feature = "std")]
@@ -232,9 +240,7 @@ impl Diagnostic {
     pub fn render_plain(&self) -> String {
         let (mut text, margin) = match &self.place {
             Place::Text(excerpt) => self.render_excerpt(excerpt),
-            Place::Option(name, _) if !name.is_empty() => {
-                (format!("{name}: {}\n", self.message), " ".to_string())
-            }
+            Place::Option(name, _) => (format!("{name}: {}\n", self.message), " ".to_string()),
             _ => (format!("{}\n", self.message), " ".to_string()),
         };
         if let Some(help) = &self.help {
@@ -266,7 +272,7 @@ impl fmt::Display for Diagnostic {
                 let Excerpt { line, column, .. } = &**excerpt;
                 write!(f, "{line}:{column}: {}: ", self.severity)?;
             }
-            Place::Option(name, _) if !name.is_empty() => write!(f, "{name}: ")?,
+            Place::Option(name, _) => write!(f, "{name}: ")?,
             _ => {}
         }
         f.write_str(&self.message)?;

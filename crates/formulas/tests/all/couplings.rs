@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use dalembert_formulas::Quantity;
-use dalembert_formulas::couplings::{Couplings, Inventory, Reason, Value};
+use dalembert_formulas::couplings::{Couplings, Inventory, Reason, Value, ZeroEntry};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::read::parse;
 use dalembert_model::robot::Robot;
@@ -200,32 +200,20 @@ fn a_change_of_what_a_reason_names_makes_couplings() {
     // Axis 6 is principal of link 6, in the xz plane.
     let product = appeared(&|robot| robot.joints[5].inertia.xz = small(3));
     let body = Couplings::new(&puma).unwrap();
-    let named: Vec<String> = body
-        .zeros
-        .iter()
-        .filter(|zero| match &zero.reason {
-            Reason::Body { conditions, .. } => conditions
-                .iter()
-                .any(|condition| condition.contains("axis 6 is a principal axis")),
+    let named = |words: &str| -> Vec<String> {
+        let is_named = |zero: &&ZeroEntry| match &zero.reason {
+            Reason::Body { conditions, .. } => {
+                conditions.iter().any(|condition| condition.contains(words))
+            }
             _ => false,
-        })
-        .map(|zero| zero.entry.name().text)
-        .collect();
-    assert_eq!(product, named);
+        };
+        let zeros = body.zeros.iter().filter(is_named);
+        zeros.map(|zero| zero.entry.name().text).collect()
+    };
+    assert_eq!(product, named("axis 6 is a principal axis"));
     // Its moments across the axis.
     let moment = appeared(&|robot| robot.joints[5].inertia.xx += small(5));
-    let named: Vec<String> = body
-        .zeros
-        .iter()
-        .filter(|zero| match &zero.reason {
-            Reason::Body { conditions, .. } => conditions
-                .iter()
-                .any(|condition| condition.contains("equal moments")),
-            _ => false,
-        })
-        .map(|zero| zero.entry.name().text)
-        .collect();
-    assert_eq!(moment, named);
+    assert_eq!(moment, named("equal moments"));
     // Axes 2 and 3 are parallel; of gravity the first joint feels nothing.
     let twist = Angle::Radians(Rational::new(1.into(), 10.into()));
     let turned = appeared(&|robot| robot.joints[1].alpha = twist.clone());

@@ -56,11 +56,8 @@ impl Sink {
         message: String,
         help: &str,
     ) {
-        let diagnostic = Diagnostic {
-            warning: Some(warning),
-            ..Diagnostic::new(Severity::Warning, message)
-        };
-        self.place(diagnostic.with_help(help), span);
+        let diagnostic = Diagnostic::robot_warning(warning, message).with_help(help);
+        self.place(diagnostic, span);
     }
 
     /// Adds a diagnostic about these bytes; the help for a warning says how it is silenced.

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use super::values::word;
-use crate::diagnostic::{Diagnostic, Place, Severity};
+use crate::diagnostic::{Diagnostic, Place};
 
 /// The name of a warning about a robot file. List it in the file to silence the warning:
 /// `allow = ["large_mass"]`.
@@ -94,11 +94,7 @@ impl Findings {
         message: impl Into<String>,
         help: &str,
     ) {
-        let diagnostic = Diagnostic {
-            warning: Some(warning),
-            ..Diagnostic::new(Severity::Warning, message)
-        };
-        self.push(diagnostic, place, help);
+        self.push(Diagnostic::robot_warning(warning, message), place, help);
     }
 
     fn push(&mut self, diagnostic: Diagnostic, place: impl Into<String>, help: &str) {
